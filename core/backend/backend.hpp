@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/backend/backend_config.hpp"
+#include "core/backend/scan_store.hpp"
+#include "core/sensing/keyframe.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// Carries the frontend's continuous frame into the map: T_map_body = T_map_local * T_local_body. Plain
+/// struct: crosses threads through a LatestValue.
+struct MapCorrection {
+  KeyframeId keyframe{};  ///< the keyframe it was computed at
+  Pose2 T_map_local;
+  std::uint32_t version = 0;  ///< counts up with every change
+};
+
+struct LoopClosure {
+  KeyframeId from{};  ///< the submap's reference keyframe
+  KeyframeId to{};    ///< the keyframe that was matched
+  Pose2 T_from_to;
+  Covariance3 covariance;  ///< of T_from_to, in the frame of `from`
+  double score = 0.0;      ///< mean probability under the matched points
+  double dcs_scale = 1.0;  ///< what DCS makes of it at present, 1 = fully believed
+  bool dropped = false;    ///< refused in the final pass
+};
+
+/// A wall in the frame of the keyframe that saw it last.
+struct Wall {
+  LandmarkId id{};
+  KeyframeId anchor{};
+  Point2 start_keyframe;
+  Point2 end_keyframe;
+};
+
+struct BackendCounters {
+  std::uint64_t scans = 0;
+  std::uint64_t keyframes = 0;
+  std::uint64_t submaps = 0;
+  std::uint64_t candidates_matched = 0;  ///< submaps searched
+  std::uint64_t closures_accepted = 0;
+  std::uint64_t closures_dropped = 0;
+  std::uint64_t optimizations = 0;
+  std::uint64_t solver_failures = 0;
+};
+
+/// What one step did, for whoever publishes.
+struct BackendUpdate {
+  bool poses_changed = false;      ///< poses of earlier keyframes moved: the map must follow
+  std::uint32_t new_closures = 0;  ///< appended to closures()
+};
+
+/// Submaps, loop closing and the pose graph (Algorithm 3 of the IROS 2022 paper). The sequence of steps alone
+/// decides the result. One thread at a time; may allocate; no clock, no I/O.
+class Backend {
+ public:
+  /// Precondition: config.validate() is empty.
+  Backend(const BackendConfig& config, const SensorModel& sensor, const BeamLayout& beams);
+  ~Backend();
+  Backend(const Backend&) = delete;
+  Backend& operator=(const Backend&) = delete;
+
+  /// Takes one frontend step; at keyframes looks for loops and optimises.
+  BackendUpdate add(const FrontendStep& step);
+  /// The final pass: last optimisation, false closures dropped. Nothing may be added afterwards.
+  BackendUpdate finish();
+
+  [[nodiscard]] const ScanStore& scans() const;
+  [[nodiscard]] std::size_t keyframe_count() const;
+  [[nodiscard]] const Pose2& T_map_keyframe(KeyframeId id) const;
+  /// Corrected pose of any scan: between two keyframes the correction is spread evenly.
+  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
+  [[nodiscard]] MapCorrection correction() const;
+  [[nodiscard]] const std::vector<LoopClosure>& closures() const;
+  [[nodiscard]] const std::vector<Wall>& walls() const;
+  [[nodiscard]] const BackendCounters& counters() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace swiftlet

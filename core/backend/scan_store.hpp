@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/ids.hpp"
+#include "core/base/time.hpp"
+#include "core/sensing/keyframe.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+using ScanIndex = std::uint32_t;  ///< equals RangeSample::sequence when nothing was lost on the way
+
+/// One beam of a stored scan; beams without information are not stored.
+struct ScanReturn {
+  float distance_m = 0.0F;  ///< hit: to the surface; no return: free up to the sensor's range
+  std::uint8_t beam = 0;
+  bool is_hit = false;
+};
+
+/// One scan as the backend remembers it: a few dozen bytes.
+struct StoredScan {
+  HostTime stamp{};
+  Pose2 T_odom_body;
+  Pose2 T_keyframe_body;  ///< by dead reckoning from `keyframe`
+  KeyframeId keyframe{};  ///< the newest keyframe at the time
+  std::uint32_t first_return = 0;
+  std::uint16_t return_count = 0;
+};
+
+/// Every scan of a run, in order, append only. Allocates as it grows. One thread at a time.
+class ScanStore {
+ public:
+  explicit ScanStore(const BeamLayout& beams) : beams_(beams) {}
+
+  ScanIndex add(const FrontendStep& step);
+  [[nodiscard]] std::size_t size() const { return scans_.size(); }
+  [[nodiscard]] const StoredScan& operator[](ScanIndex i) const { return scans_[i]; }
+  [[nodiscard]] std::span<const ScanReturn> returns(ScanIndex i) const {
+    return {returns_.data() + scans_[i].first_return, scans_[i].return_count};
+  }
+  [[nodiscard]] const BeamLayout& beams() const { return beams_; }
+  /// Where a return lies in the body frame.
+  [[nodiscard]] Point2 point_body(const ScanReturn& r) const {
+    return {static_cast<double>(r.distance_m) * direction_[r.beam].x_m,
+            static_cast<double>(r.distance_m) * direction_[r.beam].y_m};
+  }
+
+ private:
+  BeamLayout beams_;
+  std::array<Point2, kMaxBeams> direction_ = unit_directions(beams_);
+  std::vector<StoredScan> scans_;
+  std::vector<ScanReturn> returns_;
+
+  static std::array<Point2, kMaxBeams> unit_directions(const BeamLayout& beams);
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+/// Stops the program when a caller broke a promise; active in every build. For programmer errors only: what
+/// comes from outside (radio, files, users) is answered with a Result. Allocates nothing.
+#define SWIFTLET_CHECK(condition, promise)                                                               \
+  do {                                                                                                   \
+    if (!(condition)) {                                                                                  \
+      std::fprintf(stderr, "%s:%d: broken promise: %s (%s)\n", __FILE__, __LINE__, promise, #condition); \
+      std::abort();                                                                                      \
+    }                                                                                                    \
+  } while (false)

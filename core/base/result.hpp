@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+
+/// What kind of thing went wrong, for code that decides; the message is for people.
+enum class ErrorCode {
+  kInvalidInput,    ///< a file, URI, option or configuration that cannot be used as it is
+  kNotFound,        ///< the named file, device or entry does not exist
+  kDamaged,         ///< the beginning was usable, the rest is not
+  kEndOfRecording,  ///< a replay has delivered everything; not a fault
+  kTimeout,         ///< nothing heard in time; try again
+  kDeviceLost,      ///< the link must be opened anew
+  kOutOfSpace,      ///< a disk or a fixed store is full
+  kSolver,          ///< a numerical solve failed
+};
+
+/// An error as a value. The message is one line that says what, where and what to do.
+struct Error {
+  ErrorCode code = ErrorCode::kInvalidInput;
+  std::string message;
+};
+
+/// A value or the reason why there is none. Used wherever the outside is met (radio, USB, files, solver).
+template <typename T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT(*-explicit-*)
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT(*-explicit-*)
+
+  [[nodiscard]] bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  /// Precondition: ok().
+  [[nodiscard]] const T& value() const& {
+    SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
+    return *std::get_if<0>(&state_);
+  }
+  [[nodiscard]] T& value() & {
+    SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
+    return *std::get_if<0>(&state_);
+  }
+  [[nodiscard]] T&& value() && {
+    SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
+    return std::move(*std::get_if<0>(&state_));
+  }
+  const T& operator*() const& { return value(); }
+  T& operator*() & { return value(); }
+  const T* operator->() const { return &value(); }
+  T* operator->() { return &value(); }
+
+  /// Precondition: !ok().
+  [[nodiscard]] const Error& error() const {
+    SWIFTLET_CHECK(!ok(), "error() is asked of a Result that failed");
+    return *std::get_if<1>(&state_);
+  }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+/// Success, or the reason for failure.
+class [[nodiscard]] Status {
+ public:
+  Status() = default;
+  Status(Error error) : error_(std::move(error)), failed_(true) {}  // NOLINT(*-explicit-*)
+
+  [[nodiscard]] bool ok() const { return !failed_; }
+  explicit operator bool() const { return ok(); }
+  /// Precondition: !ok().
+  [[nodiscard]] const Error& error() const {
+    SWIFTLET_CHECK(failed_, "error() is asked of a Status that failed");
+    return error_;
+  }
+
+ private:
+  Error error_;
+  bool failed_ = false;
+};
+
+}  // namespace swiftlet

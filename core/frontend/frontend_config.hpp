@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+
+/// Settings of the landmark graph (Algorithm 1). One set serves all places and sensors.
+struct FrontendConfig {
+  double keyframe_distance_m = 0.5;        ///< a keyframe after this much travel ...
+  double keyframe_turn_rad = radians(30);  ///< ... or this much turning
+  int multiscan_scans = 30;  ///< k: how many scans are seen together; at most kMaxMultiscanScans
+
+  double split_distance_m = 0.10;  ///< a point farther than this from the chord splits a segment
+  double max_point_gap_m = 0.8;    ///< neighbours along a line farther apart than this are not one wall
+  int min_line_points = 5;         ///< fewer points make no line
+  double min_line_length_m = 0.4;  ///< shorter segments are not used
+
+  double association_error_m = 0.35;  ///< epsilon of eq. 5: summed distance of both end points from the wall
+  double association_gap_m = 0.0;     ///< how far two segments may miss each other and still overlap (eq. 8)
+  int association_keyframes = 40;     ///< a wall not seen within this many keyframes is not associated
+
+  int window_keyframes = 48;            ///< fixed lag; at most kMaxKeyframeWindow
+  int solver_iterations = 10;           ///< Levenberg-Marquardt steps at most
+  double chi_square_confidence = 0.95;  ///< of eq. 19
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const;
+};
+
+}  // namespace swiftlet

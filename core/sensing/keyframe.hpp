@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "core/base/fixed_vector.hpp"
+#include "core/base/ids.hpp"
+#include "core/geometry/covariance3.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/sensing/range_sample.hpp"
+
+namespace swiftlet {
+
+/// The most keyframes the frontend keeps optimising at once (its fixed lag).
+inline constexpr std::size_t kMaxKeyframeWindow = 64;
+/// The most walls one keyframe can report.
+inline constexpr std::size_t kMaxWallsPerKeyframe = 32;
+
+/// A wall as the frontend now knows it, anchored to the keyframe that saw it last, so that later corrections
+/// of that keyframe carry it along. A later update of the same id replaces it.
+struct WallUpdate {
+  LandmarkId id{};
+  Point2 start_keyframe;  ///< end points in the frame of the keyframe that reports it
+  Point2 end_keyframe;
+};
+
+/// A vertex of the graph: every 0.5 m or 30 degrees.
+struct Keyframe {
+  KeyframeId id{};
+  Covariance3 motion_covariance;  ///< of T_previous_this, in the frame of the previous keyframe
+  bool starts_segment = false;    ///< the motion from the previous keyframe is unknown
+  /// The present estimates of the last keyframes, oldest first, this one last (eq. 20 takes the steps between
+  /// consecutive ones). Ids are consecutive.
+  FixedVector<Pose2, kMaxKeyframeWindow> T_local_keyframe;
+  FixedVector<WallUpdate, kMaxWallsPerKeyframe> walls;
+};
+
+/// What one sample brought: element of the queue from frontend to backend.
+struct FrontendStep {
+  RangeSample sample;
+  Pose2 T_local_body;         ///< estimate at once, in the frontend's continuous frame
+  KeyframeId keyframe{};      ///< the newest keyframe, this sample's own if it made one
+  Pose2 T_keyframe_body;      ///< by dead reckoning from that keyframe
+  bool has_keyframe = false;  ///< `made` below is filled: this sample is the keyframe
+  Keyframe made;
+};
+static_assert(std::is_trivially_copyable_v<FrontendStep>);
+
+}  // namespace swiftlet

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// The most beams one sample can carry (a Multiranger deck has 4; laser logs are thinned to fit).
+inline constexpr std::size_t kMaxBeams = 64;
+
+enum class RangeStatus : std::uint8_t {
+  kHit,       ///< distance_m is the distance to something
+  kNoReturn,  ///< nothing within the sensor's range; distance_m is 0
+  kInvalid,   ///< no measurement: says nothing about the world; distance_m is 0
+};
+
+/// One instant of ranging with the dead reckoning of the same instant. What every input delivers and all of
+/// core works on. Trivially copyable: crosses queues by value.
+struct RangeSample {
+  std::uint32_t sequence = 0;  ///< counts up from 0 within a run
+  DeviceTime measured_at{};  ///< when the ranges were measured: the packet's device time less the range's age
+  HostTime stamp{};   ///< Unix time at which the packet holding the ranges was heard (laser logs: the scan's
+                      ///< own stamp, exactly as logged). Names the sample in all outputs.
+  Pose2 T_odom_body;  ///< dead reckoning, interpolated to measured_at
+  bool starts_segment =
+      false;  ///< the dead reckoning does not continue from the sample before (first sample, reboot,
+              ///< long gap, estimator reset): the step between the two is not a motion
+  std::uint8_t beam_count = 0;                ///< beams in use; bearings are in the BeamLayout of the input
+  std::array<float, kMaxBeams> distance_m{};  ///< from body to the hit, along the beam
+  std::array<RangeStatus, kMaxBeams> status{};
+};
+static_assert(std::is_trivially_copyable_v<RangeSample>);
+
+}  // namespace swiftlet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/time.hpp"
+#include "core/geometry/angle.hpp"
+#include "core/sensing/range_sample.hpp"
+
+namespace swiftlet {
+
+/// Where the beams of a sensor point. Fixed for a whole run.
+struct BeamLayout {
+  std::uint8_t count = 0;
+  std::array<double, kMaxBeams> bearing_rad{};  ///< in the body frame, counter-clockwise from x forward
+
+  /// Multiranger deck, in the order front, left, back, right.
+  static BeamLayout multiranger() { return {4, {0.0, kPi / 2.0, kPi, -kPi / 2.0}}; }
+};
+
+/// Standard deviations of one step of dead reckoning, as functions of its length d (m) and turn (rad):
+/// sigma_xy = xy_floor + xy_per_metre * d + xy_per_radian * turn,
+/// sigma_yaw = yaw_floor + yaw_per_radian * turn + yaw_per_metre * d.
+struct OdometryNoise {
+  double xy_floor_m = 0.002;
+  double xy_per_metre = 0.05;
+  double xy_per_radian_m = 0.01;
+  double yaw_floor_rad = radians(0.05);
+  double yaw_per_radian = 0.05;
+  double yaw_per_metre_rad = radians(1.0);
+};
+
+/// All that is particular to a sensor and its vehicle; the algorithm's settings are the same for all of them.
+struct SensorModel {
+  double min_range_m = 0.05;    ///< shorter readings are invalid
+  double max_range_m = 3.0;     ///< longer readings count as no return
+  double range_sigma_m = 0.02;  ///< standard deviation of a reading, along the beam
+  Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp
+  OdometryNoise odometry;
+
+  /// Crazyflie with Multiranger and flow deck. Readings are measured about 0.1 s before the packet that
+  /// carries them.
+  static SensorModel crazyflie() {
+    SensorModel model;
+    model.range_age = std::chrono::milliseconds(100);
+    return model;
+  }
+  /// Laser scanners on wheeled robots as in CARMEN logs, capped at 5 m as in the IROS 2022 paper.
+  static SensorModel carmen_laser() {
+    SensorModel model;
+    model.max_range_m = 5.0;
+    return model;
+  }
+};
+
+}  // namespace swiftlet
