@@ -19,6 +19,7 @@ struct BackendConfig {
   int max_kernel_cells = 3;        ///< width of the max kernel (eq. 22); 1 is eq. 21, no kernel
 
   // Loop closing
+  bool close_loops = true;                ///< false: the frontend alone, a baseline
   double multiscan_length_m = 6.0;        ///< the recent travel that is matched against submaps
   int match_every_keyframes = 2;          ///< look for loops at every n-th keyframe
   double min_travel_between_m = 12.0;     ///< travel between the two ends of a closure

@@ -11,6 +11,7 @@ namespace swiftlet {
 
 /// Settings of the landmark graph (Algorithm 1). One set serves all places and sensors.
 struct FrontendConfig {
+  bool use_landmarks = true;               ///< false: dead reckoning only, a baseline
   double keyframe_distance_m = 0.5;        ///< a keyframe after this much travel ...
   double keyframe_turn_rad = radians(30);  ///< ... or this much turning
   int multiscan_scans = 30;  ///< k: how many scans are seen together; at most kMaxMultiscanScans

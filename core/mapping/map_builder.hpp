@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/backend/backend.hpp"
+#include "core/mapping/map_config.hpp"
+#include "core/mapping/map_tile.hpp"
+
+namespace swiftlet {
+
+/// Draws the occupancy map from the backend's scans at their corrected poses, and follows when poses change:
+/// each scan remembers where it was drawn, is rubbed out there exactly (cells count hits and misses as
+/// integers) and drawn anew. The result depends only on the final poses, never on the order of corrections.
+/// Allocates as the map grows. One thread at a time (the backend's).
+class MapBuilder {
+ public:
+  /// Precondition: config.validate() is empty.
+  MapBuilder(const MapConfig& config, const SensorModel& sensor);
+  ~MapBuilder();
+  MapBuilder(const MapBuilder&) = delete;
+  MapBuilder& operator=(const MapBuilder&) = delete;
+
+  /// Draws scans added since the last call; with `poses_changed`, redraws those whose pose moved. Returns the
+  /// tiles whose published content changed, in index order.
+  std::vector<TileIndex> update(const Backend& backend, bool poses_changed);
+
+  [[nodiscard]] MapTile tile(TileIndex index) const;
+  /// All tiles that hold anything, in index order.
+  [[nodiscard]] std::vector<TileIndex> tiles() const;
+  [[nodiscard]] const MapConfig& config() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <type_traits>
+
+namespace swiftlet {
+
+inline constexpr int kTileCells = 64;  ///< cells along one side of a tile
+
+/// Which tile: tile (x, y) covers map coordinates [64 x, 64 x + 64) * resolution, likewise y.
+struct TileIndex {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  auto operator<=>(const TileIndex&) const = default;
+};
+
+/// One square of the map, complete in itself; crosses queues by value.
+struct MapTile {
+  TileIndex index;
+  std::uint32_t version = 0;  ///< counts up with every change of this tile
+  /// Row by row from the lowest y, each from the lowest x: 0..100 percent occupied, -1 unknown.
+  std::array<std::int8_t, kTileCells * kTileCells> occupancy_percent{};
+};
+static_assert(std::is_trivially_copyable_v<MapTile>);
+
+}  // namespace swiftlet

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/backend/backend_config.hpp"
+#include "core/base/result.hpp"
+#include "core/frontend/frontend_config.hpp"
+#include "core/mapping/map_config.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// What a configuration file may say about the sensor; what it leaves out comes from the input's own kind.
+struct SensorOverrides {
+  std::optional<double> min_range_m;
+  std::optional<double> max_range_m;
+  std::optional<double> range_sigma_m;
+  std::optional<double> range_age_s;
+  std::optional<double> odometry_xy_per_metre;
+  std::optional<double> odometry_yaw_per_radian;
+  std::optional<double> odometry_yaw_per_metre_rad;
+
+  /// The input's model with what is set here put in its place.
+  [[nodiscard]] SensorModel applied_to(SensorModel model) const;
+};
+
+/// How the daemon publishes.
+struct PublishConfig {
+  double status_period_s = 1.0;         ///< between two status messages
+  double tile_refresh_period_s = 10.0;  ///< every tile is sent again at least this often, for late joiners
+  std::string channel_prefix = "SWIFTLET_";
+};
+
+struct Configuration {
+  SensorOverrides sensor;
+  FrontendConfig frontend;
+  BackendConfig backend;
+  MapConfig map;
+  PublishConfig publish;
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const;
+};
+
+/// Reads a TOML file. Unknown and duplicate keys, wrong types and impossible values are refused with file and
+/// line; kNotFound when there is no such file.
+[[nodiscard]] Result<Configuration> load_configuration(const std::string& path);
+
+}  // namespace swiftlet
