@@ -25,8 +25,9 @@ struct BackendConfig {
   double min_travel_between_m = 12.0;     ///< travel between the two ends of a closure
   double search_radius_m = 4.0;           ///< widest search around the predicted position
   double search_angle_rad = radians(30);  ///< widest search around the predicted heading
-  double min_score = 0.6;                 ///< mean probability under the scan's points that makes a closure
-  int min_match_points = 30;              ///< fewer points decide nothing
+  int max_candidates = 8;     ///< submaps searched per keyframe at most, the most overlapping first
+  double min_score = 0.6;     ///< mean probability under the scan's points that makes a closure
+  int min_match_points = 30;  ///< fewer points decide nothing
 
   // Pose graph
   double dcs_phi = 1.0;           ///< DCS: closures whose chi-square exceeds this are scaled down

@@ -29,8 +29,10 @@ struct StoredScan {
   Pose2 T_odom_body;
   Pose2 T_keyframe_body;  ///< by dead reckoning from `keyframe`
   KeyframeId keyframe{};  ///< the newest keyframe at the time
+  double path_m = 0.0;    ///< travelled since the start of the run
   std::uint32_t first_return = 0;
   std::uint16_t return_count = 0;
+  bool starts_segment = false;
 };
 
 /// Every scan of a run, in order, append only. Allocates as it grows. One thread at a time.

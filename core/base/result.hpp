@@ -41,15 +41,15 @@ class [[nodiscard]] Result {
   /// Precondition: ok().
   [[nodiscard]] const T& value() const& {
     SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
-    return *std::get_if<0>(&state_);
+    return std::get<0>(state_);
   }
   [[nodiscard]] T& value() & {
     SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
-    return *std::get_if<0>(&state_);
+    return std::get<0>(state_);
   }
   [[nodiscard]] T&& value() && {
     SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
-    return std::move(*std::get_if<0>(&state_));
+    return std::move(std::get<0>(state_));
   }
   const T& operator*() const& { return value(); }
   T& operator*() & { return value(); }
@@ -59,7 +59,7 @@ class [[nodiscard]] Result {
   /// Precondition: !ok().
   [[nodiscard]] const Error& error() const {
     SWIFTLET_CHECK(!ok(), "error() is asked of a Result that failed");
-    return *std::get_if<1>(&state_);
+    return std::get<1>(state_);
   }
 
  private:

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/backend.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "core/backend/keyframe_chain.hpp"
+#include "core/backend/loop_detector.hpp"
+#include "core/backend/pose_graph.hpp"
+#include "core/backend/pose_graph_optimizer.hpp"
+#include "core/backend/submap.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// Of a motion that nobody measured.
+const Eigen::Matrix3d kUnknownMotionInformation = Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal();
+
+}  // namespace
+
+struct Backend::State {
+  State(const BackendConfig& backend_config, const BeamLayout& beams)
+      : config(backend_config),
+        scans(beams),
+        chain(scans),
+        detector(config, scans, chain),
+        optimizer(config.dcs_phi, config.optimizer_iterations) {}
+
+  void take_estimates(const Keyframe& made);
+  void add_motion(const Keyframe& made);
+  void carry_new_poses();
+  void take_walls(const Keyframe& made);
+  void finish_submaps(KeyframeId newest);
+  std::uint32_t close_loops(KeyframeId newest);
+  bool optimize();
+  bool drop_false_closures();
+
+  BackendConfig config;
+  ScanStore scans;
+  KeyframeChain chain;
+  LoopDetector detector;
+  PoseGraphOptimizer optimizer;
+
+  std::vector<Pose2> T_local_keyframe;
+  PoseGraph graph;
+  std::vector<std::size_t> motion_constraint;   // of the step to keyframe i (i >= 1), by i - 1
+  std::vector<std::size_t> closure_constraint;  // of closure i
+  KeyframeId optimized_upto{};                  // later keyframes hang on by their motion
+  std::vector<KeyframeId> open_submaps;         // where the ones being travelled begin
+  std::vector<std::shared_ptr<const Submap>> submaps;
+  std::vector<LoopClosure> closures;
+  std::vector<Wall> walls;
+  std::uint32_t version = 0;
+  BackendCounters counters;
+};
+
+/// State copying (eq. 20): the frontend's window holds the latest word on its keyframes.
+void Backend::State::take_estimates(const Keyframe& made) {
+  const std::size_t count = index_of(made.id) + 1;
+  SWIFTLET_CHECK(made.T_local_keyframe.size() >= 1 && made.T_local_keyframe.size() <= count,
+                 "the window ends with the new keyframe");
+  T_local_keyframe.resize(count);
+  const std::size_t first = count - made.T_local_keyframe.size();
+  for (std::size_t i = first; i < count; ++i) T_local_keyframe[i] = made.T_local_keyframe[i - first];
+  for (std::size_t i = std::max<std::size_t>(first, 1); i + 1 < count; ++i) {
+    PoseConstraint& step = graph.constraints[motion_constraint[i - 1]];
+    step.T_from_to = between(T_local_keyframe[i - 1], T_local_keyframe[i]);
+  }
+}
+
+void Backend::State::add_motion(const Keyframe& made) {
+  graph.T_map_keyframe.emplace_back();
+  if (index_of(made.id) == 0) {
+    graph.T_map_keyframe[0] = T_local_keyframe[0];
+    return;
+  }
+  PoseConstraint step;
+  step.from = static_cast<KeyframeId>(index_of(made.id) - 1);
+  step.to = made.id;
+  step.T_from_to = between(T_local_keyframe[index_of(step.from)], T_local_keyframe[index_of(step.to)]);
+  step.information = made.starts_segment
+                         ? kUnknownMotionInformation
+                         : residual_information(step.T_from_to, made.motion_covariance.matrix());
+  motion_constraint.push_back(graph.constraints.size());
+  graph.constraints.push_back(step);
+}
+
+void Backend::State::carry_new_poses() {
+  for (std::size_t i = index_of(optimized_upto) + 1; i < graph.T_map_keyframe.size(); ++i) {
+    graph.T_map_keyframe[i] =
+        graph.T_map_keyframe[i - 1] * graph.constraints[motion_constraint[i - 1]].T_from_to;
+  }
+}
+
+void Backend::State::take_walls(const Keyframe& made) {
+  for (const WallUpdate& update : made.walls) {
+    const Wall wall{update.id, made.id, update.start_keyframe, update.end_keyframe};
+    const auto at = std::lower_bound(walls.begin(), walls.end(), update.id,
+                                     [](const Wall& w, LandmarkId id) { return w.id < id; });
+    if (at != walls.end() && at->id == update.id) {
+      *at = wall;
+    } else {
+      walls.insert(at, wall);
+    }
+  }
+}
+
+/// Submaps overlap by half, so that no place lies only on a seam.
+void Backend::State::finish_submaps(KeyframeId newest) {
+  const double here_m = chain.path_m(newest);
+  if (open_submaps.empty() || here_m - chain.path_m(open_submaps.back()) >= 0.5 * config.submap_length_m) {
+    open_submaps.push_back(newest);
+  }
+  while (here_m - chain.path_m(open_submaps.front()) >= config.submap_length_m) {
+    submaps.push_back(std::make_shared<const Submap>(build_submap(static_cast<SubmapId>(submaps.size()),
+                                                                  open_submaps.front(), newest, scans, chain,
+                                                                  T_local_keyframe, config)));
+    open_submaps.erase(open_submaps.begin());
+  }
+}
+
+std::uint32_t Backend::State::close_loops(KeyframeId newest) {
+  if (!config.close_loops || static_cast<int>(index_of(newest)) % config.match_every_keyframes != 0) return 0;
+  std::vector<LoopClosure> found =
+      detector.find(newest, submaps, graph, T_local_keyframe, counters.candidates_matched);
+  for (const LoopClosure& closure : found) {
+    closure_constraint.push_back(graph.constraints.size());
+    graph.constraints.push_back({closure.from, closure.to, closure.T_from_to,
+                                 residual_information(closure.T_from_to, closure.covariance.matrix()), true});
+    closures.push_back(closure);
+  }
+  return static_cast<std::uint32_t>(found.size());
+}
+
+bool Backend::State::optimize() {
+  ++counters.optimizations;
+  if (!optimizer.optimize(graph)) {
+    ++counters.solver_failures;
+    return false;
+  }
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    if (!closures[i].dropped) closures[i].dcs_scale = graph.constraints[closure_constraint[i]].dcs_scale;
+  }
+  optimized_upto = static_cast<KeyframeId>(graph.T_map_keyframe.size() - 1);
+  ++version;
+  return true;
+}
+
+/// Takes out what DCS has scaled away, the least believed first, and lets the rest settle again.
+bool Backend::State::drop_false_closures() {
+  std::size_t worst = closures.size();
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    if (closures[i].dropped || closures[i].dcs_scale >= config.drop_scale) continue;
+    if (worst == closures.size() || closures[i].dcs_scale < closures[worst].dcs_scale) worst = i;
+  }
+  if (worst == closures.size()) return false;
+  closures[worst].dropped = true;
+  ++counters.closures_dropped;
+  graph.constraints[closure_constraint[worst]].information.setZero();
+  return optimize();
+}
+
+Backend::Backend(const BackendConfig& config, const SensorModel& /*sensor*/, const BeamLayout& beams) {
+  SWIFTLET_CHECK(config.validate().empty(), "the backend's configuration is valid");
+  state_ = std::make_unique<State>(config, beams);
+}
+Backend::~Backend() = default;
+
+BackendUpdate Backend::add(const FrontendStep& step) {
+  State& s = *state_;
+  const ScanIndex scan = s.scans.add(step);
+  s.counters.scans = s.scans.size();
+  BackendUpdate update;
+  if (!step.has_keyframe) return update;
+  s.chain.add(scan);
+  s.counters.keyframes = s.chain.size();
+  s.take_estimates(step.made);
+  s.add_motion(step.made);
+  s.carry_new_poses();
+  s.take_walls(step.made);
+  s.finish_submaps(step.made.id);
+  s.counters.submaps = s.submaps.size();
+  update.new_closures = s.close_loops(step.made.id);
+  s.counters.closures_accepted += update.new_closures;
+  update.poses_changed = update.new_closures > 0 && s.optimize();
+  return update;
+}
+
+BackendUpdate Backend::finish() {
+  BackendUpdate update;
+  if (state_->closures.empty()) return update;
+  update.poses_changed = state_->optimize();
+  while (state_->drop_false_closures()) {
+  }
+  return update;
+}
+
+const ScanStore& Backend::scans() const { return state_->scans; }
+std::size_t Backend::keyframe_count() const { return state_->chain.size(); }
+const Pose2& Backend::T_map_keyframe(KeyframeId id) const {
+  return state_->graph.T_map_keyframe[index_of(id)];
+}
+Pose2 Backend::T_map_body(ScanIndex scan) const {
+  return state_->chain.T_w_body(scan, state_->graph.T_map_keyframe);
+}
+MapCorrection Backend::correction() const {
+  const State& s = *state_;
+  if (s.T_local_keyframe.empty()) return {};
+  const auto newest = static_cast<KeyframeId>(s.T_local_keyframe.size() - 1);
+  return {newest, s.graph.T_map_keyframe.back() * s.T_local_keyframe.back().inverse(), s.version};
+}
+const std::vector<LoopClosure>& Backend::closures() const { return state_->closures; }
+const std::vector<Wall>& Backend::walls() const { return state_->walls; }
+const BackendCounters& Backend::counters() const { return state_->counters; }
+
+}  // namespace swiftlet

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/correlative_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet {
+namespace {
+
+// How much score a match at the edge of the window gives up against one at its centre: less than any real
+// difference, enough to settle ties.
+constexpr double kEdgePenalty = 0.02;
+// How sharply the likelihood of a pose falls with its score (Olson 2009, section IV.D, takes the score's
+// exponential).
+constexpr double kLikelihoodPerScore = 60.0;
+// No match on these grids is better than this, whatever the scores say.
+constexpr double kFloorSigmaM = 0.05;
+constexpr double kFloorSigmaYawRad = 0.015;
+constexpr double kSpreadM = 1.5;  // how far around the optimum the scores are looked at
+
+double farthest_m(std::span<const Point2> points) {
+  double farthest = 0.5;
+  for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
+  return farthest;
+}
+
+}  // namespace
+
+struct CorrelativeMatcher::Block {
+  int level = 0;
+  int x = 0;
+  int y = 0;
+  int yaw = 0;
+  double score = 0.0;
+  double bound = 0.0;  ///< no pose in the block is preferred more
+};
+
+CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
+                                       const SearchWindow& window)
+    : submap_(submap), window_(window) {
+  const GridGeometry& grid = submap.pyramid.geometry();
+  // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
+  const double ratio = grid.resolution_m / farthest_m(points_scan);
+  angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
+  linear_steps_ = static_cast<int>(std::ceil(window.radius_m / grid.resolution_m));
+  yaw_steps_ = static_cast<int>(std::ceil(window.angle_rad / angle_step_rad_));
+  cells_by_yaw_.resize(static_cast<std::size_t>(2 * yaw_steps_ + 1));
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
+    const Pose2 T(window.T_submap_scan.x_m(), window.T_submap_scan.y_m(),
+                  window.T_submap_scan.yaw_rad() + yaw * angle_step_rad_);
+    auto& list = cells_by_yaw_[static_cast<std::size_t>(yaw + yaw_steps_)];
+    list.reserve(points_scan.size());
+    for (const Point2& p : points_scan) list.push_back(grid.cell(T * p));
+  }
+}
+
+Pose2 CorrelativeMatcher::T_submap_scan(const DiscreteMatch& match) const {
+  const double cell_m = submap_.pyramid.geometry().resolution_m;
+  const Pose2& predicted = window_.T_submap_scan;
+  return {predicted.x_m() + match.steps_x * cell_m, predicted.y_m() + match.steps_y * cell_m,
+          predicted.yaw_rad() + match.steps_yaw * angle_step_rad_};
+}
+
+double CorrelativeMatcher::preference(int steps_x, int steps_y, int steps_yaw) const {
+  const double linear = std::max(1, linear_steps_);
+  const double angular = std::max(1, yaw_steps_);
+  return -kEdgePenalty * ((steps_x * steps_x + steps_y * steps_y) / (linear * linear) +
+                          steps_yaw * steps_yaw / (angular * angular));
+}
+
+double CorrelativeMatcher::block_score(const Block& block) const {
+  std::uint32_t sum = 0;
+  const auto& list = cells(block.yaw);
+  for (const CellIndex& c : list) sum += submap_.pyramid.max_at(block.level, c.x + block.x, c.y + block.y);
+  return static_cast<double>(sum) / (255.0 * static_cast<double>(list.size()));
+}
+
+CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw) const {
+  Block block{level, x, y, yaw, 0.0, 0.0};
+  block.score = block_score(block);
+  const int reach = (1 << level) - 1;
+  const int nearest_x = std::clamp(0, x, x + reach);
+  const int nearest_y = std::clamp(0, y, y + reach);
+  block.bound = block.score + preference(nearest_x, nearest_y, yaw);
+  return block;
+}
+
+void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMatch& best) const {
+  if (block.bound <= best.preferred || block.score < min_score) return;
+  if (block.level == 0) {
+    best = {block.x, block.y, block.yaw, block.score, block.bound};
+    return;
+  }
+  const int half = 1 << (block.level - 1);
+  Block children[4];
+  int count = 0;
+  for (const int dy : {0, half}) {
+    for (const int dx : {0, half}) {
+      if (block.x + dx > linear_steps_ || block.y + dy > linear_steps_) continue;
+      children[count++] = make_block(block.level - 1, block.x + dx, block.y + dy, block.yaw);
+    }
+  }
+  std::stable_sort(children, children + count,
+                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
+  for (int i = 0; i < count; ++i) search(children[i], min_score, best);
+}
+
+std::optional<DiscreteMatch> CorrelativeMatcher::best_by_branch_and_bound(double min_score) const {
+  const int level = submap_.pyramid.levels() - 1;
+  std::vector<Block> roots;
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
+    for (int y = -linear_steps_; y <= linear_steps_; y += 1 << level) {
+      for (int x = -linear_steps_; x <= linear_steps_; x += 1 << level) {
+        const Block root = make_block(level, x, y, yaw);
+        if (root.score >= min_score) roots.push_back(root);
+      }
+    }
+  }
+  std::stable_sort(roots.begin(), roots.end(),
+                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
+  DiscreteMatch best;
+  best.score = best.preferred = -1.0;
+  for (const Block& root : roots) search(root, min_score, best);
+  if (best.score < min_score) return std::nullopt;
+  return best;
+}
+
+std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_score) const {
+  DiscreteMatch best;
+  best.score = best.preferred = -1.0;
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
+    for (int y = -linear_steps_; y <= linear_steps_; ++y) {
+      for (int x = -linear_steps_; x <= linear_steps_; ++x) {
+        const Block one = make_block(0, x, y, yaw);
+        if (one.score >= min_score && one.bound > best.preferred) best = {x, y, yaw, one.score, one.bound};
+      }
+    }
+  }
+  if (best.score < min_score) return std::nullopt;
+  return best;
+}
+
+/// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
+/// lies between the cells: the refinement below the grid's resolution.
+void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
+  const double cell_m = submap_.pyramid.geometry().resolution_m;
+  const int reach = static_cast<int>(std::lround(kSpreadM / cell_m));
+  const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - 4);
+  const int yaw_high = std::min(yaw_steps_, best.steps_yaw + 4);
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
+    for (int dy = -reach; dy <= reach; ++dy) {
+      for (int dx = -reach; dx <= reach; ++dx) {
+        Block at;
+        at.x = best.steps_x + dx;
+        at.y = best.steps_y + dy;
+        at.yaw = yaw;
+        const double likelihood = std::exp(kLikelihoodPerScore * (block_score(at) - best.score));
+        const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
+        second += likelihood * d * d.transpose();
+        first += likelihood * d;
+        total += likelihood;
+      }
+    }
+  }
+  const Eigen::Vector3d mean = first / total;
+  result.covariance = second / total - mean * mean.transpose();
+  result.covariance.diagonal() += Eigen::Vector3d(kFloorSigmaM * kFloorSigmaM, kFloorSigmaM * kFloorSigmaM,
+                                                  kFloorSigmaYawRad * kFloorSigmaYawRad);
+  const Pose2 T = T_submap_scan(best);
+  result.T_submap_scan = Pose2(T.x_m() + mean.x(), T.y_m() + mean.y(), T.yaw_rad() + mean.z());
+}
+
+std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
+  const std::optional<DiscreteMatch> best = best_by_branch_and_bound(min_score);
+  if (!best) return std::nullopt;
+  MatchResult result;
+  result.score = best->score;
+  spread_around(*best, result);
+  return result;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/backend/submap.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// Where to look for the scan in the submap: around a predicted pose, bounded in each direction.
+struct SearchWindow {
+  Pose2 T_submap_scan;    ///< the prediction
+  double radius_m = 1.0;  ///< in x and in y
+  double angle_rad = 0.2;
+};
+
+struct MatchResult {
+  Pose2 T_submap_scan;         ///< the best pose, refined below the grid's resolution
+  double score = 0.0;          ///< mean probability under the points, kernel applied, 0..1
+  Eigen::Matrix3d covariance;  ///< of T_submap_scan's vector, from the scores around the optimum
+};
+
+/// The discrete optimum of eq. 22, before refinement: exact within the window.
+struct DiscreteMatch {
+  int steps_x = 0;  ///< cells from the prediction
+  int steps_y = 0;
+  int steps_yaw = 0;       ///< angular steps from the prediction
+  double score = 0.0;      ///< mean probability, without the preference below
+  double preferred = 0.0;  ///< score less a small penalty for distance from the prediction: what is maximised
+};
+
+/// Correlative scan-to-submap matching (eqs. 21-22; Olson 2009, "Real-time correlative scan matching") by
+/// branch and bound (Hess et al. 2016). Of equal scores the one nearest the prediction wins: along a bare
+/// corridor the scores are flat, and the covariance says so. Allocates in the constructor. Views the submap,
+/// which must outlive it.
+class CorrelativeMatcher {
+ public:
+  CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan, const SearchWindow& window);
+
+  /// The best match with score >= min_score, or nothing.
+  [[nodiscard]] std::optional<MatchResult> match(double min_score) const;
+  [[nodiscard]] std::optional<DiscreteMatch> best_by_branch_and_bound(double min_score) const;
+  /// The same by trying everything: the slow twin that tests hold the fast one against.
+  [[nodiscard]] std::optional<DiscreteMatch> best_by_exhaustion(double min_score) const;
+
+  [[nodiscard]] double angle_step_rad() const { return angle_step_rad_; }
+  [[nodiscard]] Pose2 T_submap_scan(const DiscreteMatch& match) const;
+
+ private:
+  struct Block;
+  [[nodiscard]] double preference(int steps_x, int steps_y, int steps_yaw) const;
+  [[nodiscard]] double block_score(const Block& block) const;
+  [[nodiscard]] Block make_block(int level, int x, int y, int yaw) const;
+  void search(const Block& block, double min_score, DiscreteMatch& best) const;
+  [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {
+    return cells_by_yaw_[static_cast<std::size_t>(steps_yaw + yaw_steps_)];
+  }
+  void spread_around(const DiscreteMatch& best, MatchResult& result) const;
+
+  const Submap& submap_;
+  SearchWindow window_;
+  double angle_step_rad_ = 0.0;
+  int linear_steps_ = 0;
+  int yaw_steps_ = 0;
+  std::vector<std::vector<CellIndex>> cells_by_yaw_;  // points as cells, one list for each heading
+};
+
+}  // namespace swiftlet

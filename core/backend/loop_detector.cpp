@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/loop_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/backend/correlative_matcher.hpp"
+#include "core/backend/relative_uncertainty.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kSigmas = 3.0;  // the window reaches this many standard deviations ...
+constexpr double kLeastRadiusM =
+    0.5;  // ... and never less than this: the constraints' covariances are models
+constexpr double kLeastAngleRad = 0.1;
+constexpr double kThinningM = 0.1;  // one point per cell: hovering in place must not outvote the flight
+
+}  // namespace
+
+struct LoopDetector::Candidate {
+  const Submap* submap = nullptr;
+  SearchWindow window;
+  double overlap = 0.0;  ///< share of the points that may fall on the submap
+};
+
+std::vector<Point2> LoopDetector::recent_points(KeyframeId query,
+                                                std::span<const Pose2> T_local_keyframe) const {
+  const Pose2 T_query_local = T_local_keyframe[index_of(query)].inverse();
+  const ScanIndex newest = chain_->scan_of(query);
+  const double from_m = chain_->path_m(query) - config_->multiscan_length_m;
+  std::vector<Point2> points;
+  std::set<std::pair<int, int>> taken;
+  for (ScanIndex i = newest + 1; i-- > 0;) {
+    const StoredScan& scan = (*scans_)[i];
+    if (scan.path_m < from_m) break;
+    const Pose2 T_query_body = T_query_local * chain_->T_w_body(i, T_local_keyframe);
+    for (const ScanReturn& beam : scans_->returns(i)) {
+      if (!beam.is_hit) continue;
+      const Point2 p = T_query_body * scans_->point_body(beam);
+      const std::pair<int, int> cell(static_cast<int>(std::floor(p.x_m / kThinningM)),
+                                     static_cast<int>(std::floor(p.y_m / kThinningM)));
+      if (taken.insert(cell).second) points.push_back(p);
+    }
+    if (scan.starts_segment) break;  // what lies before is not connected by motion
+  }
+  return points;
+}
+
+std::vector<LoopDetector::Candidate> LoopDetector::candidates(
+    KeyframeId query, std::span<const Point2> points_query,
+    std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph) const {
+  std::vector<Candidate> found;
+  std::optional<std::vector<Eigen::Matrix3d>> covariances;
+  const Pose2 T_query_map = graph.T_map_keyframe[index_of(query)].inverse();
+  for (const auto& submap : submaps) {
+    if (chain_->path_m(query) - chain_->path_m(submap->last) < config_->min_travel_between_m) continue;
+    if (!covariances) covariances = relative_covariances(graph, query);
+    const Eigen::Matrix3d& P = (*covariances)[index_of(submap->reference)];
+    const Pose2 T_query_submap = T_query_map * graph.T_map_keyframe[index_of(submap->reference)];
+    Candidate c;
+    c.submap = submap.get();
+    c.window.T_submap_scan = T_query_submap.inverse();
+    const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
+    c.window.radius_m = std::clamp(kSigmas * sigma_m, kLeastRadiusM, config_->search_radius_m);
+    c.window.angle_rad = std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastAngleRad, config_->search_angle_rad);
+    std::size_t inside = 0;
+    for (const Point2& p : points_query) {
+      const Point2 q = c.window.T_submap_scan * p;
+      const double r = c.window.radius_m;
+      inside += q.x_m > submap->low_m.x_m - r && q.x_m < submap->high_m.x_m + r &&
+                q.y_m > submap->low_m.y_m - r && q.y_m < submap->high_m.y_m + r;
+    }
+    c.overlap = static_cast<double>(inside) / static_cast<double>(points_query.size());
+    if (c.overlap >= config_->min_score) found.push_back(c);
+  }
+  const auto most = static_cast<std::size_t>(config_->max_candidates);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.overlap > b.overlap; });
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+std::vector<LoopClosure> LoopDetector::find(KeyframeId query,
+                                            std::span<const std::shared_ptr<const Submap>> submaps,
+                                            const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
+                                            std::uint64_t& tried) const {
+  std::vector<LoopClosure> closures;
+  const std::vector<Point2> points = recent_points(query, T_local_keyframe);
+  if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return closures;
+  for (const Candidate& c : candidates(query, points, submaps, graph)) {
+    ++tried;
+    const std::optional<MatchResult> match =
+        CorrelativeMatcher(*c.submap, points, c.window).match(config_->min_score);
+    if (!match) continue;
+    closures.push_back({.from = c.submap->reference,
+                        .to = query,
+                        .T_from_to = match->T_submap_scan,
+                        .covariance = Covariance3::from_matrix(match->covariance),
+                        .score = match->score});
+  }
+  return closures;
+}
+
+}  // namespace swiftlet

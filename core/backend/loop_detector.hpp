@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/backend/backend.hpp"
+#include "core/backend/keyframe_chain.hpp"
+#include "core/backend/pose_graph.hpp"
+#include "core/backend/submap.hpp"
+
+namespace swiftlet {
+
+/// Finds where the recent travel overlaps earlier submaps (Algorithm 3, lines 1-2).
+class LoopDetector {
+ public:
+  /// Views all its arguments, which must outlive it.
+  LoopDetector(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
+      : config_(&config), scans_(&scans), chain_(&chain) {}
+
+  /// Matches the recent multiscan, as seen from keyframe `query`, against every submap it may overlap, given
+  /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `tried` counts
+  /// the submaps searched. Allocates.
+  std::vector<LoopClosure> find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
+                                const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
+                                std::uint64_t& tried) const;
+
+ private:
+  struct Candidate;
+  [[nodiscard]] std::vector<Point2> recent_points(KeyframeId query,
+                                                  std::span<const Pose2> T_local_keyframe) const;
+  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, std::span<const Point2> points_query,
+                                                  std::span<const std::shared_ptr<const Submap>> submaps,
+                                                  const PoseGraph& graph) const;
+
+  const BackendConfig* config_;
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include "core/backend/cholmod_solver.hpp"
+#include "core/backend/pose_graph.hpp"
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+struct OptimizeReport {
+  int iterations = 0;
+  double chi_square = 0.0;  ///< robust objective at the end
+};
+
+/// Minimises eq. 23 by Gauss-Newton with DCS on the closures. The symbolic analysis is kept while constraints
+/// join the same pairs. Allocates. One thread at a time.
+class PoseGraphOptimizer {
+ public:
+  PoseGraphOptimizer(double dcs_phi, int max_iterations)
+      : dcs_phi_(dcs_phi), max_iterations_(max_iterations) {}
+
+  /// Moves the poses and writes each closure's dcs_scale. On kSolver the graph is as it was.
+  Result<OptimizeReport> optimize(PoseGraph& graph);
+
+ private:
+  double dcs_phi_;
+  int max_iterations_;
+  CholmodSolver solver_;
+  std::vector<BlockSystem3::BlockIndex> analyzed_pattern_;
+  std::size_t analyzed_poses_ = 0;
+};
+
+}  // namespace swiftlet

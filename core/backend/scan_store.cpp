@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/scan_store.hpp"
+
+#include <cmath>
+
+namespace swiftlet {
+
+std::array<Point2, kMaxBeams> ScanStore::unit_directions(const BeamLayout& beams) {
+  std::array<Point2, kMaxBeams> directions{};
+  for (std::size_t i = 0; i < beams.count; ++i)
+    directions[i] = {std::cos(beams.bearing_rad[i]), std::sin(beams.bearing_rad[i])};
+  return directions;
+}
+
+ScanIndex ScanStore::add(const FrontendStep& step) {
+  const RangeSample& sample = step.sample;
+  StoredScan scan{.stamp = sample.stamp,
+                  .T_odom_body = sample.T_odom_body,
+                  .T_keyframe_body = step.T_keyframe_body,
+                  .keyframe = step.keyframe,
+                  .path_m = 0.0,
+                  .first_return = static_cast<std::uint32_t>(returns_.size()),
+                  .return_count = 0,
+                  .starts_segment = sample.starts_segment};
+  if (!scans_.empty()) {
+    scan.path_m = scans_.back().path_m;
+    if (!sample.starts_segment) {
+      const Pose2 motion = between(scans_.back().T_odom_body, sample.T_odom_body);
+      scan.path_m += std::hypot(motion.x_m(), motion.y_m());
+    }
+  }
+  for (std::uint8_t beam = 0; beam < sample.beam_count; ++beam) {
+    if (sample.status[beam] == RangeStatus::kInvalid) continue;
+    returns_.push_back({sample.distance_m[beam], beam, sample.status[beam] == RangeStatus::kHit});
+  }
+  scan.return_count = static_cast<std::uint16_t>(returns_.size() - scan.first_return);
+  scans_.push_back(scan);
+  return static_cast<ScanIndex>(scans_.size() - 1);
+}
+
+}  // namespace swiftlet

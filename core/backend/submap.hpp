@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/backend/backend_config.hpp"
+#include "core/backend/keyframe_chain.hpp"
+#include "core/backend/max_pyramid.hpp"
+#include "core/base/ids.hpp"
+
+namespace swiftlet {
+
+/// A stretch of travel as a grid of occupancy probabilities in the frame of its reference keyframe, with the
+/// max kernel of eq. 22 applied and the maxima for branch and bound prepared. Immutable once built: shared as
+/// shared_ptr<const Submap>. A byte holds 255 * p(occupied); unknown cells hold 0.
+struct Submap {
+  SubmapId id{};
+  KeyframeId reference{};  ///< its frame: the keyframe in the middle
+  KeyframeId first{};
+  KeyframeId last{};                   ///< scans from `first` up to, not including, `last`
+  std::vector<std::uint8_t> occupied;  ///< without the kernel, for refining below the grid's resolution
+  MaxPyramid pyramid;                  ///< with the kernel
+  Point2 low_m;                        ///< box around all hits, in the submap's frame
+  Point2 high_m;
+};
+
+/// Draws the scans made between two keyframes. `T_w_keyframe`: the keyframes in one continuous frame.
+/// Allocates.
+Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanStore& scans,
+                    const KeyframeChain& chain, std::span<const Pose2> T_w_keyframe,
+                    const BackendConfig& config);
+
+}  // namespace swiftlet
