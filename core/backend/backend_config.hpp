@@ -26,11 +26,13 @@ struct BackendConfig {
   double search_radius_m = 4.0;           ///< widest search around the predicted position
   double search_angle_rad = radians(30);  ///< widest search around the predicted heading
   int max_candidates = 8;     ///< submaps searched per keyframe at most, the most overlapping first
-  double min_score = 0.6;     ///< mean probability under the scan's points that makes a closure
+  double min_score = 0.5;     ///< mean probability under the scan's points that makes a closure
   int min_match_points = 30;  ///< fewer points decide nothing
 
   // Pose graph
-  double dcs_phi = 1.0;           ///< DCS: closures whose chi-square exceeds this are scaled down
+  double motion_sigma_scale = 3.0;  ///< the frontend's motion is this much less certain than its white noise
+                                    ///< model says: scale and heading errors persist from step to step
+  double dcs_phi = 5.0;           ///< DCS: closures whose chi-square exceeds this are scaled down
   double drop_scale = 0.1;        ///< closures scaled below this in the final pass are dropped
   int optimizer_iterations = 20;  ///< Gauss-Newton steps at most
 
