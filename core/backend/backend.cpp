@@ -9,6 +9,7 @@
 #include "core/backend/loop_detector.hpp"
 #include "core/backend/pose_graph.hpp"
 #include "core/backend/pose_graph_optimizer.hpp"
+#include "core/backend/refinement.hpp"
 #include "core/backend/submap.hpp"
 
 namespace swiftlet {
@@ -20,8 +21,9 @@ const Eigen::Matrix3d kUnknownMotionInformation = Eigen::Vector3d(1e-4, 1e-4, 1e
 }  // namespace
 
 struct Backend::State {
-  State(const BackendConfig& backend_config, const BeamLayout& beams)
+  State(const BackendConfig& backend_config, const SensorModel& sensor_model, const BeamLayout& beams)
       : config(backend_config),
+        sensor(sensor_model),
         scans(beams),
         chain(scans),
         detector(config, scans, chain),
@@ -35,8 +37,10 @@ struct Backend::State {
   std::uint32_t close_loops(KeyframeId newest);
   bool optimize();
   bool drop_false_closures();
+  bool refine();
 
   BackendConfig config;
+  SensorModel sensor;
   ScanStore scans;
   KeyframeChain chain;
   LoopDetector detector;
@@ -44,6 +48,7 @@ struct Backend::State {
 
   std::vector<Pose2> T_local_keyframe;
   PoseGraph graph;
+  std::vector<Pose2> T_map_refined;             // of every scan, after finish(); empty before
   std::vector<std::size_t> motion_constraint;   // of the step to keyframe i (i >= 1), by i - 1
   std::vector<std::size_t> closure_constraint;  // of closure i
   KeyframeId optimized_upto{};                  // later keyframes hang on by their motion
@@ -163,9 +168,39 @@ bool Backend::State::drop_false_closures() {
   return optimize();
 }
 
-Backend::Backend(const BackendConfig& config, const SensorModel& /*sensor*/, const BeamLayout& beams) {
+/// Gives every scan a pose of its own; keyframes take those of their scans.
+bool Backend::State::refine() {
+  if (!config.refine || scans.size() < 2) return false;
+  std::vector<Pose2> T_map_body;
+  for (ScanIndex i = 0; i < scans.size(); ++i) T_map_body.push_back(chain.T_w_body(i, graph.T_map_keyframe));
+  std::vector<PoseConstraint> believed;
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    if (closures[i].dropped) continue;
+    PoseConstraint c = graph.constraints[closure_constraint[i]];
+    c.information *= c.dcs_scale * c.dcs_scale;
+    c.from = static_cast<KeyframeId>(chain.scan_of(closures[i].from));
+    c.to = static_cast<KeyframeId>(chain.scan_of(closures[i].to));
+    believed.push_back(c);
+  }
+  const Result<RefinementReport> report = refine_scan_poses(scans, sensor, believed, config, T_map_body);
+  if (!report) {
+    ++counters.solver_failures;
+    return false;
+  }
+  counters.held_back_before_m = report->held_back_before_m;
+  counters.held_back_after_m = report->held_back_after_m;
+  counters.refined = report->accepted;
+  if (!report->accepted) return false;
+  for (std::uint32_t k = 0; k < chain.size(); ++k)
+    graph.T_map_keyframe[k] = T_map_body[chain.scan_of(static_cast<KeyframeId>(k))];
+  T_map_refined = std::move(T_map_body);
+  ++version;
+  return true;
+}
+
+Backend::Backend(const BackendConfig& config, const SensorModel& sensor, const BeamLayout& beams) {
   SWIFTLET_CHECK(config.validate().empty(), "the backend's configuration is valid");
-  state_ = std::make_unique<State>(config, beams);
+  state_ = std::make_unique<State>(config, sensor, beams);
 }
 Backend::~Backend() = default;
 
@@ -191,10 +226,12 @@ BackendUpdate Backend::add(const FrontendStep& step) {
 
 BackendUpdate Backend::finish() {
   BackendUpdate update;
-  if (state_->closures.empty()) return update;
-  update.poses_changed = state_->optimize();
-  while (state_->drop_false_closures()) {
+  if (!state_->closures.empty()) {
+    update.poses_changed = state_->optimize();
+    while (state_->drop_false_closures()) {
+    }
   }
+  if (state_->config.close_loops && state_->refine()) update.poses_changed = true;
   return update;
 }
 
@@ -204,6 +241,7 @@ const Pose2& Backend::T_map_keyframe(KeyframeId id) const {
   return state_->graph.T_map_keyframe[index_of(id)];
 }
 Pose2 Backend::T_map_body(ScanIndex scan) const {
+  if (!state_->T_map_refined.empty()) return state_->T_map_refined[scan];
   return state_->chain.T_w_body(scan, state_->graph.T_map_keyframe);
 }
 MapCorrection Backend::correction() const {

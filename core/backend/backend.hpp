@@ -49,6 +49,9 @@ struct BackendCounters {
   std::uint64_t closures_dropped = 0;
   std::uint64_t optimizations = 0;
   std::uint64_t solver_failures = 0;
+  bool refined = false;             ///< the final refinement was done and kept
+  double held_back_before_m = 0.0;  ///< what it was judged by: distance of held-back returns from walls
+  double held_back_after_m = 0.0;
 };
 
 /// What one step did, for whoever publishes.
@@ -69,13 +72,15 @@ class Backend {
 
   /// Takes one frontend step; at keyframes looks for loops and optimises.
   BackendUpdate add(const FrontendStep& step);
-  /// The final pass: last optimisation, false closures dropped. Nothing may be added afterwards.
+  /// The final pass: last optimisation, false closures dropped, every scan's pose refined. Nothing may be
+  /// added afterwards.
   BackendUpdate finish();
 
   [[nodiscard]] const ScanStore& scans() const;
   [[nodiscard]] std::size_t keyframe_count() const;
   [[nodiscard]] const Pose2& T_map_keyframe(KeyframeId id) const;
-  /// Corrected pose of any scan: between two keyframes the correction is spread evenly.
+  /// Corrected pose of any scan: between two keyframes the correction is spread evenly; after finish() the
+  /// scan's own.
   [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
   [[nodiscard]] MapCorrection correction() const;
   [[nodiscard]] const std::vector<LoopClosure>& closures() const;

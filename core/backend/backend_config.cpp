@@ -30,6 +30,7 @@ std::vector<std::string> BackendConfig::validate() const {
   require(dcs_phi > 0.0, "backend.dcs_phi must be above 0");
   require(drop_scale >= 0.0 && drop_scale < 1.0, "backend.drop_scale must lie in 0..1");
   require(optimizer_iterations >= 1, "backend.optimizer_iterations must be at least 1");
+  require(refinement_iterations >= 1, "backend.refinement_iterations must be at least 1");
   return problems;
 }
 

@@ -32,9 +32,13 @@ struct BackendConfig {
   // Pose graph
   double motion_sigma_scale = 3.0;  ///< the frontend's motion is this much less certain than its white noise
                                     ///< model says: scale and heading errors persist from step to step
-  double dcs_phi = 5.0;           ///< DCS: closures whose chi-square exceeds this are scaled down
-  double drop_scale = 0.1;        ///< closures scaled below this in the final pass are dropped
-  int optimizer_iterations = 20;  ///< Gauss-Newton steps at most
+  double dcs_phi = 5.0;             ///< DCS: closures whose chi-square exceeds this are scaled down
+  double drop_scale = 0.1;          ///< closures scaled below this in the final pass are dropped
+  int optimizer_iterations = 20;    ///< Gauss-Newton steps at most
+
+  // Joint refinement at the end of a run
+  bool refine = true;              ///< false: poses between keyframes stay interpolated
+  int refinement_iterations = 25;  ///< rounds of walls and poses at most
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -13,11 +13,13 @@ namespace {
 constexpr double kEdgePenalty = 0.02;
 // How sharply the likelihood of a pose falls with its score (Olson 2009, section IV.D, takes the score's
 // exponential).
-constexpr double kLikelihoodPerScore = 60.0;
+constexpr double kLikelihoodPerScore = 45.0;
 // No match on these grids is better than this, whatever the scores say.
 constexpr double kFloorSigmaM = 0.05;
 constexpr double kFloorSigmaYawRad = 0.015;
-constexpr double kSpreadM = 1.5;  // how far around the optimum the scores are looked at
+constexpr double kLeastSpreadM = 1.0;  // how far around the optimum the scores are looked at, at least
+constexpr int kSpreadStride = 2;       // cells
+constexpr int kYawSpreadSteps = 4;
 
 double farthest_m(std::span<const Point2> points) {
   double farthest = 0.5;
@@ -142,22 +144,22 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 }
 
 /// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
-/// lies between the cells: the refinement below the grid's resolution.
+/// lies between the cells: the refinement below the grid's resolution. The whole search window is looked at,
+/// since along a corridor the likely poses may reach across all of it; every second cell is enough under a
+/// kernel of three.
 void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
   const double cell_m = submap_.pyramid.geometry().resolution_m;
-  const int reach = static_cast<int>(std::lround(kSpreadM / cell_m));
-  const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - 4);
-  const int yaw_high = std::min(yaw_steps_, best.steps_yaw + 4);
+  const int reach = std::max(linear_steps_, static_cast<int>(std::lround(kLeastSpreadM / cell_m)));
+  const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - kYawSpreadSteps);
+  const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   double total = 0.0;
+  const int even_reach = reach - reach % kSpreadStride;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        Block at;
-        at.x = best.steps_x + dx;
-        at.y = best.steps_y + dy;
-        at.yaw = yaw;
+    for (int dy = -even_reach; dy <= even_reach; dy += kSpreadStride) {
+      for (int dx = -even_reach; dx <= even_reach; dx += kSpreadStride) {
+        const Block at{0, best.steps_x + dx, best.steps_y + dy, yaw, 0.0, 0.0};
         const double likelihood = std::exp(kLikelihoodPerScore * (block_score(at) - best.score));
         const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
         second += likelihood * d * d.transpose();

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/wall_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kThinningM = 0.08;
+constexpr int kFewestPoints = 5;
+constexpr double kLeastLengthM2 = 0.004;  // variance along the wall: shorter stretches have no direction
+constexpr double kWidestRatio = 0.35;     // variance across to variance along: more is clutter, not a wall
+
+struct ThinCell {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  Point2 p;
+  bool operator<(const ThinCell& o) const { return std::tie(x, y) < std::tie(o.x, o.y); }
+  [[nodiscard]] bool same_cell(const ThinCell& o) const { return x == o.x && y == o.y; }
+};
+
+/// Weighted moments of the points around a place.
+struct Moments {
+  int count = 0;
+  double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  void add(double weight, double dx, double dy) {
+    ++count;
+    w += weight;
+    x += weight * dx;
+    y += weight * dy;
+    xx += weight * dx * dx;
+    xy += weight * dx * dy;
+    yy += weight * dy * dy;
+  }
+};
+
+}  // namespace
+
+WallMap::WallMap(std::span<const PassPoint> points, double radius_m) : radius_m_(radius_m) {
+  thin(points);
+  sort_into_cells();
+}
+
+void WallMap::thin(std::span<const PassPoint> points) {
+  std::vector<ThinCell> cells;
+  for (std::size_t begin = 0; begin < points.size();) {
+    cells.clear();
+    const std::uint32_t pass = points[begin].pass;
+    for (; begin < points.size() && points[begin].pass == pass; ++begin) {
+      const Point2& p = points[begin].p_map;
+      cells.push_back({static_cast<std::int32_t>(std::floor(p.x_m / kThinningM)),
+                       static_cast<std::int32_t>(std::floor(p.y_m / kThinningM)), p});
+    }
+    std::stable_sort(cells.begin(), cells.end());
+    for (std::size_t i = 0; i < cells.size();) {
+      Point2 sum;
+      const std::size_t first = i;
+      for (; i < cells.size() && cells[i].same_cell(cells[first]); ++i) {
+        sum.x_m += cells[i].p.x_m;
+        sum.y_m += cells[i].p.y_m;
+      }
+      const auto n = static_cast<double>(i - first);
+      points_.push_back({{sum.x_m / n, sum.y_m / n}, pass});
+    }
+  }
+}
+
+void WallMap::sort_into_cells() {
+  if (points_.empty()) return;
+  Point2 high = points_.front().p_map;
+  origin_m_ = high;
+  for (const PassPoint& p : points_) {
+    origin_m_ = {std::min(origin_m_.x_m, p.p_map.x_m), std::min(origin_m_.y_m, p.p_map.y_m)};
+    high = {std::max(high.x_m, p.p_map.x_m), std::max(high.y_m, p.p_map.y_m)};
+  }
+  width_ = static_cast<int>((high.x_m - origin_m_.x_m) / radius_m_) + 1;
+  height_ = static_cast<int>((high.y_m - origin_m_.y_m) / radius_m_) + 1;
+  const auto cell_of = [&](const PassPoint& p) {
+    const auto x = static_cast<std::size_t>((p.p_map.x_m - origin_m_.x_m) / radius_m_);
+    const auto y = static_cast<std::size_t>((p.p_map.y_m - origin_m_.y_m) / radius_m_);
+    return y * static_cast<std::size_t>(width_) + x;
+  };
+  cell_starts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
+  for (const PassPoint& p : points_) ++cell_starts_[cell_of(p) + 1];
+  for (std::size_t i = 1; i < cell_starts_.size(); ++i) cell_starts_[i] += cell_starts_[i - 1];
+  std::vector<std::uint32_t> next(cell_starts_.begin(), cell_starts_.end() - 1);
+  std::vector<PassPoint> sorted(points_.size());
+  for (const PassPoint& p : points_) sorted[next[cell_of(p)]++] = p;
+  points_.swap(sorted);
+}
+
+std::optional<LocalWall> WallMap::wall_near(const PassPoint& place) const {
+  if (points_.empty()) return std::nullopt;
+  const int cx = static_cast<int>(std::floor((place.p_map.x_m - origin_m_.x_m) / radius_m_));
+  const int cy = static_cast<int>(std::floor((place.p_map.y_m - origin_m_.y_m) / radius_m_));
+  const double r2 = radius_m_ * radius_m_;
+  Moments m;
+  for (int y = std::max(0, cy - 1); y <= std::min(height_ - 1, cy + 1); ++y) {
+    const int first_x = std::max(0, cx - 1);
+    const int last_x = std::min(width_ - 1, cx + 1);
+    if (first_x > last_x) break;
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    const std::uint32_t begin = cell_starts_[row + static_cast<std::size_t>(first_x)];
+    const std::uint32_t end = cell_starts_[row + static_cast<std::size_t>(last_x) + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const double dx = points_[i].p_map.x_m - place.p_map.x_m;
+      const double dy = points_[i].p_map.y_m - place.p_map.y_m;
+      const double d2 = dx * dx + dy * dy;
+      if (d2 >= r2 || points_[i].pass == place.pass) continue;
+      const double closeness = 1.0 - d2 / r2;
+      m.add(closeness, dx, dy);
+    }
+  }
+  if (m.count < kFewestPoints) return std::nullopt;
+  const double mx = m.x / m.w;
+  const double my = m.y / m.w;
+  const double xx = m.xx / m.w - mx * mx;
+  const double xy = m.xy / m.w - mx * my;
+  const double yy = m.yy / m.w - my * my;
+  const double along = 0.5 * (xx + yy) + std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+  const double across = xx + yy - along;
+  if (along < kLeastLengthM2 || across > kWidestRatio * along) return std::nullopt;
+  const double direction_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  return LocalWall{{place.p_map.x_m + mx, place.p_map.y_m + my},
+                   {-std::sin(direction_rad), std::cos(direction_rad)}};
+}
+
+}  // namespace swiftlet

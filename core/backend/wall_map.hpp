@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// A return drawn in the map: where it lies and which pass over the place it belongs to.
+struct PassPoint {
+  Point2 p_map;
+  std::uint32_t pass = 0;
+};
+
+/// The wall that other passes draw around a point: a line through their returns nearby.
+struct LocalWall {
+  Point2 center_map;
+  Point2 normal_map;  ///< unit length
+};
+
+/// The returns of all passes, one point a pass and cell, for asking what the *other* passes draw around a
+/// place. Built once, then read by any thread. Allocates in the constructor.
+class WallMap {
+ public:
+  /// `points` ordered by pass. `radius_m`: how far around a place its wall is looked for.
+  WallMap(std::span<const PassPoint> points, double radius_m);
+
+  /// The line through the points of other passes within the radius, near ones counting more; nothing where
+  /// they are too few or not clearly a line.
+  [[nodiscard]] std::optional<LocalWall> wall_near(const PassPoint& place) const;
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+ private:
+  void thin(std::span<const PassPoint> points);
+  void sort_into_cells();
+
+  double radius_m_;
+  Point2 origin_m_;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<PassPoint> points_;           // by cell
+  std::vector<std::uint32_t> cell_starts_;  // width * height + 1
+};
+
+}  // namespace swiftlet
