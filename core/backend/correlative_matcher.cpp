@@ -13,7 +13,7 @@ namespace {
 constexpr double kEdgePenalty = 0.02;
 // How sharply the likelihood of a pose falls with its score (Olson 2009, section IV.D, takes the score's
 // exponential).
-constexpr double kLikelihoodPerScore = 45.0;
+constexpr double kLikelihoodPerScore = 60.0;
 // No match on these grids is better than this, whatever the scores say.
 constexpr double kFloorSigmaM = 0.05;
 constexpr double kFloorSigmaYawRad = 0.015;
@@ -76,6 +76,20 @@ double CorrelativeMatcher::block_score(const Block& block) const {
   const auto& list = cells(block.yaw);
   for (const CellIndex& c : list) sum += submap_.pyramid.max_at(block.level, c.x + block.x, c.y + block.y);
   return static_cast<double>(sum) / (255.0 * static_cast<double>(list.size()));
+}
+
+/// Mean probability over the points that fall on known cells. The score itself also rewards covering the
+/// submap: along a corridor it would draw every scan to the submap's middle and be sure of it.
+double CorrelativeMatcher::known_score(const Block& block) const {
+  std::uint32_t sum = 0;
+  std::size_t known = 0;
+  const auto& list = cells(block.yaw);
+  for (const CellIndex& c : list) {
+    const std::uint8_t value = submap_.pyramid.max_at(0, c.x + block.x, c.y + block.y);
+    sum += value;
+    known += value != 0 ? 1 : 0;
+  }
+  return static_cast<double>(sum) / (255.0 * static_cast<double>(std::max(known, list.size() / 2)));
 }
 
 CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw) const {
@@ -155,12 +169,13 @@ void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& r
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   double total = 0.0;
+  const double reference = known_score({0, best.steps_x, best.steps_y, best.steps_yaw, 0.0, 0.0});
   const int even_reach = reach - reach % kSpreadStride;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
     for (int dy = -even_reach; dy <= even_reach; dy += kSpreadStride) {
       for (int dx = -even_reach; dx <= even_reach; dx += kSpreadStride) {
         const Block at{0, best.steps_x + dx, best.steps_y + dy, yaw, 0.0, 0.0};
-        const double likelihood = std::exp(kLikelihoodPerScore * (block_score(at) - best.score));
+        const double likelihood = std::exp(kLikelihoodPerScore * (known_score(at) - reference));
         const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
         second += likelihood * d * d.transpose();
         first += likelihood * d;

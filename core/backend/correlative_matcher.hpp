@@ -55,6 +55,7 @@ class CorrelativeMatcher {
   struct Block;
   [[nodiscard]] double preference(int steps_x, int steps_y, int steps_yaw) const;
   [[nodiscard]] double block_score(const Block& block) const;
+  [[nodiscard]] double known_score(const Block& block) const;
   [[nodiscard]] Block make_block(int level, int x, int y, int yaw) const;
   void search(const Block& block, double min_score, DiscreteMatch& best) const;
   [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {
