@@ -30,7 +30,7 @@ struct BackendConfig {
   int min_match_points = 30;  ///< fewer points decide nothing
 
   // Pose graph
-  double motion_sigma_scale = 3.0;  ///< the frontend's motion is this much less certain than its white noise
+  double motion_sigma_scale = 2.0;  ///< the frontend's motion is this much less certain than its white noise
                                     ///< model says: scale and heading errors persist from step to step
   double dcs_phi = 5.0;             ///< DCS: closures whose chi-square exceeds this are scaled down
   double drop_scale = 0.1;          ///< closures scaled below this in the final pass are dropped
