@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/simulated_link.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+constexpr HostTime kOpened{std::chrono::seconds(1'767'225'600)};  // 2026-01-01 00:00:00 UTC
+constexpr std::chrono::milliseconds kStep{1};
+constexpr std::string_view kScheme = "sim://";
+constexpr std::string_view kSeedKey = "seed=";
+
+Error bad_uri(std::string_view uri, std::string_view what) {
+  return {ErrorCode::kInvalidInput,
+          std::string(uri) + ": " + std::string(what) +
+              "; write sim://WORLD?seed=N with WORLD one of: " + std::string(simulated_world_names())};
+}
+
+}  // namespace
+
+Result<SimulationUri> parse_simulation_uri(std::string_view uri) {
+  if (!uri.starts_with(kScheme)) return bad_uri(uri, "not a simulation");
+  const std::string_view rest = uri.substr(kScheme.size());
+  const std::size_t mark = rest.find('?');
+  SimulationUri parsed{.world = std::string(rest.substr(0, mark))};
+  const Result<SimulatedWorld> world = make_simulated_world(parsed.world);
+  if (!world) return world.error();
+  if (mark == std::string_view::npos) return parsed;
+  std::string_view query = rest.substr(mark + 1);
+  if (!query.starts_with(kSeedKey)) return bad_uri(uri, "the only option is seed");
+  query.remove_prefix(kSeedKey.size());
+  const char* const end = query.data() + query.size();
+  const auto [stopped_at, error] = std::from_chars(query.data(), end, parsed.seed);
+  if (error != std::errc() || stopped_at != end)
+    return bad_uri(uri, "the seed is a whole number from 0 to 18446744073709551615");
+  return parsed;
+}
+
+Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view world, std::uint64_t seed) {
+  Result<SimulatedWorld> made = make_simulated_world(world);
+  if (!made) return made.error();
+  return std::make_unique<SimulatedLink>(std::move(*made), VehicleModel{}, kPacketLoss, seed);
+}
+
+SimulatedLink::SimulatedLink(SimulatedWorld world, const VehicleModel& model, double packet_loss,
+                             std::uint64_t seed)
+    : vehicle_(std::move(world), model, seed),
+      loss_noise_(seed, "packet_loss"),
+      packet_loss_(packet_loss),
+      opened_at_(vehicle_.now()) {}
+
+Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
+  const DeviceTime deadline = vehicle_.now() + timeout;
+  while (heard_.empty()) {
+    if (vehicle_.is_finished()) return Error{ErrorCode::kEndOfRecording, "the simulated flight is over"};
+    if (vehicle_.now() + kStep > deadline)
+      return Error{ErrorCode::kTimeout, "nothing heard from the simulated vehicle"};
+    for (const SentPacket& sent : vehicle_.advance(vehicle_.now() + kStep)) {
+      if (loss_noise_.chance(packet_loss_)) continue;
+      queue(LinkDirection::kFromVehicle, sent.at, {sent.bytes.data(), sent.bytes.size()});
+    }
+  }
+  const LinkFrame frame = heard_.front();
+  heard_.pop_front();
+  return frame;
+}
+
+Status SimulatedLink::send(std::span<const std::uint8_t> packet) {
+  if (packet.empty() || packet.size() > PacketBytes::capacity())
+    return Error{ErrorCode::kInvalidInput,
+                 "a packet of " + std::to_string(packet.size()) + " bytes; CRTP takes 1 to 31"};
+  queue(LinkDirection::kToVehicle, vehicle_.now(), packet);
+  for (const PacketBytes& answer : vehicle_.handle(packet))
+    queue(LinkDirection::kFromVehicle, vehicle_.now(), {answer.data(), answer.size()});
+  return {};
+}
+
+void SimulatedLink::queue(LinkDirection direction, DeviceTime at, std::span<const std::uint8_t> packet) {
+  LinkFrame frame;
+  frame.at = host_time(at);
+  frame.direction = direction;
+  frame.size = static_cast<std::uint8_t>(packet.size());
+  std::ranges::copy(packet, frame.bytes.begin());
+  heard_.push_back(frame);
+}
+
+HostTime SimulatedLink::host_time(DeviceTime at) const { return kOpened + (at - opened_at_); }
+
+}  // namespace swiftlet

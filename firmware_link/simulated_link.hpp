@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.hpp"
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "firmware_link/link.hpp"
+#include "firmware_link/simulated_vehicle.hpp"
+
+namespace swiftlet {
+
+/// What a `sim://WORLD?seed=N` asks for.
+struct SimulationUri {
+  std::string world;
+  std::uint64_t seed = 1;  ///< when the URI names none
+};
+
+/// kInvalidInput: not of that form, or the seed is no whole number of 0 or more; kNotFound: no such world.
+/// The message shows the form and lists the worlds.
+[[nodiscard]] Result<SimulationUri> parse_simulation_uri(std::string_view uri);
+
+/// A simulated vehicle in a simulated world behind a link that answers every request but loses some log
+/// packets. Time is simulated too: receive() moves it on to the next frame and never waits, host time is a
+/// fixed date plus simulated time, so a run is repeatable byte for byte. One thread at a time; allocates.
+class SimulatedLink final : public Link {
+ public:
+  /// `world`: one of simulated_world_names(). Error: kNotFound, the message lists the worlds.
+  static Result<std::unique_ptr<SimulatedLink>> open(std::string_view world, std::uint64_t seed);
+
+  /// Of log packets, the share that never arrives. Noise source: "packet_loss".
+  static constexpr double kPacketLoss = 0.01;
+  SimulatedLink(SimulatedWorld world, const VehicleModel& model, double packet_loss, std::uint64_t seed);
+
+  /// Errors: kTimeout: nothing came within `timeout` of simulated time, which has passed now.
+  /// kEndOfRecording: the vehicle has landed and everything it sent was delivered.
+  [[nodiscard]] Result<LinkFrame> receive(Duration timeout) override;
+  /// Error: kInvalidInput: a packet has 1 to 31 bytes.
+  [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
+
+  /// The truth at any time of the vehicle's clock up to now.
+  [[nodiscard]] Pose2 T_world_body(DeviceTime at) const { return vehicle_.T_world_body(at); }
+  /// Of the flight, 0 to 1.
+  [[nodiscard]] double progress() const { return vehicle_.progress(); }
+
+ private:
+  void queue(LinkDirection direction, DeviceTime at, std::span<const std::uint8_t> packet);
+  [[nodiscard]] HostTime host_time(DeviceTime at) const;
+
+  SimulatedVehicle vehicle_;
+  NoiseSource loss_noise_;
+  double packet_loss_;
+  DeviceTime opened_at_;
+  std::deque<LinkFrame> heard_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/fixed_vector.hpp"
+#include "core/base/time.hpp"
+#include "firmware_link/simulated_log_table.hpp"
+#include "firmware_link/simulated_random.hpp"
+
+namespace swiftlet {
+
+/// A CRTP packet: header byte and up to 30 data bytes.
+using PacketBytes = FixedVector<std::uint8_t, 31>;
+
+/// The log service of the vehicle's firmware (CRTP port 5, protocol version 12): table of contents, log
+/// blocks with the firmware's limits and error codes, and their packets. One thread at a time; allocates.
+class SimulatedLog {
+ public:
+  using Milliseconds = std::chrono::milliseconds;
+
+  /// The vehicle's clock when its packets are stamped jitters by +-1 ms. Noise source: "log_jitter/<block>".
+  explicit SimulatedLog(std::uint64_t seed) : seed_(seed) {}
+
+  [[nodiscard]] bool has_running_block() const;
+  /// The answer to a packet of port 5, received at `now` (since boot); nullopt where the firmware keeps
+  /// silent.
+  [[nodiscard]] std::optional<PacketBytes> handle(std::span<const std::uint8_t> packet, Milliseconds now);
+  /// The packets of all blocks that are due at `now`, in the order of block ids. To be called each
+  /// millisecond.
+  [[nodiscard]] std::vector<PacketBytes> sample(Milliseconds now, const VehicleState& state);
+
+ private:
+  struct Entry {
+    SimulatedLogType fetch_type;
+    std::uint16_t variable;
+  };
+  struct Block {
+    std::vector<Entry> entries;
+    Milliseconds period{0};  // 0: not running
+    Milliseconds beat{0};    // the block's next even beat...
+    Milliseconds due{0};     // ...and when it is really sampled
+    bool one_shot_due = false;
+    NoiseSource jitter;
+    void schedule_after(Milliseconds now);
+  };
+
+  [[nodiscard]] std::uint8_t control(std::span<const std::uint8_t> packet, Milliseconds now);
+  [[nodiscard]] std::uint8_t create(std::uint8_t id, std::span<const std::uint8_t> entries);
+  [[nodiscard]] std::uint8_t append(std::uint8_t id, std::span<const std::uint8_t> entries);
+  [[nodiscard]] std::uint8_t start(std::uint8_t id, Milliseconds period, Milliseconds now);
+  [[nodiscard]] std::uint8_t stop(std::uint8_t id);
+  [[nodiscard]] static PacketBytes data_packet(std::uint8_t id, const Block& block, Milliseconds now,
+                                               const VehicleState& state);
+  [[nodiscard]] std::size_t entries_in_use() const;
+
+  std::uint64_t seed_;
+  std::map<std::uint8_t, Block> blocks_;
+};
+
+}  // namespace swiftlet

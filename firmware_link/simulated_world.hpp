@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// A straight, infinitely thin wall from floor to ceiling, in the world frame.
+struct WallSegment {
+  Point2 start;
+  Point2 end;
+};
+
+enum class PilotHeading : std::uint8_t {
+  kIntoTravel,  ///< turns the nose into the direction of travel
+  kKeep,        ///< keeps the nose where it points: flies sideways or backwards
+};
+
+/// One leg of a flight: how to get to `position` and what to do there.
+struct Waypoint {
+  Point2 position;
+  PilotHeading heading = PilotHeading::kIntoTravel;
+  double spin_rad = 0.0;  ///< on arrival the pilot stops and looks around by this much, left positive
+};
+
+/// Rooms and the flight through them. The first waypoint is where the vehicle stands before take-off, its
+/// nose towards the second.
+struct SimulatedWorld {
+  std::vector<WallSegment> walls;
+  std::vector<Waypoint> flight;
+};
+
+/// The names that make_simulated_world() knows, as a list for people: "office, maze, loop, corridors".
+[[nodiscard]] std::string_view simulated_world_names();
+
+/// The floor plan of that name. kNotFound: no such world; the message lists those there are.
+[[nodiscard]] Result<SimulatedWorld> make_simulated_world(std::string_view name);
+
+struct RayHit {
+  double distance_m = 0.0;
+  double cos_incidence = 1.0;  ///< between ray and wall normal: 1 when the ray meets the wall squarely
+};
+
+/// The nearest wall along the ray from `origin`; nullopt when none lies within `max_distance_m`.
+[[nodiscard]] std::optional<RayHit> cast_ray(std::span<const WallSegment> walls, const Point2& origin,
+                                             double direction_rad, double max_distance_m);
+
+}  // namespace swiftlet
