@@ -20,8 +20,8 @@ struct FlowOdometryModel {
   double scale_wander = 0.02;        ///< of the floor underneath: standard deviation...
   double scale_wander_time_s = 6.0;  ///< ...and correlation time
   double velocity_noise_m_s = 0.05;  ///< white, at each step
-  double yaw_bias_min_rad_s = radians(1.0) / 60.0;  ///< constant, of either sign, evenly between
-  double yaw_bias_max_rad_s = radians(2.5) / 60.0;
+  double yaw_bias_min_rad_s = radians(1.5) / 60.0;  ///< constant, of either sign, evenly between
+  double yaw_bias_max_rad_s = radians(3.0) / 60.0;
   double yaw_walk_rad_sqrt_s = radians(0.6);  ///< random walk: standard deviation after one second
   double turn_scale_spread = 0.01;            ///< of the yaw rate, evenly between plus and minus this
   double slips_per_s = 1.0 / 45.0;            ///< stretches where the flow sensor misses part of the motion
