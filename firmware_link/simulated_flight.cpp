@@ -12,10 +12,9 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kStepS = 0.01;
-static_assert(kFlightStep == std::chrono::milliseconds(10));
-constexpr double kTakeOffS = 2.0;
-constexpr double kLandingS = 2.0;
+constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
+constexpr int kTakeOffSteps = 200;
+constexpr int kLandingSteps = 200;
 constexpr double kLookAheadM = 0.35;         // how far ahead of the vehicle the pilot aims
 constexpr double kArrivedM = 0.1;            // near enough to a place where there is something to do
 constexpr double kVelocityResponseS = 0.3;   // velocity follows the stick with this time constant
@@ -163,16 +162,16 @@ class Pilot {
 std::vector<FlightState> fly(const SimulatedWorld& world, const PilotModel& model, std::uint64_t seed) {
   Pilot pilot(world, model, seed);
   std::vector<FlightState> states{pilot.state()};
-  for (double t = kStepS; t <= kTakeOffS; t += kStepS) {
-    pilot.hover(model.height_m * t / kTakeOffS);
+  for (int i = 1; i <= kTakeOffSteps; ++i) {
+    pilot.hover(model.height_m * i / kTakeOffSteps);
     states.push_back(pilot.state());
   }
   while (!pilot.arrived()) {
     pilot.step();
     states.push_back(pilot.state());
   }
-  for (double t = kStepS; t <= kLandingS; t += kStepS) {
-    pilot.hover(model.height_m * (1.0 - t / kLandingS));
+  for (int i = kLandingSteps - 1; i >= 0; --i) {
+    pilot.hover(model.height_m * i / kLandingSteps);
     states.push_back(pilot.state());
   }
   return states;

@@ -77,51 +77,23 @@ std::vector<WallSegment> office_walls() {
   return plan.take();
 }
 
-/// Once round the ring to the left with a look into four rooms, then through the passage and round again to
-/// the right with the other four.
+/// Round the ring to the left with a look into four rooms; on to the left through its right half and the
+/// passage, then to the right round its left half, with a look into the other four.
 std::vector<Waypoint> office_flight() {
-  return {{{10.1, 5.0}},
-          {{13.0, 5.0}},
-          {{13.0, 1.8}, kTravel, 2.0 * kPi},
-          {{13.0, 5.0}},
-          {{19.0, 5.0}},
-          {{19.0, 10.0}},
-          {{16.6, 10.0}},
-          {{16.6, 12.8}},
-          {{14.8, 13.0}},
-          {{16.6, 12.8}},
-          {{16.6, 10.0}},
-          {{5.5, 10.0}},
-          {{5.5, 7.5}},
-          {{4.0, 7.5}},
-          {{7.2, 7.5}, kKeep},
-          {{5.5, 7.5}},
-          {{5.5, 10.0}},
-          {{1.0, 10.0}},
-          {{1.0, 5.0}},
-          {{2.5, 5.0}},
-          {{2.5, 2.0}},
-          {{2.5, 5.0}, kKeep},
-          {{10.1, 5.0}},
-          {{10.1, 10.0}},
-          {{19.0, 10.0}},
-          {{19.0, 5.0}},
-          {{17.4, 5.0}},
-          {{17.4, 2.0}, kTravel, -2.0 * kPi},
-          {{17.4, 5.0}},
-          {{7.6, 5.0}},
-          {{7.6, 2.2}},
-          {{7.6, 5.0}, kKeep},
-          {{1.0, 5.0}},
-          {{1.0, 10.0}},
-          {{3.2, 10.0}},
-          {{3.2, 12.8}, kTravel, kPi},
-          {{3.2, 10.0}},
-          {{9.8, 10.0}},
-          {{9.8, 12.5}},
-          {{9.8, 10.0}},
-          {{10.1, 8.0}},
-          {{10.1, 5.0}}};
+  return {{{10.1, 5.0}},       {{13.0, 5.0}},       {{13.0, 1.8}, kTravel, 2.0 * kPi},
+          {{13.0, 5.0}},       {{19.0, 5.0}},       {{19.0, 10.0}},
+          {{16.6, 10.0}},      {{16.6, 12.8}},      {{14.8, 13.0}},
+          {{16.6, 12.8}},      {{16.6, 10.0}},      {{5.5, 10.0}},
+          {{5.5, 7.5}},        {{4.0, 7.5}},        {{7.2, 7.5}, kKeep},
+          {{5.5, 7.5}},        {{5.5, 10.0}},       {{1.0, 10.0}},
+          {{1.0, 5.0}},        {{2.5, 5.0}},        {{2.5, 2.0}},
+          {{2.5, 5.0}, kKeep}, {{17.4, 5.0}},       {{17.4, 2.0}, kTravel, -2.0 * kPi},
+          {{17.4, 5.0}},       {{19.0, 5.0}},       {{19.0, 10.0}},
+          {{10.1, 10.0}},      {{10.1, 5.0}},       {{7.6, 5.0}},
+          {{7.6, 2.2}},        {{7.6, 5.0}, kKeep}, {{1.0, 5.0}},
+          {{1.0, 10.0}},       {{3.2, 10.0}},       {{3.2, 12.8}, kTravel, kPi},
+          {{3.2, 10.0}},       {{9.8, 10.0}},       {{9.8, 12.5}},
+          {{9.8, 10.0}},       {{10.1, 8.0}},       {{10.1, 5.0}}};
 }
 
 /// One corridor around a block, 25 m x 15 m.
@@ -190,10 +162,10 @@ constexpr std::array<std::string_view, 11> kMaze{"+--+--+--+--+--+--+--+",  //
                                                  "+--+  +  +  +--+--+  +",  //
                                                  "|     |     |        |",  //
                                                  "+--+--+--+--+--+--+--+"};
-/// The flight as moves from cell to cell, from the lower left corner and back: every passage at least once,
-/// most of them in both directions.
+/// The flight as moves from cell to cell, from the lower left corner through the whole maze and back, most of
+/// it in both directions, and a piece of the way again.
 constexpr std::string_view kMazeMoves =
-    "ENESENNEENSENNWWSWNWWSEEWWSEEWWWNNEWSSSNENNEESENEESSSSWWEENWWWEEENWWWSSWNWSW";
+    "ENESENNEENSENNWWSWNWWSEEWWSEEWWWNNEWSSSNENNEESENEESSSSWWEENNWWWSSWNWSWENESENNEE";
 
 /// The waypoint that a step from `at` leads to.
 Point2 maze_step(const Point2& at, char move) {

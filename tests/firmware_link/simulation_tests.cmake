@@ -1,0 +1,6 @@
+swiftlet_add_test(simulated_random_test LINK swiftlet_simulation)
+swiftlet_add_test(simulated_world_test LINK swiftlet_simulation)
+swiftlet_add_test(simulated_floor_plans_test LINK swiftlet_simulation)
+swiftlet_add_test(simulated_flight_test LINK swiftlet_simulation)
+swiftlet_add_test(simulated_ranger_test LINK swiftlet_simulation)
+swiftlet_add_test(simulated_odometry_test LINK swiftlet_simulation)
