@@ -55,10 +55,10 @@ SimulatedLink::SimulatedLink(SimulatedWorld world, const VehicleModel& model, do
       opened_at_(vehicle_.now()) {}
 
 Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
-  const DeviceTime deadline = vehicle_.now() + timeout;
+  const DeviceTime asked_at = vehicle_.now();
   while (heard_.empty()) {
     if (vehicle_.is_finished()) return Error{ErrorCode::kEndOfRecording, "the simulated flight is over"};
-    if (vehicle_.now() + kStep > deadline)
+    if (vehicle_.now() - asked_at + kStep > timeout)
       return Error{ErrorCode::kTimeout, "nothing heard from the simulated vehicle"};
     for (const SentPacket& sent : vehicle_.advance(vehicle_.now() + kStep)) {
       if (loss_noise_.chance(packet_loss_)) continue;

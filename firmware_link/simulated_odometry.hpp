@@ -10,8 +10,8 @@
 
 namespace swiftlet {
 
-/// How flow and gyro err. Calibrated on the two reference flights, raw odometry against the trajectories
-/// corrected by the paper's code: olsson (294 m in 377 s) and rice (192 m in 311 s). Heading: changes of the
+/// How flow and gyro err. Calibrated on the two reference flights, raw odometry against the published
+/// corrected trajectories: olsson (294 m in 377 s) and rice (192 m in 311 s). Heading: changes of the
 /// error from minute to minute of 5 and 7 degrees (standard deviation), 19 and 23 degrees between its
 /// extremes, 15 degrees left at the end of olsson. Scale: 0.992 and 0.999, +-3 % and +-2 % from one 3 m chord
 /// to the next. Position after rigid alignment: 1.30 and 1.02 m RMS. With the values below the simulated

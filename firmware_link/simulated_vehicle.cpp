@@ -151,7 +151,7 @@ void SimulatedVehicle::tick() {
 
 void SimulatedVehicle::fly_on() {
   const FlightState& truth = flight_[flight_index(now_)];
-  if (!is_finished()) odometry_.step(truth);
+  odometry_.step(truth);
   show(truth);
 }
 
