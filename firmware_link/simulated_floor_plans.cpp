@@ -183,14 +183,14 @@ Point2 maze_step(const Point2& at, char move) {
 
 std::vector<WallSegment> maze_walls() {
   FloorPlan plan;
-  for (std::size_t row = 0; row < kMaze.size(); ++row) {
-    const std::string_view line = kMaze[row];
-    const double top_m = kMazeCell * static_cast<double>(kMaze.size() - 1 - row) / 2.0;
-    for (std::size_t column = 0; column < line.size(); ++column) {
-      const double x_m = kMazeCell * static_cast<double>(column / 3);
-      if (line[column] == '|') plan.wall_y(x_m, top_m - kMazeCell / 2.0, top_m + kMazeCell / 2.0);
-      if (line[column] == '-' && column % 3 == 1) plan.wall_x(top_m, x_m, x_m + kMazeCell);
+  double y_m = kMazeCell * static_cast<double>(kMaze.size() / 2);  // of the line, downwards
+  for (const std::string_view line : kMaze) {
+    double x_m = 0.0;
+    for (std::size_t column = 0; column < line.size(); column += 3, x_m += kMazeCell) {
+      if (line[column] == '|') plan.wall_y(x_m, y_m - kMazeCell / 2.0, y_m + kMazeCell / 2.0);
+      if (line.substr(column).starts_with("+-")) plan.wall_x(y_m, x_m, x_m + kMazeCell);
     }
+    y_m -= kMazeCell / 2.0;
   }
   return plan.take();
 }

@@ -3,8 +3,7 @@
 #include "firmware_link/simulated_link.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
+#include <string>
 #include <utility>
 
 namespace swiftlet {
@@ -12,34 +11,8 @@ namespace {
 
 constexpr HostTime kOpened{std::chrono::seconds(1'767'225'600)};  // 2026-01-01 00:00:00 UTC
 constexpr std::chrono::milliseconds kStep{1};
-constexpr std::string_view kScheme = "sim://";
-constexpr std::string_view kSeedKey = "seed=";
-
-Error bad_uri(std::string_view uri, std::string_view what) {
-  return {ErrorCode::kInvalidInput,
-          std::string(uri) + ": " + std::string(what) +
-              "; write sim://WORLD?seed=N with WORLD one of: " + std::string(simulated_world_names())};
-}
 
 }  // namespace
-
-Result<SimulationUri> parse_simulation_uri(std::string_view uri) {
-  if (!uri.starts_with(kScheme)) return bad_uri(uri, "not a simulation");
-  const std::string_view rest = uri.substr(kScheme.size());
-  const std::size_t mark = rest.find('?');
-  SimulationUri parsed{.world = std::string(rest.substr(0, mark))};
-  const Result<SimulatedWorld> world = make_simulated_world(parsed.world);
-  if (!world) return world.error();
-  if (mark == std::string_view::npos) return parsed;
-  std::string_view query = rest.substr(mark + 1);
-  if (!query.starts_with(kSeedKey)) return bad_uri(uri, "the only option is seed");
-  query.remove_prefix(kSeedKey.size());
-  const char* const end = query.data() + query.size();
-  const auto [stopped_at, error] = std::from_chars(query.data(), end, parsed.seed);
-  if (error != std::errc() || stopped_at != end)
-    return bad_uri(uri, "the seed is a whole number from 0 to 18446744073709551615");
-  return parsed;
-}
 
 Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view world, std::uint64_t seed) {
   Result<SimulatedWorld> made = make_simulated_world(world);

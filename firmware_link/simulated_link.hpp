@@ -6,7 +6,6 @@
 #include <deque>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "core/base/result.hpp"
@@ -16,16 +15,6 @@
 #include "firmware_link/simulated_vehicle.hpp"
 
 namespace swiftlet {
-
-/// What a `sim://WORLD?seed=N` asks for.
-struct SimulationUri {
-  std::string world;
-  std::uint64_t seed = 1;  ///< when the URI names none
-};
-
-/// kInvalidInput: not of that form, or the seed is no whole number of 0 or more; kNotFound: no such world.
-/// The message shows the form and lists the worlds.
-[[nodiscard]] Result<SimulationUri> parse_simulation_uri(std::string_view uri);
 
 /// A simulated vehicle in a simulated world behind a link that answers every request but loses some log
 /// packets. Time is simulated too: receive() moves it on to the next frame and never waits, host time is a

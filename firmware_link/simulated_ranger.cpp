@@ -10,7 +10,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kRaysEachSide = 4;
+constexpr std::size_t kRaysEachSide = 4;
 constexpr std::size_t kRays = 2 * kRaysEachSide + 1;
 constexpr double kMergedBehindM = 0.4;  // closer together than that, two returns are one pulse
 constexpr std::int32_t kNotValidMm = 32767;
@@ -23,9 +23,9 @@ struct ConeRay {
 };
 std::array<ConeRay, kRays> cone_rays() {
   std::array<ConeRay, kRays> rays{};
-  for (int i = -kRaysEachSide; i <= kRaysEachSide; ++i) {
-    const double offset = static_cast<double>(i) / (kRaysEachSide + 1);
-    rays[static_cast<std::size_t>(i + kRaysEachSide)] = {offset, std::sqrt(1.0 - offset * offset)};
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const double offset = (static_cast<double>(i) - kRaysEachSide) / (kRaysEachSide + 1);
+    rays[i] = {offset, std::sqrt(1.0 - offset * offset)};
   }
   return rays;
 }

@@ -26,8 +26,8 @@ struct RangerModel {
 /// What comes back from the whole cone, before noise.
 struct ConeReturn {
   double distance_m = 0.0;
-  /// The distance at which a squarely met wall would return as little light; never below the nearest ray by
-  /// more than the cone explains. Grows with distance and incidence.
+  /// The distance at which a wall that is met squarely and fills the cone returns as little light: grows with
+  /// distance, with incidence, and where the target fills the cone only in part.
   double dimness_m = 0.0;
 };
 

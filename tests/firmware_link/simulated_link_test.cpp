@@ -193,33 +193,5 @@ TEST(SimulatedLink, ListsTheWorldsForAnUnknownOne) {
             "no simulated world is called \"cave\"; choose one of: office, maze, loop, corridors");
 }
 
-TEST(ParseSimulationUri, TakesAWorldAndASeed) {
-  const Result<SimulationUri> uri = parse_simulation_uri("sim://maze?seed=42");
-  ASSERT_TRUE(uri.ok());
-  EXPECT_EQ(uri->world, "maze");
-  EXPECT_EQ(uri->seed, 42U);
-  EXPECT_EQ(parse_simulation_uri("sim://office").value().seed, 1U);
-}
-
-TEST(ParseSimulationUri, RefusesABadSeedInOneLine) {
-  for (const char* uri : {"sim://office?seed=", "sim://office?seed=-1", "sim://office?seed=3x",
-                          "sim://office?seed=99999999999999999999"}) {
-    const Result<SimulationUri> parsed = parse_simulation_uri(uri);
-    ASSERT_FALSE(parsed.ok()) << uri;
-    EXPECT_EQ(parsed.error().code, ErrorCode::kInvalidInput);
-    EXPECT_EQ(
-        parsed.error().message,
-        std::string(uri) +
-            ": the seed is a whole number from 0 to 18446744073709551615; write sim://WORLD?seed=N with "
-            "WORLD one of: office, maze, loop, corridors");
-  }
-}
-
-TEST(ParseSimulationUri, RefusesOtherOptionsWorldsAndSchemes) {
-  EXPECT_EQ(parse_simulation_uri("sim://office?sed=1").error().code, ErrorCode::kInvalidInput);
-  EXPECT_EQ(parse_simulation_uri("sim://cave?seed=1").error().code, ErrorCode::kNotFound);
-  EXPECT_EQ(parse_simulation_uri("replay:office").error().code, ErrorCode::kInvalidInput);
-}
-
 }  // namespace
 }  // namespace swiftlet
