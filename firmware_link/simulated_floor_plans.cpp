@@ -183,7 +183,8 @@ Point2 maze_step(const Point2& at, char move) {
 
 std::vector<WallSegment> maze_walls() {
   FloorPlan plan;
-  double y_m = kMazeCell * static_cast<double>(kMaze.size() / 2);  // of the line, downwards
+  constexpr std::size_t kRowsOfCells = kMaze.size() / 2;
+  double y_m = kMazeCell * static_cast<double>(kRowsOfCells);  // of the line, downwards
   for (const std::string_view line : kMaze) {
     double x_m = 0.0;
     for (std::size_t column = 0; column < line.size(); column += 3, x_m += kMazeCell) {

@@ -27,10 +27,10 @@ FlowOdometryModel perfect() {
 
 /// Straight ahead at 0.5 m/s.
 std::vector<FlightState> straight_flight(double seconds) {
-  std::vector<FlightState> flight;
-  for (int i = 0; i < static_cast<int>(seconds * 100.0); ++i)
-    flight.push_back({.T_world_body = Pose2(0.005 * i, 0.0, 0.0), .vx_body_m_s = 0.5, .height_m = 0.5});
-  return flight;
+  FlightState cruising;
+  cruising.vx_body_m_s = 0.5;
+  cruising.height_m = 0.5;
+  return std::vector<FlightState>(static_cast<std::size_t>(seconds * 100.0), cruising);
 }
 
 Pose2 estimate_after(const std::vector<FlightState>& flight, const FlowOdometryModel& model,
