@@ -2,14 +2,18 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/frontend/frontend.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/frontend/chi_square.hpp"
 #include "core/frontend/landmark_association.hpp"
 #include "core/frontend/landmark_graph.hpp"
 #include "core/frontend/landmark_graph_solver.hpp"
 #include "core/frontend/line_extractor.hpp"
+#include "core/frontend/odometry_drift.hpp"
 #include "core/sensing/multiscan.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 
@@ -33,11 +37,13 @@ struct Frontend::State {
         odometry_noise(sensor.odometry),
         multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points)),
         extractor(config, sensor.range_sigma_m),
-        chi_square(config.chi_square_confidence) {}
+        chi_square(config.chi_square_confidence),
+        drift(config.min_drift_rad_per_metre) {}
 
   void track_motion(const RangeSample& sample);
   [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
   void add_keyframe_pose(const RangeSample& sample);
+  void retire_oldest_pose();
   void add_line_constraints();
   void insert(const LineSegment& segment);
   void optimize_or_roll_back();
@@ -49,6 +55,7 @@ struct Frontend::State {
   Multiscan multiscan;
   LineExtractor extractor;
   ChiSquareTable chi_square;
+  OdometryDrift drift;
   LandmarkGraph<kCapacity> graph;
   LandmarkGraph<kCapacity>::Checkpoint before_batch;
   LandmarkGraphSolver<kCapacity> solver;
@@ -57,13 +64,15 @@ struct Frontend::State {
 
   std::optional<Pose2> T_odom_previous;
   UncertainMotion since_keyframe;
-  Eigen::Matrix3d motion_covariance_local = Eigen::Matrix3d::Zero();
-  Covariance3 keyframe_motion_covariance;
+  double yaw_correction_rad = 0.0;                                          // of since_keyframe
+  std::array<double, kMaxKeyframeWindow> yaw_correction_of_keyframe_rad{};  // by id, modulo the capacity
+  UncertainMotion keyframe_motion;                                 // from the keyframe before to the newest
+  Eigen::Matrix3d viewpoint_covariance = Eigen::Matrix3d::Zero();  // of the newest keyframe, local frame
   KeyframeId newest{};
   KeyframeId first_of_segment{};
   std::uint32_t next_landmark = 0;
-  std::size_t associated = 0;  // observations of known walls in the present batch
-  double settled_chi_square = 0.0;
+  std::size_t associated = 0;      // observations of known walls in the present batch
+  double chi_square_before = 0.0;  // F without it
   FrontendCounters counters;
   FrontendStep step;
 };
@@ -103,7 +112,11 @@ void Frontend::State::track_motion(const RangeSample& sample) {
   if (sample.starts_segment || !T_odom_previous) {
     multiscan.restart();
   } else {
-    motion = uncertain_step(odometry_noise, between(*T_odom_previous, sample.T_odom_body));
+    const Pose2 T_previous_body = between(*T_odom_previous, sample.T_odom_body);
+    const double correction_rad = drift.yaw_per_metre_rad() * T_previous_body.x_m();
+    yaw_correction_rad += correction_rad;
+    motion = uncertain_step(odometry_noise, Pose2(T_previous_body.x_m(), T_previous_body.y_m(),
+                                                  T_previous_body.yaw_rad() + correction_rad));
     since_keyframe = since_keyframe * motion;
   }
   T_odom_previous = sample.T_odom_body;
@@ -120,33 +133,43 @@ bool Frontend::State::keyframe_due(const RangeSample& sample) const {
 void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
   ++counters.keyframes;
   if (graph.poses().empty()) {
-    keyframe_motion_covariance = Covariance3::from_matrix(unknown_motion().covariance);
+    keyframe_motion = unknown_motion();
     graph.add_first_pose(newest, Pose2());
   } else {
     newest = KeyframeId{index_of(newest) + 1};
-    if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) {
-      counters.landmarks_retired += graph.retire_oldest_pose();
-      ++counters.poses_retired;
-    }
+    keyframe_motion = since_keyframe;
+    const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
+    viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
     if (sample.starts_segment) {
-      // Wherever the vehicle is now, it was not led there by odometry: it stays at the present estimate, and
+      // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate, and
       // walls seen before say nothing about walls seen from here.
-      const Pose2 T_keyframe_body = since_keyframe.T_from_to;
-      since_keyframe = unknown_motion();
-      since_keyframe.T_from_to = T_keyframe_body;
+      keyframe_motion.covariance = unknown_motion().covariance;
+      viewpoint_covariance.setZero();
       first_of_segment = newest;
     }
-    const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
-    motion_covariance_local = J * since_keyframe.covariance * J.transpose();
-    const bool has_room = graph.try_add_pose(newest, since_keyframe);
+    if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) retire_oldest_pose();
+    const bool has_room = graph.try_add_pose(newest, keyframe_motion);
     SWIFTLET_CHECK(has_room, "the window is no longer than the graph's capacity");
-    keyframe_motion_covariance = Covariance3::from_matrix(since_keyframe.covariance);
   }
+  yaw_correction_of_keyframe_rad[index_of(newest) % kMaxKeyframeWindow] =
+      std::exchange(yaw_correction_rad, 0.0);
   since_keyframe = UncertainMotion();
+}
+
+void Frontend::State::retire_oldest_pose() {
+  const PoseVertex& from = graph.poses()[0];
+  const PoseVertex& to = graph.poses()[1];
+  // Its best estimate, made with all that was seen since; what was corrected already counts as error too.
+  const double yaw_error_rad = motion_error(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) +
+                               yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
+  drift.learn(to.T_previous_body.x_m(), yaw_error_rad, 1.0 / to.information(2, 2));
+  counters.landmarks_retired += graph.retire_oldest_pose();
+  ++counters.poses_retired;
 }
 
 void Frontend::State::add_line_constraints() {
   associated = 0;
+  chi_square_before = graph.chi_square();
   counters.lines_extracted += segments.size();
   for (const LineSegment& segment : segments) insert(segment);
 }
@@ -154,7 +177,7 @@ void Frontend::State::add_line_constraints() {
 void Frontend::State::insert(const LineSegment& segment) {
   const auto lag = static_cast<std::uint32_t>(config.association_keyframes);
   const std::uint32_t oldest = index_of(newest) > lag ? index_of(newest) - lag : 0;
-  const Viewpoint viewpoint{graph.poses().back().T_local_body, motion_covariance_local};
+  const Viewpoint viewpoint{graph.poses().back().T_local_body, viewpoint_covariance};
   const std::optional<std::size_t> known =
       associate(graph.landmarks(), segment, viewpoint,
                 KeyframeId{std::max(oldest, index_of(first_of_segment))}, config);
@@ -177,20 +200,19 @@ void Frontend::State::insert(const LineSegment& segment) {
 // On F as a whole, as in the paper, one bad batch hides among many good ones, and then spoils the next.
 void Frontend::State::optimize_or_roll_back() {
   if (associated > 0) {
-    const double increase = solver.optimize(graph, config.solver_iterations).chi_square - settled_chi_square;
+    const double increase = solver.optimize(graph, config.solver_iterations).chi_square - chi_square_before;
     if (increase > chi_square.quantile(2 * associated)) {
       graph.restore(before_batch);
       ++counters.batches_rolled_back;
     }
   }
-  settled_chi_square = graph.chi_square();
   graph.update_end_points();
 }
 
 void Frontend::State::report_keyframe(bool starts_segment) {
   Keyframe& made = step.made;
   made.id = newest;
-  made.motion_covariance = keyframe_motion_covariance;
+  made.motion_covariance = Covariance3::from_matrix(keyframe_motion.covariance);
   made.starts_segment = starts_segment || counters.keyframes == 1;
   made.T_local_keyframe.clear();
   for (const PoseVertex& pose : graph.poses()) {

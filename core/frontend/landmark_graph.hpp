@@ -100,8 +100,6 @@ class LandmarkGraph {
 
   /// F(X) of eq. (9) at the present estimates.
   [[nodiscard]] double chi_square() const;
-  /// Of F at its minimum: numbers measured less numbers estimated.
-  [[nodiscard]] std::size_t degrees_of_freedom() const;
 
   /// Estimates and sizes to go back to: lines 7 and 12 of Algorithm 1.
   class Checkpoint {

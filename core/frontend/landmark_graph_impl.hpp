@@ -5,6 +5,7 @@
 // Definitions of the members of LandmarkGraph; included by landmark_graph.hpp alone.
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 
 #include "core/frontend/landmark_graph.hpp"
 
@@ -160,14 +161,6 @@ double LandmarkGraph<kCapacity>::chi_square() const {
     sum += e.dot(landmark.prior.information * e);
   }
   return sum;
-}
-
-template <LandmarkGraphCapacity kCapacity>
-std::size_t LandmarkGraph<kCapacity>::degrees_of_freedom() const {
-  // Every pose but the gauge is estimated from one motion: three numbers each, which cancel.
-  std::size_t measured = 2 * observations_.size();
-  for (const Landmark& landmark : landmarks_) measured += landmark.prior.has_extent ? 2 : 0;
-  return measured - 2 * landmarks_.size();
 }
 
 template <LandmarkGraphCapacity kCapacity>

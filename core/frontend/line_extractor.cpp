@@ -48,6 +48,9 @@ std::size_t LineExtractor::extract(const MultiscanView& view, LineSegments& segm
   return left_out;
 }
 
+// Beam by beam, each in the order of time: a beam sweeps along a wall as the vehicle moves, and what it sees
+// in succession lies side by side. Ordered by bearing, surfaces that older poses saw behind nearer ones would
+// interleave. What several beams saw of one wall is put together by merge().
 void LineExtractor::order_points(const MultiscanView& view) {
   order_.clear();
   for (std::size_t i = 0; i < view.points.size(); ++i) {
@@ -77,11 +80,11 @@ void LineExtractor::split(const MultiscanView& view) {
 }
 
 void LineExtractor::split_run(const MultiscanView& view, Range run) {
-  FixedVector<Range, kMaxMultiscanPoints> waiting;
-  bool has_room = waiting.try_push_back(run);
-  while (!waiting.empty()) {
-    const Range range = waiting.back();
-    waiting.truncate(waiting.size() - 1);
+  waiting_.clear();
+  bool has_room = waiting_.try_push_back(run);
+  while (!waiting_.empty()) {
+    const Range range = waiting_.back();
+    waiting_.truncate(waiting_.size() - 1);
     const Point2& a = view.points[order_[range.first]].p_body;
     const Point2& b = view.points[order_[range.last]].p_body;
     double farthest_m = 0.0;
@@ -97,8 +100,8 @@ void LineExtractor::split_run(const MultiscanView& view, Range run) {
       add_piece(view, range);
       continue;
     }
-    has_room = waiting.try_push_back({split_at, range.last}) &&
-               waiting.try_push_back({range.first, split_at - 1}) && has_room;
+    has_room = waiting_.try_push_back({split_at, range.last}) &&
+               waiting_.try_push_back({range.first, split_at - 1}) && has_room;
   }
   SWIFTLET_CHECK(has_room, "pieces of a run are fewer than its points");
 }

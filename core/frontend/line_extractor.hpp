@@ -67,6 +67,7 @@ class LineExtractor {
   FrontendConfig config_;
   double range_variance_m2_;
   FixedVector<std::uint16_t, kMaxMultiscanPoints> order_;
+  FixedVector<Range, kMaxMultiscanPoints> waiting_;  // to be split further
   FixedVector<Piece, kMaxMultiscanPoints> pieces_;
   std::array<std::uint16_t, kMaxMultiscanPoints> label_{};  // of each point; merged pieces share one
 };
