@@ -21,6 +21,7 @@ namespace swiftlet {
 namespace {
 
 constexpr LandmarkGraphCapacity kCapacity{kMaxKeyframeWindow, 128, 1024};
+static_assert(kMaxLinesPerMultiscan <= kMaxWallsPerKeyframe);
 
 // So uncertain that the graph gets nothing from it, yet stays solvable.
 UncertainMotion unknown_motion() {
@@ -229,7 +230,8 @@ void Frontend::State::report_walls(Keyframe& keyframe) const {
     if (landmark.last_seen != newest) continue;
     const WallUpdate wall{landmark.id, T_body_local * landmark.start_local,
                           T_body_local * landmark.end_local};
-    if (!keyframe.walls.try_push_back(wall)) return;  // as many as one multiscan can show
+    const bool has_room = keyframe.walls.try_push_back(wall);
+    SWIFTLET_CHECK(has_room, "a keyframe reports as many walls as a multiscan shows");
   }
 }
 

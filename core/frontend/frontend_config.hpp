@@ -17,7 +17,8 @@ struct FrontendConfig {
   int multiscan_points = 120;              ///< k scans are seen together, k = ceil(this / beams), at least 2
 
   /// Systematic yaw of the dead reckoning, in rad per metre travelled forward, is learnt from the walls and
-  /// taken out where it exceeds this; smaller values cannot be told from the walls' own errors.
+  /// taken out where it exceeds this; smaller values cannot be told from the walls' own errors. A large
+  /// value keeps the dead reckoning as it is.
   double min_drift_rad_per_metre = radians(0.5);
 
   // Line extraction
