@@ -63,6 +63,12 @@ class FixedVector {
     std::move(begin() + i + 1, end(), begin() + i);
     --size_;
   }
+  /// Removes the first `count` items, keeping the order of the others.
+  constexpr void erase_front(std::size_t count) {
+    SWIFTLET_CHECK(count <= size_, "no more is removed than there is");
+    std::move(begin() + count, end(), begin());
+    size_ -= count;
+  }
 
  private:
   std::array<T, kCapacity> items_{};

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/frontend/frontend.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/frontend/chi_square.hpp"
+#include "core/frontend/landmark_association.hpp"
+#include "core/frontend/landmark_graph.hpp"
+#include "core/frontend/landmark_graph_solver.hpp"
+#include "core/frontend/line_extractor.hpp"
+#include "core/frontend/odometry_drift.hpp"
+#include "core/sensing/multiscan.hpp"
+#include "core/sensing/odometry_covariance.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr LandmarkGraphCapacity kCapacity{kMaxKeyframeWindow, 128, 1024};
+static_assert(kMaxLinesPerMultiscan <= kMaxWallsPerKeyframe);
+
+// So uncertain that the graph gets nothing from it, yet stays solvable.
+UncertainMotion unknown_motion() {
+  UncertainMotion motion;
+  motion.covariance.diagonal() << 1e4, 1e4, 1e2;
+  return motion;
+}
+
+}  // namespace
+
+struct Frontend::State {
+  State(const FrontendConfig& config_in, const SensorModel& sensor, const BeamLayout& beams)
+      : config(config_in),
+        odometry_noise(sensor.odometry),
+        multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points)),
+        extractor(config, sensor.range_sigma_m),
+        chi_square(config.chi_square_confidence),
+        drift(config.min_drift_rad_per_metre) {}
+
+  void track_motion(const RangeSample& sample);
+  [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
+  void add_keyframe_pose(const RangeSample& sample);
+  void retire_oldest_pose();
+  void add_line_constraints();
+  void insert(const LineSegment& segment);
+  void optimize_or_roll_back();
+  void report_keyframe(bool starts_segment);
+  void report_walls(Keyframe& keyframe) const;
+
+  FrontendConfig config;
+  OdometryNoise odometry_noise;
+  Multiscan multiscan;
+  LineExtractor extractor;
+  ChiSquareTable chi_square;
+  OdometryDrift drift;
+  LandmarkGraph<kCapacity> graph;
+  LandmarkGraph<kCapacity>::Checkpoint before_batch;
+  LandmarkGraphSolver<kCapacity> solver;
+  MultiscanView view;
+  LineSegments segments;
+
+  std::optional<Pose2> T_odom_previous;
+  UncertainMotion since_keyframe;
+  double yaw_correction_rad = 0.0;                                          // of since_keyframe
+  std::array<double, kMaxKeyframeWindow> yaw_correction_of_keyframe_rad{};  // by id, modulo the capacity
+  UncertainMotion keyframe_motion;                                 // from the keyframe before to the newest
+  Eigen::Matrix3d viewpoint_covariance = Eigen::Matrix3d::Zero();  // of the newest keyframe, local frame
+  KeyframeId newest{};
+  KeyframeId first_of_segment{};
+  std::uint32_t next_landmark = 0;
+  std::size_t associated = 0;      // observations of known walls in the present batch
+  double chi_square_before = 0.0;  // F without it
+  FrontendCounters counters;
+  FrontendStep step;
+};
+
+Frontend::Frontend(const FrontendConfig& config, const SensorModel& sensor, const BeamLayout& beams)
+    : state_(std::make_unique<State>(config, sensor, beams)) {}
+Frontend::~Frontend() = default;
+
+const FrontendCounters& Frontend::counters() const noexcept { return state_->counters; }
+
+// Algorithm 1; its lines in the comments.
+const FrontendStep& Frontend::process(const RangeSample& sample) noexcept {
+  State& s = *state_;
+  ++s.counters.samples;
+  s.track_motion(sample);
+  s.step.has_keyframe = s.keyframe_due(sample);
+  if (s.step.has_keyframe) {
+    s.add_keyframe_pose(sample);  // line 1
+    if (s.config.use_landmarks) {
+      s.multiscan.assemble(s.view);                                        // line 2
+      s.counters.refused_full += s.extractor.extract(s.view, s.segments);  // line 3
+      s.graph.save(s.before_batch);                                        // line 7
+      s.add_line_constraints();                                            // lines 4-6
+      s.optimize_or_roll_back();                                           // lines 8-14
+    }
+    s.report_keyframe(sample.starts_segment);
+  }
+  s.step.sample = sample;
+  s.step.keyframe = s.newest;
+  s.step.T_keyframe_body = s.since_keyframe.T_from_to;
+  s.step.T_local_body = s.graph.poses().back().T_local_body * s.since_keyframe.T_from_to;
+  return s.step;
+}
+
+void Frontend::State::track_motion(const RangeSample& sample) {
+  UncertainMotion motion;
+  if (sample.starts_segment || !T_odom_previous) {
+    multiscan.restart();
+  } else {
+    const Pose2 T_previous_body = between(*T_odom_previous, sample.T_odom_body);
+    const double correction_rad = drift.yaw_per_metre_rad() * T_previous_body.x_m();
+    yaw_correction_rad += correction_rad;
+    motion = uncertain_step(odometry_noise, Pose2(T_previous_body.x_m(), T_previous_body.y_m(),
+                                                  T_previous_body.yaw_rad() + correction_rad));
+    since_keyframe = since_keyframe * motion;
+  }
+  T_odom_previous = sample.T_odom_body;
+  multiscan.add(sample, motion);
+}
+
+bool Frontend::State::keyframe_due(const RangeSample& sample) const {
+  const Pose2& moved = since_keyframe.T_from_to;
+  return sample.starts_segment || graph.poses().empty() ||
+         std::hypot(moved.x_m(), moved.y_m()) >= config.keyframe_distance_m ||
+         std::abs(moved.yaw_rad()) >= config.keyframe_turn_rad;
+}
+
+void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
+  ++counters.keyframes;
+  if (graph.poses().empty()) {
+    keyframe_motion = unknown_motion();
+    graph.add_first_pose(newest, Pose2());
+  } else {
+    newest = KeyframeId{index_of(newest) + 1};
+    keyframe_motion = since_keyframe;
+    const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
+    viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
+    if (sample.starts_segment) {
+      // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate, and
+      // walls seen before say nothing about walls seen from here.
+      keyframe_motion.covariance = unknown_motion().covariance;
+      viewpoint_covariance.setZero();
+      first_of_segment = newest;
+    }
+    if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) retire_oldest_pose();
+    const bool has_room = graph.try_add_pose(newest, keyframe_motion);
+    SWIFTLET_CHECK(has_room, "the window is no longer than the graph's capacity");
+  }
+  yaw_correction_of_keyframe_rad[index_of(newest) % kMaxKeyframeWindow] =
+      std::exchange(yaw_correction_rad, 0.0);
+  since_keyframe = UncertainMotion();
+}
+
+void Frontend::State::retire_oldest_pose() {
+  const PoseVertex& from = graph.poses()[0];
+  const PoseVertex& to = graph.poses()[1];
+  // Its best estimate, made with all that was seen since; what was corrected already counts as error too.
+  const double yaw_error_rad = motion_error(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) +
+                               yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
+  drift.learn(to.T_previous_body.x_m(), yaw_error_rad, 1.0 / to.information(2, 2));
+  counters.landmarks_retired += graph.retire_oldest_pose();
+  ++counters.poses_retired;
+}
+
+void Frontend::State::add_line_constraints() {
+  associated = 0;
+  chi_square_before = graph.chi_square();
+  counters.lines_extracted += segments.size();
+  for (const LineSegment& segment : segments) insert(segment);
+}
+
+void Frontend::State::insert(const LineSegment& segment) {
+  const auto lag = static_cast<std::uint32_t>(config.association_keyframes);
+  const std::uint32_t oldest = index_of(newest) > lag ? index_of(newest) - lag : 0;
+  const Viewpoint viewpoint{graph.poses().back().T_local_body, viewpoint_covariance};
+  const std::optional<std::size_t> known =
+      associate(graph.landmarks(), segment, viewpoint,
+                KeyframeId{std::max(oldest, index_of(first_of_segment))}, config);
+  const bool has_room =
+      known ? graph.try_observe(*known, segment) : graph.try_add_landmark(LandmarkId{next_landmark}, segment);
+  if (!has_room) {
+    ++counters.refused_full;
+    return;
+  }
+  ++counters.observations_added;
+  if (known) {
+    ++associated;
+  } else {
+    ++next_landmark;
+    ++counters.landmarks_created;
+  }
+}
+
+// Eq. (19) on what the batch added to F: there the known walls' observations are the only degrees of freedom.
+// On F as a whole, as in the paper, one bad batch hides among many good ones, and then spoils the next.
+void Frontend::State::optimize_or_roll_back() {
+  if (associated > 0) {
+    const double increase = solver.optimize(graph, config.solver_iterations).chi_square - chi_square_before;
+    if (increase > chi_square.quantile(2 * associated)) {
+      graph.restore(before_batch);
+      ++counters.batches_rolled_back;
+    }
+  }
+  graph.update_end_points();
+}
+
+void Frontend::State::report_keyframe(bool starts_segment) {
+  Keyframe& made = step.made;
+  made.id = newest;
+  made.motion_covariance = Covariance3::from_matrix(keyframe_motion.covariance);
+  made.starts_segment = starts_segment || counters.keyframes == 1;
+  made.T_local_keyframe.clear();
+  for (const PoseVertex& pose : graph.poses()) {
+    const bool has_room = made.T_local_keyframe.try_push_back(pose.T_local_body);
+    SWIFTLET_CHECK(has_room, "a keyframe reports as many poses as the window holds");
+  }
+  made.walls.clear();
+  if (config.use_landmarks) report_walls(made);
+}
+
+void Frontend::State::report_walls(Keyframe& keyframe) const {
+  const Pose2 T_body_local = graph.poses().back().T_local_body.inverse();
+  for (const Landmark& landmark : graph.landmarks()) {
+    if (landmark.last_seen != newest) continue;
+    const WallUpdate wall{landmark.id, T_body_local * landmark.start_local,
+                          T_body_local * landmark.end_local};
+    const bool has_room = keyframe.walls.try_push_back(wall);
+    SWIFTLET_CHECK(has_room, "a keyframe reports as many walls as a multiscan shows");
+  }
+}
+
+}  // namespace swiftlet

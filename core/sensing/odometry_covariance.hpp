@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/geometry/pose2.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// First-order error propagation of dead reckoning: eq. (14) of "Efficient 2D Graph SLAM for Sparse Sensing"
+/// (Zhou, Hu, Liu, Khan; IROS 2022), after Smith, Self & Cheeseman 1990. Nothing here allocates.
+struct UncertainMotion {
+  Pose2 T_from_to;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of T_from_to as (x, y, yaw): m^2, m rad, rad^2
+};
+
+/// One step of dead reckoning with its error; a step of exactly no motion has none (the vehicle stood still).
+UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this);
+
+/// T_a_b then T_b_c, their errors independent of one another.
+UncertainMotion operator*(const UncertainMotion& T_a_b, const UncertainMotion& T_b_c);
+
+}  // namespace swiftlet
