@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/backend.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/closure_error.hpp"
+#include "tests/support/dead_reckoning_frontend.hpp"
+#include "tests/support/loop_corridor.hpp"
+#include "tests/support/pose_near.hpp"
+#include "tests/support/trajectory_error.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::IsEmpty;
+
+constexpr double kChiSquare99 = 11.34;  // of three degrees of freedom
+
+/// Errs in what loops can tell; none of them shows a wrong scale.
+TestVehicleModel drifting() {
+  TestVehicleModel model;
+  model.drift_rad_per_m = 0.008;
+  model.odometry_sigma_m = 0.003;
+  return model;
+}
+
+std::unique_ptr<Backend> make_backend(const BackendConfig& config = {}) {
+  return std::make_unique<Backend>(config, SensorModel::crazyflie(), BeamLayout::multiranger());
+}
+
+void feed(Backend& backend, const std::vector<RangeSample>& samples, const DeadReckoningNoise& noise = {}) {
+  DeadReckoningFrontend frontend(noise);
+  for (const RangeSample& sample : samples) backend.add(frontend.process(sample));
+}
+
+/// Two laps of the corridor with drift, flown once for all tests.
+const TestVehicle& two_laps() {
+  static const TestVehicle kVehicle = [] {
+    TestVehicle vehicle = vehicle_at_start(drifting(), 3);
+    fly_along(vehicle, loop_corridor(), "bcdabcda");
+    return vehicle;
+  }();
+  return kVehicle;
+}
+
+/// What a backend makes of the two laps, finish() included; run once for all tests that only look.
+const Backend& finished_two_laps() {
+  static const std::unique_ptr<Backend> kBackend = [] {
+    auto backend = make_backend();
+    feed(*backend, two_laps().samples());
+    backend->finish();
+    return backend;
+  }();
+  return *kBackend;
+}
+
+std::vector<Pose2> corrected(const Backend& backend) {
+  std::vector<Pose2> T_map_body;
+  for (ScanIndex i = 0; i < backend.scans().size(); ++i) T_map_body.push_back(backend.T_map_body(i));
+  return T_map_body;
+}
+std::vector<Pose2> dead_reckoned(const TestVehicle& vehicle) {
+  std::vector<Pose2> T_odom_body;
+  for (const RangeSample& sample : vehicle.samples()) T_odom_body.push_back(sample.T_odom_body);
+  return T_odom_body;
+}
+
+Pose2 true_T_from_to(const TestVehicle& vehicle, const Backend& backend, const LoopClosure& closure) {
+  const auto truth_at = [&](KeyframeId keyframe) {
+    ScanIndex scan = 0;
+    while (backend.scans()[scan].keyframe != keyframe) ++scan;
+    return vehicle.T_world_body()[scan];
+  };
+  return between(truth_at(closure.from), truth_at(closure.to));
+}
+
+TEST(Backend, LoopsBringTheFlightNearTheTruth) {
+  const std::vector<Pose2>& truth = two_laps().T_world_body();
+  const double odometry_m = aligned_rms_error_m(dead_reckoned(two_laps()), truth);
+  ASSERT_GT(odometry_m, 0.5) << "there is something to correct";
+  EXPECT_LT(aligned_rms_error_m(corrected(finished_two_laps()), truth), 0.2 * odometry_m);
+  EXPECT_FALSE(finished_two_laps().closures().empty());
+}
+
+TEST(Backend, ClosuresLieWithinTheUncertaintyTheyClaim) {
+  const Backend& backend = finished_two_laps();
+  std::size_t within = 0;
+  for (const LoopClosure& c : backend.closures())
+    within += chi_square_against(c, true_T_from_to(two_laps(), backend, c)) < kChiSquare99 ? 1U : 0U;
+  EXPECT_GE(static_cast<double>(within), 0.95 * static_cast<double>(backend.closures().size()));
+}
+
+TEST(Backend, CountersTellWhatItHolds) {
+  const Backend& backend = finished_two_laps();
+  const BackendCounters& counters = backend.counters();
+  EXPECT_EQ(counters.scans, two_laps().samples().size());
+  EXPECT_EQ(counters.scans, backend.scans().size());
+  EXPECT_EQ(counters.keyframes, backend.keyframe_count());
+  EXPECT_EQ(counters.closures_accepted, backend.closures().size());
+  EXPECT_GE(counters.candidates_matched, counters.closures_accepted);
+  EXPECT_GT(counters.submaps, 20U) << "76 m in submaps of 6 m that overlap by half";
+  EXPECT_GT(counters.optimizations, 0U);
+  EXPECT_EQ(counters.solver_failures, 0U);
+  std::uint64_t dropped = 0;
+  for (const LoopClosure& c : backend.closures()) dropped += c.dropped ? 1U : 0U;
+  EXPECT_EQ(counters.closures_dropped, dropped);
+}
+
+TEST(Backend, TwoRunsGiveTheSameBytes) {
+  const Backend& one = finished_two_laps();
+  const auto other = make_backend();
+  feed(*other, two_laps().samples());
+  other->finish();
+  for (ScanIndex i = 0; i < one.scans().size(); ++i) {
+    const Eigen::Vector3d a = one.T_map_body(i).vector();
+    const Eigen::Vector3d b = other->T_map_body(i).vector();
+    ASSERT_EQ(std::memcmp(a.data(), b.data(), sizeof(double) * 3), 0) << "scan " << i;
+  }
+  ASSERT_EQ(one.closures().size(), other->closures().size());
+  for (std::size_t i = 0; i < one.closures().size(); ++i) {
+    EXPECT_EQ(one.closures()[i].from, other->closures()[i].from);
+    EXPECT_EQ(one.closures()[i].to, other->closures()[i].to);
+    EXPECT_EQ(one.closures()[i].dcs_scale, other->closures()[i].dcs_scale);
+  }
+}
+
+TEST(Backend, WithoutLoopClosingTheFrontendsPathStays) {
+  BackendConfig config;
+  config.close_loops = false;
+  const auto backend = make_backend(config);
+  feed(*backend, two_laps().samples());
+  const BackendUpdate last = backend->finish();
+  EXPECT_FALSE(last.poses_changed);
+  EXPECT_THAT(backend->closures(), IsEmpty());
+  EXPECT_EQ(backend->counters().candidates_matched, 0U);
+  for (ScanIndex i = 0; i < backend->scans().size(); ++i)
+    ASSERT_TRUE(poses_near(backend->T_map_body(i), two_laps().samples()[i].T_odom_body, 1e-9, 1e-9)) << i;
+}
+
+TEST(Backend, EachStepSaysWhatItDid) {
+  const auto backend = make_backend();
+  DeadReckoningFrontend frontend;
+  std::uint32_t version = 0;
+  std::size_t closures = 0;
+  for (const RangeSample& sample : two_laps().samples()) {
+    const FrontendStep step = frontend.process(sample);
+    const BackendUpdate update = backend->add(step);
+    closures += update.new_closures;
+    ASSERT_EQ(backend->closures().size(), closures);
+    const MapCorrection correction = backend->correction();
+    ASSERT_GE(correction.version, version);
+    ASSERT_TRUE(!update.poses_changed || correction.version > version) << "a change is announced";
+    ASSERT_TRUE(step.has_keyframe || update.new_closures == 0) << "only keyframes close loops";
+    version = correction.version;
+    ASSERT_EQ(index_of(correction.keyframe) + 1, backend->keyframe_count());
+    ASSERT_TRUE(!step.has_keyframe || poses_near(correction.T_map_local * step.T_local_body,
+                                                 backend->T_map_keyframe(correction.keyframe), 1e-9, 1e-9))
+        << "the correction leads to the newest keyframe";
+  }
+  EXPECT_GT(closures, 0U);
+}
+
+TEST(Backend, KeyframesLieWhereTheirScansDo) {
+  const auto backend = make_backend();
+  feed(*backend, two_laps().samples());
+  const auto expect_agreement = [&] {
+    std::uint32_t next = 0;
+    for (ScanIndex i = 0; i < backend->scans().size(); ++i) {
+      if (index_of(backend->scans()[i].keyframe) != next) continue;
+      EXPECT_TRUE(poses_near(backend->T_map_body(i), backend->T_map_keyframe(static_cast<KeyframeId>(next)),
+                             1e-9, 1e-9));
+      ++next;
+    }
+    EXPECT_EQ(next, backend->keyframe_count());
+  };
+  expect_agreement();
+  backend->finish();
+  expect_agreement();
+}
+
+TEST(Backend, TheFirstKeyframeStays) {
+  EXPECT_TRUE(poses_near(finished_two_laps().T_map_keyframe(KeyframeId{0}), Pose2(), 0.0, 0.0));
+}
+
+TEST(Backend, TheFinalPassDropsTheClosuresThatContradictTheRest) {
+  // On the third lap the whole building stands elsewhere, as a place that looks like another would; the dead
+  // reckoning, exact and known to be, disagrees.
+  TestVehicle vehicle = vehicle_at_start({}, 5);
+  fly_along(vehicle, loop_corridor(), "bcdabcda");
+  fly_along(vehicle, loop_corridor({0.35, 0.35}), "bcda");
+  BackendConfig config;
+  config.max_kernel_cells = 1;  // sharp matches, so that the contradiction is plain
+  config.drop_scale = 0.5;
+  config.refine = false;  // the moved building is not to be mended
+  const auto backend = make_backend(config);
+  feed(*backend, vehicle.samples(),
+       {.floor_m = 1e-4, .per_metre_m = 1e-4, .floor_rad = 1e-5, .per_metre_rad = 1e-5});
+  backend->finish();
+  std::size_t good = 0;
+  std::size_t planted = 0;
+  for (const LoopClosure& c : backend->closures()) {
+    const double chi_square = chi_square_against(c, true_T_from_to(vehicle, *backend, c));
+    good += chi_square < kChiSquare99 ? 1U : 0U;
+    planted += chi_square > 3.0 * kChiSquare99 ? 1U : 0U;
+    EXPECT_FALSE(c.dropped && chi_square < kChiSquare99) << index_of(c.from) << " to " << index_of(c.to);
+    EXPECT_FALSE(!c.dropped && chi_square > 3.0 * kChiSquare99)
+        << index_of(c.from) << " to " << index_of(c.to);
+  }
+  EXPECT_GT(good, 10U);
+  EXPECT_GT(planted, 10U);
+  EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.05);
+}
+
+TEST(Backend, AFlightThatGoesOnElsewhereIsJoinedByItsLoops) {
+  TestVehicle vehicle = vehicle_at_start({}, 6);
+  fly_along(vehicle, loop_corridor(), "bcda");
+  // Set down near the start, yet not quite: the dead reckoning begins anew as if it were the start.
+  const Point2 start = loop_corridor().place('a');
+  vehicle.carry_to(loop_corridor(), Pose2(start.x_m + 0.7, start.y_m + 0.5, 0.2));
+  fly_along(vehicle, loop_corridor(), "bcd");
+  const auto backend = make_backend();
+  feed(*backend, vehicle.samples());
+  backend->finish();
+  EXPECT_GT(aligned_rms_error_m(dead_reckoned(vehicle), vehicle.T_world_body()), 0.3);
+  EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.15);
+}
+
+TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
+  const auto backend = make_backend();
+  DeadReckoningFrontend frontend;
+  std::uint32_t keyframe = 0;
+  for (const RangeSample& sample : two_laps().samples()) {
+    FrontendStep step = frontend.process(sample);
+    if (step.has_keyframe) {
+      const double end_m = keyframe;
+      // Walls 9, 8, 7, ... and wall 20 always.
+      const LandmarkId own{9 - keyframe};
+      ASSERT_TRUE(step.made.walls.try_push_back({LandmarkId{20}, {0.0, 1.0}, {end_m, 1.0}}));
+      ASSERT_TRUE(step.made.walls.try_push_back({own, {0.0, 2.0}, {end_m, 2.0}}));
+      ++keyframe;
+    }
+    backend->add(step);
+    if (keyframe == 5) break;
+  }
+  ASSERT_EQ(backend->walls().size(), 6U);
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(backend->walls()[i].id, LandmarkId{5 + i}) << "in the order of their ids";
+    EXPECT_EQ(backend->walls()[i].anchor, KeyframeId{4 - i});
+  }
+  EXPECT_EQ(backend->walls()[5].id, LandmarkId{20});
+  EXPECT_EQ(backend->walls()[5].anchor, KeyframeId{4});
+  EXPECT_EQ(backend->walls()[5].end_keyframe.x_m, 4.0);
+}
+
+TEST(Backend, AnEmptyRunFinishesQuietly) {
+  const auto backend = make_backend();
+  EXPECT_FALSE(backend->finish().poses_changed);
+  EXPECT_EQ(backend->keyframe_count(), 0U);
+  EXPECT_EQ(backend->correction().version, 0U);
+}
+
+TEST(BackendDeathTest, AnUnusableConfigurationIsABrokenPromise) {
+  BackendConfig config;
+  config.max_kernel_cells = 2;
+  EXPECT_DEATH(make_backend(config), "broken promise.*configuration");
+}
+
+}  // namespace
+}  // namespace swiftlet

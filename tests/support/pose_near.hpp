@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// Whether two poses agree within a distance and an angle; says both poses where not.
+inline testing::AssertionResult poses_near(const Pose2& actual, const Pose2& expected, double tolerance_m,
+                                           double tolerance_rad) {
+  const double off_m = std::hypot(actual.x_m() - expected.x_m(), actual.y_m() - expected.y_m());
+  const double off_rad = std::abs(wrap_angle(actual.yaw_rad() - expected.yaw_rad()));
+  if (off_m <= tolerance_m && off_rad <= tolerance_rad) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "(" << actual.vector().transpose() << ") lies " << off_m << " m and "
+                                     << off_rad << " rad from (" << expected.vector().transpose() << ")";
+}
+
+}  // namespace swiftlet

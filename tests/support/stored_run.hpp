@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/backend/keyframe_chain.hpp"
+#include "core/backend/scan_store.hpp"
+#include "tests/support/dead_reckoning_frontend.hpp"
+
+namespace swiftlet {
+
+/// What a backend holds of a flight before it looks for loops: scans, chain and the frontend's keyframes.
+class StoredRun {
+ public:
+  explicit StoredRun(std::span<const RangeSample> samples) {
+    DeadReckoningFrontend frontend;
+    for (const RangeSample& sample : samples) {
+      const FrontendStep step = frontend.process(sample);
+      const ScanIndex scan = scans_.add(step);
+      if (!step.has_keyframe) continue;
+      chain_.add(scan);
+      T_local_keyframe_.push_back(step.T_local_body);
+    }
+  }
+  StoredRun(const StoredRun&) = delete;  // the chain views the scans
+  StoredRun& operator=(const StoredRun&) = delete;
+
+  [[nodiscard]] const ScanStore& scans() const { return scans_; }
+  [[nodiscard]] const KeyframeChain& chain() const { return chain_; }
+  [[nodiscard]] const std::vector<Pose2>& T_local_keyframe() const { return T_local_keyframe_; }
+  [[nodiscard]] KeyframeId newest() const { return static_cast<KeyframeId>(T_local_keyframe_.size() - 1); }
+
+ private:
+  ScanStore scans_{BeamLayout::multiranger()};
+  KeyframeChain chain_{scans_};
+  std::vector<Pose2> T_local_keyframe_;
+};
+
+}  // namespace swiftlet
