@@ -13,7 +13,7 @@ namespace swiftlet {
 /// Absolute trajectory error: root mean square distance of the positions after the rigid motion that fits
 /// them best (Umeyama 1991, without scale; in the plane a complex mean). Both have one pose per scan.
 inline double aligned_rms_error_m(const std::vector<Pose2>& estimate, const std::vector<Pose2>& truth) {
-  const auto position = [](const Pose2& T) { return std::complex<double>(T.x_m(), T.y_m()); };
+  const auto position = [](const Pose2& pose) { return std::complex<double>(pose.x_m(), pose.y_m()); };
   const auto count = static_cast<double>(truth.size());
   std::complex<double> mean_estimate;
   std::complex<double> mean_truth;

@@ -5,7 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -72,7 +73,7 @@ std::vector<Pose2> dead_reckoned(const TestVehicle& vehicle) {
   return T_odom_body;
 }
 
-Pose2 true_T_from_to(const TestVehicle& vehicle, const Backend& backend, const LoopClosure& closure) {
+Pose2 T_from_to_truth(const TestVehicle& vehicle, const Backend& backend, const LoopClosure& closure) {
   const auto truth_at = [&](KeyframeId keyframe) {
     ScanIndex scan = 0;
     while (backend.scans()[scan].keyframe != keyframe) ++scan;
@@ -93,7 +94,7 @@ TEST(Backend, ClosuresLieWithinTheUncertaintyTheyClaim) {
   const Backend& backend = finished_two_laps();
   std::size_t within = 0;
   for (const LoopClosure& c : backend.closures())
-    within += chi_square_against(c, true_T_from_to(two_laps(), backend, c)) < kChiSquare99 ? 1U : 0U;
+    within += chi_square_against(c, T_from_to_truth(two_laps(), backend, c)) < kChiSquare99 ? 1U : 0U;
   EXPECT_GE(static_cast<double>(within), 0.95 * static_cast<double>(backend.closures().size()));
 }
 
@@ -121,7 +122,8 @@ TEST(Backend, TwoRunsGiveTheSameBytes) {
   for (ScanIndex i = 0; i < one.scans().size(); ++i) {
     const Eigen::Vector3d a = one.T_map_body(i).vector();
     const Eigen::Vector3d b = other->T_map_body(i).vector();
-    ASSERT_EQ(std::memcmp(a.data(), b.data(), sizeof(double) * 3), 0) << "scan " << i;
+    for (int k = 0; k < 3; ++k)
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a[k]), std::bit_cast<std::uint64_t>(b[k])) << "scan " << i;
   }
   ASSERT_EQ(one.closures().size(), other->closures().size());
   for (std::size_t i = 0; i < one.closures().size(); ++i) {
@@ -206,7 +208,7 @@ TEST(Backend, TheFinalPassDropsTheClosuresThatContradictTheRest) {
   std::size_t good = 0;
   std::size_t planted = 0;
   for (const LoopClosure& c : backend->closures()) {
-    const double chi_square = chi_square_against(c, true_T_from_to(vehicle, *backend, c));
+    const double chi_square = chi_square_against(c, T_from_to_truth(vehicle, *backend, c));
     good += chi_square < kChiSquare99 ? 1U : 0U;
     planted += chi_square > 3.0 * kChiSquare99 ? 1U : 0U;
     EXPECT_FALSE(c.dropped && chi_square < kChiSquare99) << index_of(c.from) << " to " << index_of(c.to);

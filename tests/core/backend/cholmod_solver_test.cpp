@@ -77,15 +77,15 @@ TEST(BlockSystem3, AddsUpWhatIsAddedToABlock) {
   BlockSystem3 system(3, pattern);
   std::mt19937 random(51);
   const Eigen::Matrix3d A = Eigen::Matrix3d::NullaryExpr([&] { return random_in(random, -1.0, 1.0); });
-  Eigen::Matrix3d D;
-  D << 4.0, 1.0, 2.0, 1.0, 5.0, 3.0, 2.0, 3.0, 6.0;
+  Eigen::Matrix3d symmetric;
+  symmetric << 4.0, 1.0, 2.0, 1.0, 5.0, 3.0, 2.0, 3.0, 6.0;
   system.add(2, 0, A.data());
   system.add(2, 0, A.data());
-  system.add(1, 1, D.data());
+  system.add(1, 1, symmetric.data());
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(9, 9);
   expected.block<3, 3>(6, 0) = 2.0 * A;
   expected.block<3, 3>(0, 6) = 2.0 * A.transpose();
-  expected.block<3, 3>(3, 3) = D;
+  expected.block<3, 3>(3, 3) = symmetric;
   EXPECT_EQ(dense(system), expected);
 }
 
@@ -99,8 +99,8 @@ TEST(BlockSystem3, HoldsTheLowerTriangleOfEachPairOnce) {
 
 TEST(BlockSystem3, SetZeroForgetsValuesAndRightHandSide) {
   BlockSystem3 system(1, {});
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  system.add(0, 0, I.data());
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  system.add(0, 0, identity.data());
   system.rhs[1] = 4.0;
   system.set_zero();
   EXPECT_EQ(dense(system), Eigen::MatrixXd::Zero(3, 3));
@@ -109,8 +109,8 @@ TEST(BlockSystem3, SetZeroForgetsValuesAndRightHandSide) {
 
 TEST(BlockSystem3DeathTest, BlocksOutsideThePatternAreABrokenPromise) {
   BlockSystem3 system(3, std::vector<BlockIndex>{{1, 0}});
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_DEATH(system.add(2, 0, I.data()), "broken promise.*in the pattern");
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  EXPECT_DEATH(system.add(2, 0, identity.data()), "broken promise.*in the pattern");
 }
 
 TEST(CholmodSolver, EqualsADenseFactorisationOnRandomSystems) {
@@ -168,9 +168,9 @@ TEST(CholmodSolver, NamesTheBlockThatNothingHolds) {
 
 TEST(CholmodSolver, RefusesAnIndefiniteSystem) {
   BlockSystem3 system(2, {});
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d saddle = Eigen::Vector3d(1.0, -1.0, 1.0).asDiagonal();
-  system.add(0, 0, I.data());
+  system.add(0, 0, identity.data());
   system.add(1, 1, saddle.data());
   CholmodSolver solver;
   ASSERT_TRUE(solver.analyze(system));

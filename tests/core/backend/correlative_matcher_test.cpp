@@ -85,6 +85,7 @@ std::vector<Point2> wall_points(const std::vector<std::string>& picture) {
 
 std::vector<Point2> seen_from(const Pose2& T_submap_scan, const std::vector<Point2>& points_submap) {
   std::vector<Point2> points;
+  points.reserve(points_submap.size());
   for (const Point2& p : points_submap) points.push_back(T_submap_scan.inverse() * p);
   return points;
 }
@@ -206,11 +207,12 @@ TEST(CorrelativeMatcher, TheAnswerTurnsWithTheRoom) {
 }
 
 TEST(CorrelativeMatcher, TheAnswerIsMirroredWithTheRoom) {
-  const auto mirror = [](const Pose2& T) { return Pose2(T.x_m(), -T.y_m(), -T.yaw_rad()); };
+  const auto mirror = [](const Pose2& pose) { return Pose2(pose.x_m(), -pose.y_m(), -pose.yaw_rad()); };
   const Pose2 truth(-0.41, 0.23, 0.7);
   const Pose2 predicted(-0.2, 0.1, 0.6);
   const std::vector<Point2> points = seen_from(truth, wall_points(kRoom));
   std::vector<Point2> mirrored_points;
+  mirrored_points.reserve(points.size());
   for (const Point2& p : points) mirrored_points.push_back({p.x_m, -p.y_m});
   const auto one = match(submap_of(kRoom), points, predicted);
   const auto other = match(submap_of(mirrored(kRoom)), mirrored_points, mirror(predicted));
@@ -224,8 +226,8 @@ class CorrelativeMatcherInACorridor : public testing::Test {
  protected:
   CorrelativeMatcherInACorridor() {
     for (int i = -15; i <= 15; ++i) {
-      points.push_back({0.1 * i, 0.95});
-      points.push_back({0.1 * i, -0.95});
+      points_.push_back({0.1 * i, 0.95});
+      points_.push_back({0.1 * i, -0.95});
     }
   }
   static std::vector<std::string> corridor() {
@@ -233,12 +235,12 @@ class CorrelativeMatcherInACorridor : public testing::Test {
     picture.front() = picture.back() = std::string(100, '#');
     return picture;
   }
-  Submap submap = submap_of(corridor());
-  std::vector<Point2> points;
+  Submap submap_ = submap_of(corridor());
+  std::vector<Point2> points_;
 };
 
 TEST_F(CorrelativeMatcherInACorridor, IsSureAcrossAndUnsureAlong) {
-  const auto result = match(submap, points, Pose2(0.5, 0.3, 0.1));
+  const auto result = match(submap_, points_, Pose2(0.5, 0.3, 0.1));
   ASSERT_TRUE(result);
   const Eigen::Matrix3d& P = result->covariance;
   EXPECT_GT(std::sqrt(P(0, 0)), 0.5) << "along";
@@ -247,7 +249,7 @@ TEST_F(CorrelativeMatcherInACorridor, IsSureAcrossAndUnsureAlong) {
 }
 
 TEST_F(CorrelativeMatcherInACorridor, IsUnsureAlongInWhicheverDirectionItRuns) {
-  const auto result = match(submap_of(turned_left(corridor())), points, Pose2(0.3, 0.5, kPi / 2.0 + 0.1));
+  const auto result = match(submap_of(turned_left(corridor())), points_, Pose2(0.3, 0.5, kPi / 2.0 + 0.1));
   ASSERT_TRUE(result);
   EXPECT_GT(std::sqrt(result->covariance(1, 1)), 0.5) << "along";
   EXPECT_LT(std::sqrt(result->covariance(0, 0)), 0.15) << "across";
@@ -255,7 +257,7 @@ TEST_F(CorrelativeMatcherInACorridor, IsUnsureAlongInWhicheverDirectionItRuns) {
 
 TEST_F(CorrelativeMatcherInACorridor, ThePoseNearestThePredictionWins) {
   for (const double x_m : {-0.6, 0.0, 0.9}) {
-    const auto result = match(submap, points, Pose2(x_m, 0.3, 0.0));
+    const auto result = match(submap_, points_, Pose2(x_m, 0.3, 0.0));
     ASSERT_TRUE(result);
     EXPECT_NEAR(result->T_submap_scan.x_m(), x_m, kCellM);
     EXPECT_NEAR(result->T_submap_scan.y_m(), 0.0, kHalfCellM);

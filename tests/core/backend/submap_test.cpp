@@ -40,18 +40,18 @@ TestVehicleModel exact_vehicle() {
 class SubmapTest : public testing::Test {
  protected:
   SubmapTest() {
-    for (const char place : {'b', 'c', 'd', 'a'}) vehicle.fly_to(room, room.place(place));
+    for (const char place : {'b', 'c', 'd', 'a'}) vehicle_.fly_to(room_, room_.place(place));
   }
   [[nodiscard]] static Submap build(const StoredRun& run, KeyframeId first, KeyframeId last) {
     return build_submap(SubmapId{5}, first, last, run.scans(), run.chain(), run.T_local_keyframe(), {});
   }
   [[nodiscard]] Pose2 T_world_submap(const StoredRun& run, const Submap& submap) const {
-    return start * run.T_local_keyframe()[index_of(submap.reference)];
+    return start_ * run.T_local_keyframe()[index_of(submap.reference)];
   }
 
-  TextRoom room{kRoomPicture, kBlockM, kRoomCorner};
-  Pose2 start{room.place('a').x_m, room.place('a').y_m, 0.0};
-  TestVehicle vehicle{room, start, exact_vehicle(), 1};
+  TextRoom room_{kRoomPicture, kBlockM, kRoomCorner};
+  Pose2 start_{room_.place('a').x_m, room_.place('a').y_m, 0.0};
+  TestVehicle vehicle_{room_, start_, exact_vehicle(), 1};
 };
 
 std::uint8_t occupied_at(const Submap& submap, const Point2& p_submap) {
@@ -61,7 +61,7 @@ std::uint8_t occupied_at(const Submap& submap, const Point2& p_submap) {
 }
 
 TEST_F(SubmapTest, ItsFrameIsTheKeyframeInTheMiddle) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{4}, KeyframeId{10});
   EXPECT_EQ(submap.id, SubmapId{5});
   EXPECT_EQ(submap.first, KeyframeId{4});
@@ -70,7 +70,7 @@ TEST_F(SubmapTest, ItsFrameIsTheKeyframeInTheMiddle) {
 }
 
 TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_world_to_submap = T_world_submap(run, submap).inverse();
   std::vector<std::uint8_t> is_hit(submap.occupied.size(), 0);
@@ -81,7 +81,7 @@ TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
     for (const ScanReturn& beam : run.scans().returns(i)) {
       if (!beam.is_hit) continue;
       const Point2 p =
-          T_world_to_submap * (start * run.scans()[i].T_odom_body) * run.scans().point_body(beam);
+          T_world_to_submap * (start_ * run.scans()[i].T_odom_body) * run.scans().point_body(beam);
       is_hit[grid.offset(grid.cell(p))] = 1;
       ++hits;
       high += occupied_at(submap, p) > kEven;
@@ -95,12 +95,12 @@ TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
 }
 
 TEST_F(SubmapTest, FlownThroughSpaceIsFreeAndSolidWallUnknown) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_submap_world = T_world_submap(run, submap).inverse();
   for (ScanIndex i = 0; i < run.chain().scan_of(run.newest()); ++i) {
     const std::uint8_t value =
-        occupied_at(submap, T_submap_world * (start * run.scans()[i].T_odom_body).position());
+        occupied_at(submap, T_submap_world * (start_ * run.scans()[i].T_odom_body).position());
     EXPECT_GT(value, 0) << "scan " << i;
     EXPECT_LT(value, kEven) << "scan " << i;
   }
@@ -110,7 +110,7 @@ TEST_F(SubmapTest, FlownThroughSpaceIsFreeAndSolidWallUnknown) {
 }
 
 TEST_F(SubmapTest, NothingIsKnownOutsideTheRoom) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_world = T_world_submap(run, submap);
   const GridGeometry& grid = submap.pyramid.geometry();
@@ -128,7 +128,7 @@ TEST_F(SubmapTest, NothingIsKnownOutsideTheRoom) {
 }
 
 TEST_F(SubmapTest, TheBoxHoldsTheHitsTightly) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   // The first straight flight sees the wall ahead and the walls on both sides.
   const Submap submap = build(run, KeyframeId{0}, KeyframeId{4});
   const Pose2 T_world = T_world_submap(run, submap);
@@ -140,7 +140,7 @@ TEST_F(SubmapTest, TheBoxHoldsTheHitsTightly) {
 }
 
 TEST_F(SubmapTest, ThePyramidIsTheGridWithTheKernel) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const GridGeometry& grid = submap.pyramid.geometry();
   const std::vector<std::uint8_t> expected =
@@ -152,11 +152,11 @@ TEST_F(SubmapTest, ThePyramidIsTheGridWithTheKernel) {
 }
 
 TEST_F(SubmapTest, HoldsOnlyTheScansOfItsStretch) {
-  const StoredRun run(vehicle.samples());
+  const StoredRun run(vehicle_.samples());
   const Submap all = build(run, KeyframeId{0}, run.newest());
   const Submap beginning = build(run, KeyframeId{0}, KeyframeId{4});
   // The far corner by 'd', seen on the way home only.
-  const Point2 corner{kRoomCorner.x_m + kBlockM - 0.01, room.place('d').y_m};
+  const Point2 corner{kRoomCorner.x_m + kBlockM - 0.01, room_.place('d').y_m};
   EXPECT_GT(occupied_at(all, T_world_submap(run, all).inverse() * corner), kEven);
   EXPECT_EQ(occupied_at(beginning, T_world_submap(run, beginning).inverse() * corner), 0);
 }
@@ -164,8 +164,8 @@ TEST_F(SubmapTest, HoldsOnlyTheScansOfItsStretch) {
 TEST_F(SubmapTest, ABeamThatMeetsNothingSaysNothing) {
   TestVehicleModel model = exact_vehicle();
   model.max_range_m = 0.2;  // no wall is as near on the way to b
-  TestVehicle blind(room, start, model, 1);
-  blind.fly_to(room, room.place('b'));
+  TestVehicle blind(room_, start_, model, 1);
+  blind.fly_to(room_, room_.place('b'));
   const StoredRun run(blind.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   EXPECT_EQ(*std::max_element(submap.occupied.begin(), submap.occupied.end()), 0);
