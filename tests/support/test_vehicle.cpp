@@ -19,10 +19,10 @@ void TestVehicle::fly_to(const TextRoom& room, const Point2& goal_world) {
   const Point2 goal_body = T_world_now_.inverse() * goal_world;
   const double turn_rad = std::atan2(goal_body.y_m, goal_body.x_m);
   const double distance_m = std::hypot(goal_body.x_m, goal_body.y_m);
-  const double turns = std::ceil(std::abs(turn_rad) / model_.turn_step_rad);
-  for (double i = 0.0; i < turns; ++i) move(room, 0.0, turn_rad / turns);
-  const double steps = std::ceil(distance_m / model_.step_m);
-  for (double i = 0.0; i < steps; ++i) move(room, distance_m / steps, 0.0);
+  const int turns = static_cast<int>(std::ceil(std::abs(turn_rad) / model_.turn_step_rad));
+  for (int i = 0; i < turns; ++i) move(room, 0.0, turn_rad / turns);
+  const int steps = static_cast<int>(std::ceil(distance_m / model_.step_m));
+  for (int i = 0; i < steps; ++i) move(room, distance_m / steps, 0.0);
 }
 
 void TestVehicle::carry_to(const TextRoom& room, const Pose2& T_world_body) {
