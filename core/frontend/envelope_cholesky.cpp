@@ -36,16 +36,16 @@ bool factor_in_place(const EnvelopeMatrix& A) {
   return true;
 }
 
-void solve_in_place(const EnvelopeMatrix& L, std::span<double> b) {
-  SWIFTLET_CHECK(b.size() == L.size, "the right side has the size of the system");
-  for (std::size_t i = 0; i < L.size; ++i) {
-    const std::size_t first = L.first_column[i];
-    b[i] = (b[i] - dot(L.row(i) + first, b.data() + first, i - first)) / L.row(i)[i];
+void solve_in_place(const EnvelopeMatrix& factor, std::span<double> b) {
+  SWIFTLET_CHECK(b.size() == factor.size, "the right side has the size of the system");
+  for (std::size_t i = 0; i < factor.size; ++i) {
+    const std::size_t first = factor.first_column[i];
+    b[i] = (b[i] - dot(factor.row(i) + first, b.data() + first, i - first)) / factor.row(i)[i];
   }
-  for (std::size_t i = L.size; i-- > 0;) {
-    const double* row = L.row(i);
+  for (std::size_t i = factor.size; i-- > 0;) {
+    const double* row = factor.row(i);
     b[i] /= row[i];
-    for (std::size_t j = L.first_column[i]; j < i; ++j) b[j] -= row[j] * b[i];
+    for (std::size_t j = factor.first_column[i]; j < i; ++j) b[j] -= row[j] * b[i];
   }
 }
 

@@ -25,6 +25,6 @@ struct EnvelopeMatrix {
 [[nodiscard]] bool factor_in_place(const EnvelopeMatrix& A);
 
 /// Replaces b by the solution of L L^T x = b. Precondition: factored.
-void solve_in_place(const EnvelopeMatrix& L, std::span<double> b);
+void solve_in_place(const EnvelopeMatrix& factor, std::span<double> b);
 
 }  // namespace swiftlet

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWanderPerMotion = radians(0.02);  // rad/m: drift changes slowly
 // Walls that err together for a whole window make the graph's estimates err together.
-constexpr double kWallSigma_rad = radians(1.0);
+constexpr double kWallSigmaRadians = radians(1.0);
 
 constexpr double squared(double x) { return x * x; }
 
@@ -20,7 +20,7 @@ constexpr double squared(double x) { return x * x; }
 void OdometryDrift::learn(double forward_m, double yaw_error_rad, double yaw_variance_rad2) {
   variance_ += squared(kWanderPerMotion);
   const double innovation_variance =
-      squared(forward_m) * variance_ + squared(kWallSigma_rad) + yaw_variance_rad2;
+      squared(forward_m) * variance_ + squared(kWallSigmaRadians) + yaw_variance_rad2;
   const double gain = forward_m * variance_ / innovation_variance;
   estimate_ += gain * (yaw_error_rad - forward_m * estimate_);
   variance_ *= 1.0 - gain * forward_m;

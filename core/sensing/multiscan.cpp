@@ -14,8 +14,8 @@ Point2 rotated(const Pose2& T_a_b, const Point2& direction_b) {
 }
 
 bool is_short(const Pose2& motion) {
-  return std::hypot(motion.x_m(), motion.y_m()) < Multiscan::kMinMotion_m &&
-         std::abs(motion.yaw_rad()) < Multiscan::kMinTurn_rad;
+  return std::hypot(motion.x_m(), motion.y_m()) < Multiscan::kMinMotionMetres &&
+         std::abs(motion.yaw_rad()) < Multiscan::kMinTurnRadians;
 }
 
 // How an error of T_j_next, where T_present_j and T_present_next are known, displaces a point of the present
@@ -65,7 +65,7 @@ void Multiscan::add(const RangeSample& sample, const UncertainMotion& step) {
 
 void Multiscan::push_empty_scan() {
   if (size_ == scan_limit_) {
-    oldest_ = (oldest_ + 1) % scan_limit_;
+    oldest_ = (oldest_ + 1) % kMaxMultiscanScans;
   } else {
     ++size_;
   }

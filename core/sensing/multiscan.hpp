@@ -48,8 +48,8 @@ struct MultiscanView {
 class Multiscan {
  public:
   /// Smaller motions than both since the scan before do not make a new scan.
-  static constexpr double kMinMotion_m = 0.01;
-  static constexpr double kMinTurn_rad = radians(1.0);
+  static constexpr double kMinMotionMetres = 0.01;
+  static constexpr double kMinTurnRadians = radians(1.0);
 
   /// Holds ceil(points / beams) scans, at least 2. Precondition: points + beams.count - 1 <=
   /// kMaxMultiscanPoints.
@@ -73,7 +73,7 @@ class Multiscan {
     bool in_a_view = false;
   };
 
-  Scan& scan(std::size_t i) { return ring_[(oldest_ + i) % scan_limit_]; }
+  Scan& scan(std::size_t i) { return ring_[(oldest_ + i) % kMaxMultiscanScans]; }
   void push_empty_scan();
   void read_hits(const RangeSample& sample, Scan& scan) const;
 
