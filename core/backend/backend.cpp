@@ -84,11 +84,9 @@ void Backend::State::add_motion(const Keyframe& made) {
   step.from = static_cast<KeyframeId>(index_of(made.id) - 1);
   step.to = made.id;
   step.T_from_to = between(T_local_keyframe[index_of(step.from)], T_local_keyframe[index_of(step.to)]);
-  const double scale = config.motion_sigma_scale;
-  step.information =
-      made.starts_segment
-          ? kUnknownMotionInformation
-          : residual_information(step.T_from_to, scale * scale * made.motion_covariance.matrix());
+  step.information = made.starts_segment
+                         ? kUnknownMotionInformation
+                         : residual_information(step.T_from_to, made.motion_covariance.matrix());
   motion_constraint.push_back(graph.constraints.size());
   graph.constraints.push_back(step);
 }

@@ -26,7 +26,6 @@ std::vector<std::string> BackendConfig::validate() const {
   require(max_candidates >= 1, "backend.max_candidates must be at least 1");
   require(min_score > 0.0 && min_score < 1.0, "backend.min_score must lie between 0 and 1");
   require(min_match_points >= 3, "backend.min_match_points must be at least 3");
-  require(motion_sigma_scale > 0.0, "backend.motion_sigma_scale must be above 0");
   require(dcs_phi > 0.0, "backend.dcs_phi must be above 0");
   require(drop_scale >= 0.0 && drop_scale < 1.0, "backend.drop_scale must lie in 0..1");
   require(optimizer_iterations >= 1, "backend.optimizer_iterations must be at least 1");

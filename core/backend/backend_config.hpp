@@ -30,11 +30,9 @@ struct BackendConfig {
   int min_match_points = 30;  ///< fewer points decide nothing
 
   // Pose graph
-  double motion_sigma_scale = 2.0;  ///< the frontend's motion is this much less certain than its white noise
-                                    ///< model says: scale and heading errors persist from step to step
-  double dcs_phi = 5.0;             ///< DCS: closures whose chi-square exceeds this are scaled down
-  double drop_scale = 0.1;          ///< closures scaled below this in the final pass are dropped
-  int optimizer_iterations = 20;    ///< Gauss-Newton steps at most
+  double dcs_phi = 5.0;           ///< DCS: closures whose chi-square exceeds this are scaled down
+  double drop_scale = 0.1;        ///< closures scaled below this in the final pass are dropped
+  int optimizer_iterations = 20;  ///< Gauss-Newton steps at most
 
   // Joint refinement at the end of a run
   bool refine = true;              ///< false: poses between keyframes stay interpolated

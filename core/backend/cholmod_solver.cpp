@@ -9,8 +9,12 @@
 
 namespace swiftlet {
 
-BlockSystem3::BlockSystem3(std::size_t block_count, std::span<const BlockIndex> off_diagonal)
-    : rhs(3 * block_count, 0.0), block_count_(block_count), block_rows_(block_count) {
+BlockSystem3::BlockSystem3(std::size_t block_count, std::span<const BlockIndex> off_diagonal,
+                           std::uint32_t first_name)
+    : rhs(3 * block_count, 0.0),
+      block_count_(block_count),
+      first_name_(first_name),
+      block_rows_(block_count) {
   for (std::uint32_t b = 0; b < block_count; ++b) block_rows_[b].push_back(b);
   for (const BlockIndex& index : off_diagonal) {
     SWIFTLET_CHECK(index.row > index.column && index.row < block_count,
@@ -149,7 +153,8 @@ Result<std::vector<double>> CholmodSolver::solve(const BlockSystem3& system) {
   cholmod_factorize(&A, state_->factor, &state_->common);
   if (state_->common.status == CHOLMOD_NOT_POSDEF) {
     const int* order = static_cast<const int*>(state_->factor->Perm);
-    const std::size_t block = static_cast<std::size_t>(order[state_->factor->minor]) / 3;
+    const std::size_t block =
+        static_cast<std::size_t>(order[state_->factor->minor]) / 3 + system.first_name();
     return Error{ErrorCode::kSolver, "pose graph underconstrained near pose " + std::to_string(block) +
                                          ": its constraints leave a direction open"};
   }

@@ -19,8 +19,10 @@ class BlockSystem3 {
     std::uint32_t column = 0;  ///< column <= row
   };
 
-  /// Diagonal blocks are always there; `off_diagonal` may hold duplicates. Allocates.
-  BlockSystem3(std::size_t block_count, std::span<const BlockIndex> off_diagonal);
+  /// Diagonal blocks are always there; `off_diagonal` may hold duplicates. Messages count blocks from
+  /// `first_name`. Allocates.
+  BlockSystem3(std::size_t block_count, std::span<const BlockIndex> off_diagonal,
+               std::uint32_t first_name = 0);
 
   void set_zero();
   /// Adds to a block; off the diagonal row > column must be in the pattern. `block` is 3x3, column by column.
@@ -31,10 +33,12 @@ class BlockSystem3 {
   [[nodiscard]] const std::vector<int>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
   [[nodiscard]] const std::vector<std::vector<std::uint32_t>>& block_rows() const { return block_rows_; }
+  [[nodiscard]] std::uint32_t first_name() const { return first_name_; }
   std::vector<double> rhs;
 
  private:
   std::size_t block_count_;
+  std::uint32_t first_name_;
   std::vector<std::vector<std::uint32_t>> block_rows_;  // of each block column, ascending, diagonal first
   std::vector<int> column_starts_;                      // compressed columns of the scalar lower triangle
   std::vector<int> rows_;

@@ -13,7 +13,7 @@ Pose2 KeyframeChain::T_w_body(ScanIndex scan, std::span<const Pose2> T_w_keyfram
   const ScanIndex last = scan_of_keyframe_[k + 1];
   if ((*scans_)[last].starts_segment) return T_w_dead;
 
-  const Pose2 T_k_next_dead = between((*scans_)[first].T_odom_body, (*scans_)[last].T_odom_body);
+  const Pose2 T_k_next_dead = between((*scans_)[first].T_dead_body, (*scans_)[last].T_dead_body);
   const Pose2 T_k_next = between(T_w_keyframe[k], T_w_keyframe[k + 1]);
   const Pose2 missed = between(T_k_next_dead, T_k_next);
   const double fraction = static_cast<double>(scan - first) / static_cast<double>(last - first);

@@ -60,8 +60,10 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
   for (const auto& submap : submaps) {
     if (chain_->path_m(query) - chain_->path_m(submap->last) < config_->min_travel_between_m) continue;
     if (!covariances) covariances = relative_covariances(graph, query);
-    const Eigen::Matrix3d& P = (*covariances)[index_of(submap->reference)];
     const Pose2 T_query_submap = T_query_map * graph.T_map_keyframe[index_of(submap->reference)];
+    // From the covariance of T_query_submap to that of its inverse, which is searched.
+    const Eigen::Matrix3d J = jacobian_inverse(T_query_submap);
+    const Eigen::Matrix3d P = J * (*covariances)[index_of(submap->reference)] * J.transpose();
     Candidate c;
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include "core/backend/cholmod_solver.hpp"
 #include "core/backend/pose_graph.hpp"
+#include "core/backend/pose_system.hpp"
 #include "core/base/result.hpp"
 
 namespace swiftlet {
@@ -13,8 +13,7 @@ struct OptimizeReport {
   double chi_square = 0.0;  ///< robust objective at the end
 };
 
-/// Minimises eq. 23 by Gauss-Newton with DCS on the closures. The symbolic analysis is kept while constraints
-/// join the same pairs. Allocates. One thread at a time.
+/// Minimises eq. 23 by Gauss-Newton with DCS on the closures. Allocates. One thread at a time.
 class PoseGraphOptimizer {
  public:
   PoseGraphOptimizer(double dcs_phi, int max_iterations)
@@ -24,11 +23,12 @@ class PoseGraphOptimizer {
   Result<OptimizeReport> optimize(PoseGraph& graph);
 
  private:
+  [[nodiscard]] double scale(const PoseConstraint& constraint, double chi_square) const;
+  [[nodiscard]] double cost(const PoseConstraint& constraint, double chi_square) const;
+
   double dcs_phi_;
   int max_iterations_;
-  CholmodSolver solver_;
-  std::vector<BlockSystem3::BlockIndex> analyzed_pattern_;
-  std::size_t analyzed_poses_ = 0;
+  PoseSystem system_;
 };
 
 }  // namespace swiftlet

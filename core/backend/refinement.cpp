@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/backend/cholmod_solver.hpp"
+#include "core/backend/pose_system.hpp"
 #include "core/backend/wall_map.hpp"
 
 namespace swiftlet {
@@ -87,7 +87,7 @@ std::vector<PoseConstraint> motions_of(const ScanStore& scans, const OdometryNoi
     double sigma_m = kUnknownMotionSigma;
     double sigma_rad = kUnknownMotionSigma;
     if (!scans[i].starts_segment) {
-      c.T_from_to = between(scans[i - 1].T_odom_body, scans[i].T_odom_body);
+      c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
       const double distance_m = std::hypot(c.T_from_to.x_m(), c.T_from_to.y_m());
       const double turn_rad = std::abs(c.T_from_to.yaw_rad());
       sigma_m = noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad;
@@ -102,84 +102,29 @@ std::vector<PoseConstraint> motions_of(const ScanStore& scans, const OdometryNoi
   return motions;
 }
 
-/// Poses of all scans as unknowns, the first held: block b is scan b + 1.
-class ScanProblem {
- public:
-  ScanProblem(std::size_t scan_count, std::vector<PoseConstraint> constraints)
-      : constraints_(std::move(constraints)), system_(scan_count - 1, pattern()) {}
+/// A return of a scan lies `distance_m` off its wall along the normal.
+void add_wall(PoseSystem& system, ScanIndex scan, const Pose2& T_map_body, const Point2& p_body,
+              const LocalWall& wall, double distance_m) {
+  const double along_x = -T_map_body.sin_yaw() * p_body.x_m - T_map_body.cos_yaw() * p_body.y_m;
+  const double along_y = T_map_body.cos_yaw() * p_body.x_m - T_map_body.sin_yaw() * p_body.y_m;
+  const Eigen::Vector3d J(wall.normal_map.x_m, wall.normal_map.y_m,
+                          wall.normal_map.x_m * along_x + wall.normal_map.y_m * along_y);
+  const double off = distance_m / (kRobustSigmas * kWallSigmaM);
+  const double robust = 1.0 / ((1.0 + off * off) * (1.0 + off * off));  // Geman-McClure
+  const double weight = robust / (kWallSigmaM * kWallSigmaM);
+  system.add(scan, weight * J * J.transpose(), -weight * distance_m * J);
+}
 
-  Status analyze() { return solver_.analyze(system_); }
-  void begin() { system_.set_zero(); }
-  void add_constraints(const std::vector<Pose2>& T_map_body) {
-    for (const PoseConstraint& c : constraints_) {
-      const std::uint32_t i = index_of(c.from);
-      const std::uint32_t j = index_of(c.to);
-      const PoseResidual r = pose_residual(c.T_from_to, T_map_body[i], T_map_body[j]);
-      const Eigen::Matrix3d A = r.J_from.transpose() * c.information;
-      const Eigen::Matrix3d B = r.J_to.transpose() * c.information;
-      add_diagonal(i, A * r.J_from, -A * r.error);
-      add_diagonal(j, B * r.J_to, -B * r.error);
-      if (i == 0 || j == 0) continue;
-      const Eigen::Matrix3d H = j > i ? Eigen::Matrix3d(B * r.J_from) : Eigen::Matrix3d(A * r.J_to);
-      system_.add(std::max(i, j) - 1, std::min(i, j) - 1, H.data());
-    }
-  }
-  /// A return of scan i lies `distance_m` off its wall along the normal.
-  void add_wall(ScanIndex i, const Pose2& T_map_body, const Point2& p_body, const LocalWall& wall,
-                double distance_m) {
-    const double along_x = -T_map_body.sin_yaw() * p_body.x_m - T_map_body.cos_yaw() * p_body.y_m;
-    const double along_y = T_map_body.cos_yaw() * p_body.x_m - T_map_body.sin_yaw() * p_body.y_m;
-    const Eigen::Vector3d J(wall.normal_map.x_m, wall.normal_map.y_m,
-                            wall.normal_map.x_m * along_x + wall.normal_map.y_m * along_y);
-    const double off = distance_m / (kRobustSigmas * kWallSigmaM);
-    const double robust = 1.0 / ((1.0 + off * off) * (1.0 + off * off));  // Geman-McClure
-    const double weight = robust / (kWallSigmaM * kWallSigmaM);
-    add_diagonal(i, weight * J * J.transpose(), -weight * distance_m * J);
-  }
-  Result<std::vector<double>> solve() { return solver_.solve(system_); }
-
- private:
-  [[nodiscard]] std::vector<BlockSystem3::BlockIndex> pattern() const {
-    std::vector<BlockSystem3::BlockIndex> pattern;
-    for (const PoseConstraint& c : constraints_) {
-      const std::uint32_t low = std::min(index_of(c.from), index_of(c.to));
-      if (low > 0) pattern.push_back({std::max(index_of(c.from), index_of(c.to)) - 1, low - 1});
-    }
-    return pattern;
-  }
-  void add_diagonal(std::uint32_t i, const Eigen::Matrix3d& H, const Eigen::Vector3d& b) {
-    if (i == 0) return;
-    system_.add(i - 1, i - 1, H.data());
-    for (std::uint32_t k = 0; k < 3; ++k) system_.rhs[3 * (i - 1) + k] += b[k];
-  }
-
-  std::vector<PoseConstraint> constraints_;
-  BlockSystem3 system_;
-  CholmodSolver solver_;
-};
-
-void add_walls(ScanProblem& problem, const std::vector<PlacedReturn>& hits,
+void add_walls(PoseSystem& system, const std::vector<PlacedReturn>& hits,
                const std::vector<Pose2>& T_map_body, double radius_m) {
   const WallMap walls(in_map(hits, T_map_body), radius_m);
   for (const PlacedReturn& hit : hits) {
     if (hit.held_back) continue;
     const PassPoint at{T_map_body[hit.scan] * hit.p_body, hit.pass};
     if (const auto wall = walls.wall_near(at)) {
-      problem.add_wall(hit.scan, T_map_body[hit.scan], hit.p_body, *wall, distance_to(*wall, at.p_map));
+      add_wall(system, hit.scan, T_map_body[hit.scan], hit.p_body, *wall, distance_to(*wall, at.p_map));
     }
   }
-}
-
-/// Returns the largest component of the step.
-double move_by(const std::vector<double>& step, std::vector<Pose2>& T_map_body) {
-  double largest = 0.0;
-  for (std::size_t b = 0; b + 1 < T_map_body.size(); ++b) {
-    const double* d = step.data() + 3 * b;
-    Pose2& T = T_map_body[b + 1];
-    T = Pose2(T.x_m() + d[0], T.y_m() + d[1], T.yaw_rad() + d[2]);
-    largest = std::max({largest, std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
-  }
-  return largest;
 }
 
 }  // namespace
@@ -193,20 +138,19 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
   const std::vector<PlacedReturn> hits = hits_of(scans);
   std::vector<PoseConstraint> constraints = motions_of(scans, sensor.odometry);
   constraints.insert(constraints.end(), closures.begin(), closures.end());
-  ScanProblem problem(scans.size(), std::move(constraints));
-  if (Status status = problem.analyze(); !status) return status.error();
+  PoseSystem system;
+  if (Status status = system.prepare(scans.size(), constraints); !status) return status.error();
 
   std::vector<Pose2> T = T_map_body;
-  for (; report.iterations < config.refinement_iterations; ++report.iterations) {
-    problem.begin();
-    problem.add_constraints(T);
-    add_walls(problem, hits, T, report.iterations < kWideIterations ? kWideRadiusM : kNarrowRadiusM);
-    Result<std::vector<double>> step = problem.solve();
-    if (!step) return step.error();
-    const double largest = move_by(*step, T);
-    if (!std::isfinite(largest))
-      return Error{ErrorCode::kSolver, "refinement diverged: poses are no longer finite"};
-    if (largest < kConvergedStep && report.iterations >= kWideIterations) break;
+  while (report.iterations < config.refinement_iterations) {
+    const bool wide = report.iterations < kWideIterations;
+    system.set_zero();
+    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T);
+    add_walls(system, hits, T, wide ? kWideRadiusM : kNarrowRadiusM);
+    const Result<double> largest = system.step(T);
+    if (!largest) return largest.error();
+    ++report.iterations;
+    if (*largest < kConvergedStep && !wide) break;
   }
   report.held_back_before_m = held_back_error_m(hits, T_map_body);
   report.held_back_after_m = held_back_error_m(hits, T);

@@ -17,6 +17,7 @@ ScanIndex ScanStore::add(const FrontendStep& step) {
   const RangeSample& sample = step.sample;
   StoredScan scan{.stamp = sample.stamp,
                   .T_odom_body = sample.T_odom_body,
+                  .T_dead_body = step.T_dead_body,
                   .T_keyframe_body = step.T_keyframe_body,
                   .keyframe = step.keyframe,
                   .path_m = 0.0,

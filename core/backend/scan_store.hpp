@@ -27,6 +27,7 @@ struct ScanReturn {
 struct StoredScan {
   HostTime stamp{};
   Pose2 T_odom_body;
+  Pose2 T_dead_body;      ///< dead reckoning less its learnt drift
   Pose2 T_keyframe_body;  ///< by dead reckoning from `keyframe`
   KeyframeId keyframe{};  ///< the newest keyframe at the time
   double path_m = 0.0;    ///< travelled since the start of the run

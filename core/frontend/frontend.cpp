@@ -21,6 +21,9 @@ namespace swiftlet {
 namespace {
 
 constexpr LandmarkGraphCapacity kCapacity{kMaxKeyframeWindow, 128, 1024};
+// Drift is learnt from the motion this many keyframes back: later ones have had their say, the window still
+// holds it.
+constexpr std::size_t kDriftLagKeyframes = 3;
 static_assert(kMaxLinesPerMultiscan <= kMaxWallsPerKeyframe);
 
 // So uncertain that the graph gets nothing from it, yet stays solvable.
@@ -35,16 +38,15 @@ UncertainMotion unknown_motion() {
 struct Frontend::State {
   State(const FrontendConfig& config_in, const SensorModel& sensor, const BeamLayout& beams)
       : config(config_in),
-        odometry_noise(sensor.odometry),
+        odometry_noise(sensor.odometry.scaled(config.motion_sigma_scale)),
         multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points)),
         extractor(config, sensor.range_sigma_m),
-        chi_square(config.chi_square_confidence),
-        drift(config.min_drift_rad_per_metre) {}
+        chi_square(config.chi_square_confidence) {}
 
   void track_motion(const RangeSample& sample);
   [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
   void add_keyframe_pose(const RangeSample& sample);
-  void retire_oldest_pose();
+  void learn_drift();
   void add_line_constraints();
   void insert(const LineSegment& segment);
   void optimize_or_roll_back();
@@ -114,11 +116,12 @@ void Frontend::State::track_motion(const RangeSample& sample) {
     multiscan.restart();
   } else {
     const Pose2 T_previous_body = between(*T_odom_previous, sample.T_odom_body);
-    const double correction_rad = drift.yaw_per_metre_rad() * T_previous_body.x_m();
+    const double correction_rad = drift.yaw_correction_rad(T_previous_body.x_m(), T_previous_body.yaw_rad());
     yaw_correction_rad += correction_rad;
     motion = uncertain_step(odometry_noise, Pose2(T_previous_body.x_m(), T_previous_body.y_m(),
                                                   T_previous_body.yaw_rad() + correction_rad));
     since_keyframe = since_keyframe * motion;
+    step.T_dead_body = step.T_dead_body * motion.T_from_to;
   }
   T_odom_previous = sample.T_odom_body;
   multiscan.add(sample, motion);
@@ -148,7 +151,11 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
       viewpoint_covariance.setZero();
       first_of_segment = newest;
     }
-    if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) retire_oldest_pose();
+    learn_drift();
+    if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) {
+      counters.landmarks_retired += graph.retire_oldest_pose();
+      ++counters.poses_retired;
+    }
     const bool has_room = graph.try_add_pose(newest, keyframe_motion);
     SWIFTLET_CHECK(has_room, "the window is no longer than the graph's capacity");
   }
@@ -157,15 +164,16 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
   since_keyframe = UncertainMotion();
 }
 
-void Frontend::State::retire_oldest_pose() {
-  const PoseVertex& from = graph.poses()[0];
-  const PoseVertex& to = graph.poses()[1];
-  // Its best estimate, made with all that was seen since; what was corrected already counts as error too.
-  const double yaw_error_rad = motion_error(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) +
-                               yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
-  drift.learn(to.T_previous_body.x_m(), yaw_error_rad, 1.0 / to.information(2, 2));
-  counters.landmarks_retired += graph.retire_oldest_pose();
-  ++counters.poses_retired;
+/// From a motion that enough has been seen of since; what was corrected already counts as error too.
+void Frontend::State::learn_drift() {
+  if (!config.learn_drift || graph.poses().size() < kDriftLagKeyframes + 2) return;
+  const PoseVertex& from = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 2];
+  const PoseVertex& to = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 1];
+  const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
+  const double yaw_error_rad =
+      motion_error(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
+  drift.learn(to.T_previous_body.x_m(), wrap_angle(to.T_previous_body.yaw_rad() - corrected_rad),
+              yaw_error_rad, 1.0 / to.information(2, 2));
 }
 
 void Frontend::State::add_line_constraints() {

@@ -16,10 +16,10 @@ struct FrontendConfig {
   double keyframe_turn_rad = radians(30);  ///< ... or this much turning
   int multiscan_points = 120;              ///< k scans are seen together, k = ceil(this / beams), at least 2
 
-  /// Systematic yaw of the dead reckoning, in rad per metre travelled forward, is learnt from the walls and
-  /// taken out where it exceeds this; smaller values cannot be told from the walls' own errors. A large
-  /// value keeps the dead reckoning as it is.
-  double min_drift_rad_per_metre = radians(0.5);
+  bool learn_drift = true;  ///< systematic yaw of the dead reckoning is learnt from the walls and taken out
+  /// Motion is this much less certain than the sensor's noise of independent steps says: scale and heading
+  /// errors persist from step to step.
+  double motion_sigma_scale = 2.0;
 
   // Line extraction
   double split_distance_m = 0.10;  ///< a point farther than this from the chord splits a segment

@@ -2,32 +2,31 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/frontend/odometry_drift.hpp"
 
-#include <cmath>
-
-#include "core/geometry/angle.hpp"
-
 namespace swiftlet {
 namespace {
 
-constexpr double kWanderPerMotion = radians(0.02);  // rad/m: drift changes slowly
-// Walls that err together for a whole window make the graph's estimates err together.
-constexpr double kWallSigmaRadians = radians(1.0);
-
 constexpr double squared(double x) { return x * x; }
+
+// Per motion: drift changes slowly.
+constexpr double kWanderPerMetre = radians(0.05);
+constexpr double kWanderPerRadian = 0.001;
+// Walls that err together for a whole window make the graph's estimates err together.
+constexpr double kWallSigmaRad = radians(1.0);
 
 }  // namespace
 
-void OdometryDrift::learn(double forward_m, double yaw_error_rad, double yaw_variance_rad2) {
-  variance_ += squared(kWanderPerMotion);
+void OdometryDrift::learn(double forward_m, double turn_rad, double yaw_error_rad, double yaw_variance_rad2) {
+  const Eigen::Vector2d motion(forward_m, turn_rad);
+  covariance_.diagonal() += Eigen::Vector2d(squared(kWanderPerMetre), squared(kWanderPerRadian));
   const double innovation_variance =
-      squared(forward_m) * variance_ + squared(kWallSigmaRadians) + yaw_variance_rad2;
-  const double gain = forward_m * variance_ / innovation_variance;
-  estimate_ += gain * (yaw_error_rad - forward_m * estimate_);
-  variance_ *= 1.0 - gain * forward_m;
+      motion.dot(covariance_ * motion) + squared(kWallSigmaRad) + yaw_variance_rad2;
+  const Eigen::Vector2d gain = covariance_ * motion / innovation_variance;
+  estimate_ += gain * (yaw_error_rad - estimate_.dot(motion));
+  covariance_ -= (gain * motion.transpose() * covariance_).eval();
 }
 
-double OdometryDrift::yaw_per_metre_rad() const {
-  return std::abs(estimate_) > min_rad_per_metre_ ? estimate_ : 0.0;
+double OdometryDrift::yaw_correction_rad(double forward_m, double turn_rad) const {
+  return estimate_(0) * forward_m + estimate_(1) * turn_rad;
 }
 
 }  // namespace swiftlet

@@ -40,9 +40,11 @@ struct Keyframe {
 /// What one sample brought: element of the queue from frontend to backend.
 struct FrontendStep {
   RangeSample sample;
-  Pose2 T_local_body;         ///< estimate at once, in the frontend's continuous frame
-  KeyframeId keyframe{};      ///< the newest keyframe, this sample's own if it made one
-  Pose2 T_keyframe_body;      ///< by dead reckoning from that keyframe
+  Pose2 T_local_body;     ///< estimate at once, in the frontend's continuous frame
+  Pose2 T_dead_body;      ///< dead reckoning less its learnt drift: runs on through keyframes, breaks only
+                          ///< where a segment starts
+  KeyframeId keyframe{};  ///< the newest keyframe, this sample's own if it made one
+  Pose2 T_keyframe_body;  ///< by dead reckoning from that keyframe
   bool has_keyframe = false;  ///< `made` below is filled: this sample is the keyframe
   Keyframe made;
 };

@@ -30,6 +30,12 @@ struct OdometryNoise {
   double yaw_floor_rad = radians(0.05);
   double yaw_per_radian = 0.05;
   double yaw_per_metre_rad = radians(1.0);
+
+  /// The same with all standard deviations multiplied by `factor`.
+  [[nodiscard]] OdometryNoise scaled(double factor) const {
+    return {factor * xy_floor_m,    factor * xy_per_metre,   factor * xy_per_radian_m,
+            factor * yaw_floor_rad, factor * yaw_per_radian, factor * yaw_per_metre_rad};
+  }
 };
 
 /// All that is particular to a sensor and its vehicle; the algorithm's settings are the same for all of them.

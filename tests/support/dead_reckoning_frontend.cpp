@@ -17,6 +17,7 @@ FrontendStep DeadReckoningFrontend::process(const RangeSample& sample) {
   FrontendStep step;
   step.sample = sample;
   step.T_local_body = sample.T_odom_body;
+  step.T_dead_body = sample.T_odom_body;
   const Pose2 moved = between(T_odom_keyframe_, sample.T_odom_body);
   if (!started_ || sample.starts_segment || std::hypot(moved.x_m(), moved.y_m()) >= kKeyframeDistanceM ||
       std::abs(moved.yaw_rad()) >= kKeyframeTurnRad) {

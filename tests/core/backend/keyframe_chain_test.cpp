@@ -29,6 +29,7 @@ class KeyframeChainTest : public testing::Test {
         T_odom_keyframes_.push_back(T_odom_body);
       }
       step.sample.T_odom_body = T_odom_body;
+      step.T_dead_body = T_odom_body;
       step.sample.starts_segment = i == 0 || i == segment_starts_at;
       step.keyframe = static_cast<KeyframeId>(T_odom_keyframes_.size() - 1);
       step.T_keyframe_body = between(T_odom_keyframe, T_odom_body);

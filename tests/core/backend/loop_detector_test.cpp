@@ -139,5 +139,29 @@ TEST_F(LoopDetectorAfterCarryingTest, WhatWasSeenBeforeIsNotMatchedAsIfItWereCon
   EXPECT_EQ(tried_, 0U);
 }
 
+TEST_F(LoopDetectorTest, SearchesAsFarAsTheHeadingAtTheSubmapLeavesOpen) {
+  constexpr double kSigmaRad = 0.2;
+  std::shared_ptr<const Submap> far;
+  for (const LoopClosure& c : find(run_.newest())) {
+    for (const auto& submap : submaps_) {
+      if (submap->reference == c.from && T_from_to_truth(c).x_m() > 4.0) far = submap;
+    }
+  }
+  ASSERT_NE(far, nullptr);
+  submaps_ = {far};
+  const Eigen::Matrix3d tight = 1e-8 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d open = Eigen::Vector3d(1e-8, 1e-8, kSigmaRad * kSigmaRad).asDiagonal();
+  const std::uint32_t reference = index_of(far->reference);
+  for (PoseConstraint& c : graph_.constraints)
+    c.information = residual_information(c.T_from_to, index_of(c.from) == reference ? open : tight);
+  const Pose2 T_map_reference = graph_.T_map_keyframe[reference];
+  const Pose2 T_turned = T_map_reference * Pose2(0.0, 0.0, kSigmaRad) * T_map_reference.inverse();
+  for (std::size_t k = reference + 1; k < graph_.T_map_keyframe.size(); ++k)
+    graph_.T_map_keyframe[k] = T_turned * graph_.T_map_keyframe[k];
+  const std::vector<LoopClosure> closures = find(run_.newest());
+  ASSERT_EQ(closures.size(), 1U);
+  EXPECT_LT(chi_square_against(closures[0], T_from_to_truth(closures[0])), kChiSquare99);
+}
+
 }  // namespace
 }  // namespace swiftlet

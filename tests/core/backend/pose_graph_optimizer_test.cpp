@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/pose_graph_optimizer.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -258,6 +259,48 @@ TEST(PoseGraphOptimizer, ALoosePoseIsASolverErrorAndMovesNothing) {
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().code, ErrorCode::kSolver);
   expect_same_poses(graph, before, 0.0);
+}
+
+TEST(PoseGraphOptimizer, OnASolverErrorTheClosuresScalesAreAsTheyWere) {
+  PoseGraph graph;
+  graph.T_map_keyframe = {Pose2(), Pose2(1.0, 0.0, 0.0), Pose2(5.0, 5.0, 0.0)};
+  graph.constraints.push_back({KeyframeId{0}, KeyframeId{1}, Pose2(1.0, 0.0, 0.0)});
+  graph.constraints.push_back(
+      {KeyframeId{0}, KeyframeId{1}, Pose2(9.0, 9.0, 0.0), Eigen::Matrix3d::Identity(), true});
+  ASSERT_FALSE(PoseGraphOptimizer(5.0, 20).optimize(graph));
+  EXPECT_EQ(graph.constraints[1].dcs_scale, 1.0);
+}
+
+TEST(PoseGraphOptimizer, NamesTheKeyframeThatNothingHolds) {
+  PoseGraph graph;
+  graph.T_map_keyframe = {Pose2(), Pose2(1.0, 0.0, 0.0), Pose2(5.0, 5.0, 0.0), Pose2(2.0, 0.0, 0.0)};
+  graph.constraints.push_back({KeyframeId{0}, KeyframeId{1}, Pose2(1.0, 0.0, 0.0)});
+  graph.constraints.push_back({KeyframeId{1}, KeyframeId{3}, Pose2(1.0, 0.0, 0.0)});
+  const Result<OptimizeReport> report = PoseGraphOptimizer(5.0, 20).optimize(graph);
+  ASSERT_FALSE(report);
+  EXPECT_THAT(report.error().message, testing::HasSubstr("near pose 2:"));
+}
+
+TEST(PoseGraphOptimizer, AWorseContradictionLeavesAGreaterChiSquare) {
+  const auto objective = [](double false_x_m) {
+    PoseGraph graph;
+    graph.T_map_keyframe = {Pose2(), Pose2(1.0, 0.0, 0.0)};
+    graph.constraints.push_back(
+        {KeyframeId{0}, KeyframeId{1}, Pose2(1.0, 0.0, 0.0), 1e6 * Eigen::Matrix3d::Identity()});
+    graph.constraints.push_back(
+        {KeyframeId{0}, KeyframeId{1}, Pose2(false_x_m, 0.0, 0.0), Eigen::Matrix3d::Identity(), true});
+    return PoseGraphOptimizer(5.0, 20).optimize(graph)->chi_square;
+  };
+  EXPECT_GT(objective(20.0), 1.2 * objective(4.0));
+}
+
+TEST(PoseGraphOptimizer, ReportsTheChiSquareAfterItsLastStep) {
+  PoseGraph graph;
+  graph.T_map_keyframe = {Pose2(), Pose2(3.0, 0.0, 0.0)};
+  graph.constraints.push_back({KeyframeId{0}, KeyframeId{1}, Pose2(1.0, 0.0, 0.0)});
+  const Result<OptimizeReport> report = PoseGraphOptimizer(5.0, 1).optimize(graph);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->chi_square, 0.0, 1e-9);
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ TEST(Frontend, IsBetterThanDeadReckoning) {
 
 TEST(Frontend, LearnsThatTheOdometryTurnsWithoutKnowingIt) {
   FrontendConfig without;
-  without.min_drift_rad_per_metre = 100.0;
+  without.learn_drift = false;
   const RoomDrive drive =
       drive_around(6, BeamLayout::multiranger(), SensorModel::crazyflie(), {1.0, radians(2.0)}, 6);
   const double learnt_m = relative_error(drive, run(drive).steps, 200).position_m;
