@@ -11,7 +11,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr Duration kReceiveTimeout = std::chrono::milliseconds(50);
+constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
 // The vehicle itself takes a link that was silent for a second as lost, and forgets its log blocks.
 constexpr Duration kLinkLost = std::chrono::seconds(1);
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);

@@ -14,6 +14,7 @@
 #include "firmware_link/input_uri.hpp"
 #include "firmware_link/link_sample_source.hpp"
 #include "firmware_link/replay_link.hpp"
+#include "firmware_link/simulated_link.hpp"
 
 namespace swiftlet {
 namespace {
@@ -84,6 +85,21 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   return CarmenSampleSource::open(path, options);
 }
 
+Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, const InputUri& parsed,
+                                                      const SampleSourceOptions& options) {
+  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed);
+  if (!link) return link.error();
+  LinkInput input;
+  input.name = uri;
+  input.sensor = crazyflie_sensor(options);
+  input.starts_logging = true;
+  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
+  input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };
+  input.T_world_body_at = [simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); };
+  input.link = std::move(link).value();
+  return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
@@ -93,7 +109,7 @@ Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
   const Result<InputUri> parsed = parse_input_uri(uri);
   if (!parsed) return parsed.error();
   if (parsed->kind == InputUri::Kind::kFile) return open_file(parsed->path, options);
-  return Error{ErrorCode::kInvalidInput, "input '" + uri + "': this build has no simulated vehicle"};
+  return open_simulation(uri, *parsed, options);
 }
 
 }  // namespace swiftlet

@@ -128,11 +128,54 @@ TEST(OpenSampleSource, RefusesWhatIsNoInputWithOneLine) {
       {text.path(), "neither a capture (pcap) nor a CARMEN laser log"},
       {fake.path(), "not a classic pcap"},
       {"http://example.org/a.pcap", "unknown scheme 'http'"},
+      {"sim://nowhere", "nowhere"},
   };
   for (const auto& [uri, expected] : cases) {
     EXPECT_THAT(refusal(uri), HasSubstr(expected));
     EXPECT_EQ(refusal(uri).find('\n'), std::string::npos);
   }
+}
+
+TEST(OpenSampleSource, FliesASimulatedVehicleWithItsTruth) {
+  const auto source = open_sample_source("sim://office?seed=1", {});
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  std::vector<RangeSample> samples;
+  Result<RangeSample> sample = (*source)->next();
+  for (; sample || sample.error().code == ErrorCode::kTimeout; sample = (*source)->next())
+    if (sample) samples.push_back(*sample);
+  EXPECT_EQ(sample.error().code, ErrorCode::kEndOfRecording) << sample.error().message;
+  const InputReport& report = (*source)->report();
+  ASSERT_GT(samples.size(), 1000U);
+  EXPECT_EQ(report.segments, 1U);
+  EXPECT_GT(report.gaps, 0U);  // one packet in a hundred is lost
+  EXPECT_GT(samples.size(), report.range_packets * 95 / 100);
+  EXPECT_EQ(report.range_packets, samples.size() + report.unpaired);
+  EXPECT_TRUE(report.problems.empty());
+  EXPECT_EQ((*source)->progress(), 1.0);
+  const std::vector<StampedPose> truth = (*source)->ground_truth();
+  ASSERT_EQ(truth.size(), samples.size());
+  // Dead reckoning drifts slowly: over one second it agrees with the truth.
+  for (std::size_t i = 10; i < samples.size(); i += 10) {
+    EXPECT_EQ(truth[i].stamp, samples[i].stamp);
+    const Pose2 reckoned = between(samples[i - 10].T_odom_body, samples[i].T_odom_body);
+    const Pose2 error = between(between(truth[i - 10].pose, truth[i].pose), reckoned);
+    EXPECT_LT(std::hypot(error.x_m(), error.y_m()), 0.5) << "sample " << i;
+    EXPECT_LT(std::abs(error.yaw_rad()), 0.2) << "sample " << i;
+  }
+}
+
+TEST(OpenSampleSource, FliesTheSameFlightForTheSameSeedOnly) {
+  const auto first_distances = [](const std::string& uri) {
+    const auto source = open_sample_source(uri, {});
+    std::vector<float> distances;
+    for (int calls = 0; source && calls < 5000 && distances.size() < 800; ++calls)
+      if (const auto sample = (*source)->next())
+        distances.insert(distances.end(), sample->distance_m.begin(), sample->distance_m.begin() + 4);
+    return distances;
+  };
+  EXPECT_EQ(first_distances("sim://loop?seed=3").size(), 800U);
+  EXPECT_EQ(first_distances("sim://loop?seed=3"), first_distances("sim://loop?seed=3"));
+  EXPECT_NE(first_distances("sim://loop?seed=3"), first_distances("sim://loop?seed=4"));
 }
 
 struct ReferenceFlight {

@@ -153,10 +153,12 @@ class ScriptedLink final : public Link {
   }
   Result<LinkFrame> receive(Duration timeout) override {
     if (frames_.empty()) {
-      const std::int64_t before = now_ms;
-      now_ms += timeout / std::chrono::milliseconds(1);
+      const std::int64_t next_ms = (now_ms / 100 + 1) * 100;
+      const std::int64_t patience_ms = timeout / std::chrono::milliseconds(1);
+      const bool heard = next_ms - now_ms <= patience_ms;
+      now_ms = heard ? next_ms : now_ms + patience_ms;
       if (now_ms > last_ms) return Error{ErrorCode::kEndOfRecording, "landed"};
-      if (now_ms / 100 == before / 100) return Error{ErrorCode::kTimeout, "nothing heard"};
+      if (!heard) return Error{ErrorCode::kTimeout, "nothing heard"};
       for (const Bytes& packet : vehicle.data(static_cast<std::uint32_t>(now_ms)))
         frames_.push_back(received(packet, host_ms(now_ms)));
       if (frames_.empty()) return Error{ErrorCode::kTimeout, "nothing heard"};
