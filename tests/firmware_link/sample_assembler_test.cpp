@@ -36,7 +36,8 @@ class SampleAssemblerTest : public testing::Test {
     reading.position_odom = Point2{x_m, y_m};
     feed(reading);
   }
-  void ranges(std::int64_t ms, double yaw_rad = 0.0, std::vector<float> distances = {1.F, 1.F, 1.F, 1.F}) {
+  void ranges(std::int64_t ms, double yaw_rad = 0.0,
+              const std::vector<float>& distances = {1.F, 1.F, 1.F, 1.F}) {
     Reading reading;
     reading.stream = 2;
     reading.at = device_ms(ms);
@@ -115,7 +116,7 @@ TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
 
 TEST_F(SampleAssemblerTest, DoesNotWaitForEver) {
   position(0, 0.0);
-  for (int i = 1; i <= 20; ++i) ranges(100 * i);
+  for (int i = 1; i <= 20; ++i) ranges(100L * i);
   EXPECT_GE(report_.unpaired, 15U);  // the position is lost: 0.3 s of ranges may still hope
   EXPECT_EQ(samples_.size(), 0U + (report_.samples));
   end();
@@ -124,8 +125,8 @@ TEST_F(SampleAssemblerTest, DoesNotWaitForEver) {
 
 TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndGoesOnBehindIt) {
   for (int i = 0; i < 10; ++i) {
-    if (i != 4) position(100 * i, 0.1 * i);
-    ranges(100 * i + 4);
+    if (i != 4) position(100L * i, 0.1 * i);
+    ranges(100L * i + 4);
   }
   end();
   // Ranges are measured at 100 (i - 1) + 4: the lost position at 400 spoils those of 304 and 404.
@@ -136,15 +137,15 @@ TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndGoesOnBehindI
 }
 
 TEST_F(SampleAssemblerTest, CountsGapsAndThePacketsTheyStandFor) {
-  for (const int i : {0, 1, 2, 4, 5, 9, 10}) ranges(100 * i);
+  for (const int i : {0, 1, 2, 4, 5, 9, 10}) ranges(100L * i);
   EXPECT_EQ(report_.gaps, 2U);
   EXPECT_EQ(report_.missing_packets, 4U);
 }
 
 TEST_F(SampleAssemblerTest, DropsAndCountsDuplicatesAndLatePackets) {
   for (int i = 0; i < 5; ++i) {
-    position(100 * i, 0.1 * i);
-    ranges(100 * i + 4);
+    position(100L * i, 0.1 * i);
+    ranges(100L * i + 4);
   }
   position(400, 0.4);
   ranges(404);
@@ -156,14 +157,14 @@ TEST_F(SampleAssemblerTest, DropsAndCountsDuplicatesAndLatePackets) {
 
 TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
   for (int i = 0; i < 5; ++i) {
-    position(60'000 + 100 * i, 3.0 + 0.01 * i);
-    ranges(60'004 + 100 * i);
+    position(60'000 + 100L * i, 3.0 + 0.01 * i);
+    ranges(60'004 + 100L * i);
   }
   const std::size_t before = samples_.size();
   ASSERT_GT(before, 0U);
   for (int i = 0; i < 5; ++i) {
-    position(2'000 + 100 * i, 0.01 * i);
-    ranges(2'004 + 100 * i);
+    position(2'000 + 100L * i, 0.01 * i);
+    ranges(2'004 + 100L * i);
   }
   ASSERT_GT(samples_.size(), before + 1);
   EXPECT_TRUE(samples_[before].starts_segment);
@@ -198,8 +199,8 @@ TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) 
 
 TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
   for (int i = 0; i < 3; ++i) {
-    position(100 * i, 0.0);
-    ranges(100 * i + 4, 0.0, {2.999F, 32.766F, 0.0F, std::numeric_limits<float>::quiet_NaN()});
+    position(100L * i, 0.0);
+    ranges(100L * i + 4, 0.0, {2.999F, 32.766F, 0.0F, std::numeric_limits<float>::quiet_NaN()});
   }
   ASSERT_EQ(samples_.size(), 2U);
   const RangeSample& sample = samples_[0];

@@ -33,7 +33,7 @@ struct SyntheticCapture {
     exchange(hex("5d 05"), hex("5d 05 00 00"));
     if (with_toc) {
       exchange(hex("5c 03"), hex("50 03 07 00 01 02 03 04 10 80"));
-      for (std::uint16_t id = 0; id < kNames.size(); ++id)
+      for (std::uint16_t id = 0; id < std::uint16_t{kNames.size()}; ++id)
         exchange({0x5C, 2, low_byte(id), high_byte(id)},
                  toc_item_reply(id, id < 3 ? LogType::kFloat : LogType::kUint16,
                                 id < 3 ? "stateEstimate" : "range", kNames[id]));
@@ -53,12 +53,12 @@ struct SyntheticCapture {
                                  .u16(700)
                                  .u16(32766)
                                  .u16(0);
-    return received(packet.bytes(), host_ms(1'700'000'001'000 + 100 * i));
+    return received(packet.bytes(), host_ms(1'700'000'001'000 + 100L * i));
   }
   [[nodiscard]] std::vector<LinkFrame> frames() const {
     std::vector<LinkFrame> all = handshake();
     for (int i = 0; i < packets; ++i) {
-      all.push_back(sent(hex("ff"), host_ms(1'700'000'000'999 + 100 * i)));
+      all.push_back(sent(hex("ff"), host_ms(1'700'000'000'999 + 100L * i)));
       all.push_back(data(i));
     }
     return all;
