@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace swiftlet {
+
+/// Rotation from body to world, unit length.
+struct Quaternion {
+  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
+};
+
+/// Heading of the body's x axis, counter-clockwise, -pi..pi (Diebel 2006, "Representing Attitude", eq. 290).
+inline double yaw_of(const Quaternion& q) {
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+}
+
+/// The firmware's 32-bit form (stateEstimateZ.quat): bits 31..30 say which of x, y, z, w is the largest,
+/// which is positive and left out; the other three follow in order, a sign bit and nine bits of magnitude in
+/// units of 1 / (511 sqrt 2).
+inline Quaternion unpack_quaternion(std::uint32_t packed) {
+  double q[4] = {0.0, 0.0, 0.0, 0.0};
+  const std::size_t largest = packed >> 30;
+  double sum_of_squares = 0.0;
+  unsigned shift = 20;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (i == largest) continue;
+    const std::uint32_t field = (packed >> shift) & 0x3FF;
+    const double magnitude = static_cast<double>(field & 0x1FF) / 511.0 / std::sqrt(2.0);
+    q[i] = (field & 0x200) != 0 ? -magnitude : magnitude;
+    sum_of_squares += magnitude * magnitude;
+    shift -= 10;
+  }
+  q[largest] = std::sqrt(std::fmax(0.0, 1.0 - sum_of_squares));
+  return {q[0], q[1], q[2], q[3]};
+}
+
+}  // namespace swiftlet

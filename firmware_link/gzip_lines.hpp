@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+/// The lines of a text file, plain or gzip (told by content). One thread at a time.
+class GzipLines {
+ public:
+  /// Errors: as size_of_input_file.
+  [[nodiscard]] static Result<GzipLines> open(const std::string& path);
+
+  /// The next line without its end; valid until the next call. Errors: kEndOfRecording. kDamaged: the gzip
+  /// stream is cut off or garbled; the message names the byte offset in the file. The lines before it were
+  /// delivered, a line cut in two was not.
+  [[nodiscard]] Result<std::string_view> next();
+  /// Of the line that next() gave last, from 1.
+  [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+
+ private:
+  struct Close {
+    void operator()(void* file) const;
+  };
+  GzipLines() = default;
+  /// False at the end or at damage.
+  bool fill();
+  [[nodiscard]] Error end_error() const;
+
+  std::string path_;
+  std::unique_ptr<void, Close> file_;  // gzFile
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;  // of the text not yet delivered
+  std::size_t end_ = 0;
+  bool damaged_ = false;
+  std::uint64_t line_number_ = 0;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+/// Size in bytes of a file that can be read. Errors: kNotFound: no such file. kInvalidInput: a directory or
+/// device, no permission, or empty. The message is fit for the user.
+[[nodiscard]] Result<std::uint64_t> size_of_input_file(const std::string& path);
+
+}  // namespace swiftlet

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/link_sample_source.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "firmware_link/crtp_packet.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
+// The vehicle itself takes a link that was silent for a second as lost, and forgets its log blocks.
+constexpr Duration kLinkLost = std::chrono::seconds(1);
+constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
+
+AssemblyConfig assembly_config(const SensorModel& sensor) {
+  AssemblyConfig config;
+  config.beams = BeamLayout::multiranger();
+  config.sensor = sensor;
+  config.continuity.longest_silence = kLinkLost;
+  return config;
+}
+
+}  // namespace
+
+LinkSampleSource::LinkSampleSource(LinkInput input)
+    : input_(std::move(input)), extractor_(session_), assembler_(assembly_config(input_.sensor), report_) {
+  report_.notes = input_.notes;
+  if (input_.description) session_.describe(*input_.description);
+  if (input_.starts_logging) handshake_.emplace(session_);
+  follow_periods();
+}
+
+Status LinkSampleSource::find_first_sample() {
+  Result<RangeSample> sample = read_sample();
+  while (!sample && sample.error().code == ErrorCode::kTimeout) sample = read_sample();
+  if (sample) {
+    first_sample_ = *sample;
+    return {};
+  }
+  if (sample.error().code != ErrorCode::kEndOfRecording) return sample.error();
+  if (!report_.problems.empty())
+    return Error{ErrorCode::kDamaged, report_.problems.front() + "; it holds no sample"};
+  return Error{ErrorCode::kInvalidInput, explain_no_samples()};
+}
+
+Result<RangeSample> LinkSampleSource::next() {
+  Result<RangeSample> sample = first_sample_ ? Result<RangeSample>(*first_sample_) : read_sample();
+  first_sample_.reset();
+  if (sample && input_.T_world_body_at)
+    truth_.push_back({sample->stamp, input_.T_world_body_at(sample->measured_at)});
+  return sample;
+}
+
+Result<RangeSample> LinkSampleSource::read_sample() {
+  for (;;) {
+    if (const std::optional<RangeSample> sample = assembler_.take()) return *sample;
+    if (end_) return *end_;
+    const Status stepped = step();
+    if (!stepped) return stepped.error();
+  }
+}
+
+Status LinkSampleSource::step() {
+  if (handshake_) {
+    if (const std::optional<CrtpPacket> request = handshake_->next_request(now_)) {
+      session_.hear_request(bytes_of(*request));
+      Status sent = input_.link->send(bytes_of(*request));
+      if (!sent) return sent;
+    }
+  }
+  const Result<LinkFrame> frame = input_.link->receive(kReceiveTimeout);
+  if (!frame) return answer_failure(frame.error());
+  now_ = std::max(now_, frame->at);
+  ++report_.frames;
+  const std::optional<LogRecord> record = session_.hear(*frame);
+  if (handshake_ && frame->direction == LinkDirection::kFromVehicle) {
+    handshake_->hear(frame->packet());
+    if (handshake_->failure()) end_ = handshake_->failure();
+    if (end_ || handshake_->finished()) {
+      report_.notes.insert(report_.notes.end(), handshake_->notes().begin(), handshake_->notes().end());
+      handshake_.reset();
+    }
+  }
+  if (!record) return {};
+  const std::optional<Reading> reading = extractor_.extract(*record);
+  if (!reading) return {};
+  follow_periods();
+  assembler_.add(*reading);
+  return {};
+}
+
+Status LinkSampleSource::answer_failure(const Error& error) {
+  if (error.code == ErrorCode::kTimeout) {
+    now_ += kReceiveTimeout;
+    return error;
+  }
+  assembler_.end();
+  end_ = error;
+  if (error.code == ErrorCode::kDamaged) {
+    report_.problems.push_back(error.message);
+    end_ = Error{ErrorCode::kEndOfRecording, error.message};
+  }
+  finish_report();
+  return {};
+}
+
+void LinkSampleSource::follow_periods() {
+  const auto known_or_usual = [](Duration period) {
+    return period > Duration::zero() ? period : kUsualPeriod;
+  };
+  const Duration range_period = known_or_usual(extractor_.range_period());
+  const Duration odometry_period = known_or_usual(extractor_.odometry_period());
+  if (range_period == range_period_ && odometry_period == odometry_period_) return;
+  range_period_ = range_period;
+  odometry_period_ = odometry_period;
+  assembler_.set_periods(range_period, odometry_period);
+}
+
+void LinkSampleSource::finish_report() {
+  if (session_.used_description())
+    report_.notes.push_back("block layouts taken from " + input_.description->source +
+                            ": the recording has no table of contents for them");
+  for (const std::string& name : extractor_.missing_ranges())
+    report_.notes.push_back(name + " is not logged beside the other ranges: that beam is always invalid");
+  const UnreadableRecords& unreadable = session_.unreadable();
+  if (unreadable.unknown_block > 0)
+    report_.notes.push_back(std::to_string(unreadable.unknown_block) +
+                            " log packets of blocks that nothing describes were left out");
+  if (unreadable.misfit > 0)
+    report_.problems.push_back(input_.name + ": " + std::to_string(unreadable.misfit) +
+                               " log packets have another size than their block and were left out");
+}
+
+std::string LinkSampleSource::explain_no_samples() const {
+  const UnreadableRecords& unreadable = session_.unreadable();
+  const bool has_data = extractor_.finds_ranges() || extractor_.finds_position() || extractor_.finds_yaw();
+  if (!has_data && unreadable.unknown_block > 0)
+    return input_.name +
+           ": nothing in it tells what its log blocks hold (no table of contents); describe them in " +
+           input_.name +
+           ".toml: [[block]] id = 1, variables = [ { name = \"range.front\", type = \"uint16\" }, ... ]";
+  if (!extractor_.finds_ranges())
+    return input_.name +
+           ": no range.front, range.left, range.back or range.right in its log packets; log them";
+  if (!extractor_.finds_position())
+    return input_.name + ": no position in its log packets; log stateEstimate.x and stateEstimate.y";
+  if (!extractor_.finds_yaw()) return input_.name + ": no yaw in its log packets; log stateEstimate.yaw";
+  return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +
+         std::to_string(report_.unpaired) + " range packets)";
+}
+
+std::optional<double> LinkSampleSource::progress() const {
+  return input_.progress ? input_.progress() : std::nullopt;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_link/block_description.hpp"
+#include "firmware_link/link.hpp"
+#include "firmware_link/log_handshake.hpp"
+#include "firmware_link/log_session.hpp"
+#include "firmware_link/reading_extractor.hpp"
+#include "firmware_link/sample_assembler.hpp"
+#include "firmware_link/sample_source.hpp"
+
+namespace swiftlet {
+
+/// What a LinkSampleSource is made of.
+struct LinkInput {
+  std::string name;  ///< for messages: path or URI
+  std::unique_ptr<Link> link;
+  SensorModel sensor = SensorModel::crazyflie();
+  bool starts_logging = false;  ///< a live vehicle: ask it for the log; otherwise only listen
+  std::optional<BlockDescription> description;
+  std::vector<std::string> notes;
+  std::function<std::optional<double>()> progress;   ///< may be empty
+  std::function<Pose2(DeviceTime)> T_world_body_at;  ///< where the truth is known; may be empty
+};
+
+/// Range samples from a vehicle, live or recorded: link, log session and assembler in one. One thread at a
+/// time. After the first sample next() allocates only where something noteworthy happens (and to keep ground
+/// truth).
+class LinkSampleSource final : public SampleSource {
+ public:
+  explicit LinkSampleSource(LinkInput input);
+
+  /// For recordings: reads up to the first sample, which next() then delivers. Errors: kInvalidInput: there
+  /// is none; the message says why. kDamaged: damaged before the first sample.
+  [[nodiscard]] Status find_first_sample();
+
+  [[nodiscard]] Result<RangeSample> next() override;
+  [[nodiscard]] const BeamLayout& beams() const override { return beams_; }
+  [[nodiscard]] const SensorModel& sensor() const override { return input_.sensor; }
+  [[nodiscard]] const InputReport& report() const override { return report_; }
+  [[nodiscard]] std::optional<double> progress() const override;
+  [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return truth_; }
+
+ private:
+  Result<RangeSample> read_sample();
+  /// One frame's worth of work.
+  Status step();
+  Status answer_failure(const Error& error);
+  void follow_periods();
+  void finish_report();
+  [[nodiscard]] std::string explain_no_samples() const;
+
+  LinkInput input_;
+  BeamLayout beams_ = BeamLayout::multiranger();
+  InputReport report_;
+  LogSession session_;
+  std::optional<LogHandshake> handshake_;
+  ReadingExtractor extractor_;
+  SampleAssembler assembler_;
+  Duration range_period_{};
+  Duration odometry_period_{};
+  HostTime now_{};
+  std::optional<Error> end_;
+  std::optional<RangeSample> first_sample_;
+  std::vector<StampedPose> truth_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/log_session.hpp"
+
+#include <algorithm>
+
+#include "core/base/check.hpp"
+#include "firmware_link/byte_order.hpp"
+#include "firmware_link/crtp_packet.hpp"
+
+namespace swiftlet {
+
+void LogSession::describe(const BlockDescription& description) {
+  described_blocks_.assign(256, LogBlock{});
+  std::uint16_t variable = 0;
+  for (const auto& [id, described] : description.blocks) {
+    LogBlock& block = described_blocks_[id];
+    block.exists = true;
+    block.running = true;
+    block.period = described.period;
+    for (const BlockDescription::Variable& entry : described.variables) {
+      described_toc_.add(variable, entry.type, entry.name);
+      const bool fits = append_entry(block.entries, variable, entry.type);
+      SWIFTLET_CHECK(fits, "a described block holds at most 26 bytes");
+      ++variable;
+    }
+  }
+}
+
+std::optional<LogRecord> LogSession::hear(const LinkFrame& frame) {
+  const std::span<const std::uint8_t> packet = frame.packet();
+  if (frame.direction == LinkDirection::kToVehicle) {
+    hear_request(packet);
+  } else if (is_on(packet, kLogDataTopic)) {
+    return read(frame);
+  } else if (is_on(packet, kLogTocTopic)) {
+    if (toc_.hear_reply(packet)) ++toc_revision_;
+  } else if (is_on(packet, kLogControlTopic)) {
+    blocks_.hear_reply(packet);
+  }
+  return std::nullopt;
+}
+
+void LogSession::hear_request(std::span<const std::uint8_t> packet) {
+  if (is_on(packet, kLogControlTopic)) blocks_.hear_request(packet);
+}
+
+std::optional<LogRecord> LogSession::read(const LinkFrame& frame) {
+  const std::span<const std::uint8_t> packet = frame.packet();
+  if (packet.size() < kLogDataPrefix) {
+    ++unreadable_.misfit;
+    return std::nullopt;
+  }
+  LogRecord record;
+  record.block_id = packet[1];
+  record.at = clock_.unwrap(static_cast<std::uint32_t>(load_little_endian(packet, 2, 3)));
+  record.heard = frame.at;
+  record.values = packet.subspan(kLogDataPrefix);
+  record.entry_count = blocks_.entries_in(record.block_id, record.values.size());
+  record.block = &blocks_[record.block_id];
+  if (is_named(*record.block, std::max<std::size_t>(record.entry_count, 1))) {
+    if (record.entry_count > 0) return record;
+    ++unreadable_.misfit;
+    return std::nullopt;
+  }
+  if (described_blocks_.empty() || !described_blocks_[record.block_id].exists) {
+    ++unreadable_.unknown_block;
+    return std::nullopt;
+  }
+  record.block = &described_blocks_[record.block_id];
+  if (byte_count(record.block->entries) != record.values.size()) {
+    ++unreadable_.misfit;
+    return std::nullopt;
+  }
+  record.described = true;
+  record.entry_count = record.block->entries.size();
+  used_description_ = true;
+  return record;
+}
+
+bool LogSession::is_named(const LogBlock& block, std::size_t entry_count) const {
+  return block.entries.size() >= entry_count &&
+         std::all_of(block.entries.begin(), block.entries.begin() + entry_count,
+                     [this](const LogEntry& entry) { return toc_.has(entry.variable); });
+}
+
+std::string_view LogSession::name_of(const LogRecord& record, std::size_t entry) const {
+  const LogToc& toc = record.described ? described_toc_ : toc_;
+  return toc.name_of(record.block->entries[entry].variable);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample_source.hpp"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <utility>
+
+#include "firmware_link/carmen_sample_source.hpp"
+#include "firmware_link/input_file.hpp"
+#include "firmware_link/input_uri.hpp"
+#include "firmware_link/link_sample_source.hpp"
+#include "firmware_link/replay_link.hpp"
+#include "firmware_link/simulated_link.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr const char* kBeamsIgnored = "the number of beams is the sensor's own here; --beams is ignored";
+
+Status check_options(const SampleSourceOptions& options) {
+  if (options.beam_count && (*options.beam_count < 2 || *options.beam_count > static_cast<int>(kMaxBeams)))
+    return Error{ErrorCode::kInvalidInput, "--beams " + std::to_string(*options.beam_count) +
+                                               ": must be from 2 to " + std::to_string(kMaxBeams)};
+  if (options.range_age &&
+      (*options.range_age < Duration::zero() || *options.range_age > std::chrono::seconds(1)))
+    return Error{ErrorCode::kInvalidInput,
+                 "range age " + std::to_string(to_seconds(*options.range_age)) + " s: must be from 0 to 1 s"};
+  if (options.max_range_m && !(*options.max_range_m > 0.0 && std::isfinite(*options.max_range_m)))
+    return Error{ErrorCode::kInvalidInput,
+                 "maximum range " + std::to_string(*options.max_range_m) + " m: must be positive"};
+  return {};
+}
+
+SensorModel crazyflie_sensor(const SampleSourceOptions& options) {
+  SensorModel sensor = SensorModel::crazyflie();
+  if (options.range_age) sensor.range_age = *options.range_age;
+  if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
+  return sensor;
+}
+
+/// By content: any pcap, classic or not, begins with one of these; a laser log is text or gzip.
+bool looks_like_capture(const std::string& path) {
+  std::array<char, 4> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size());
+  constexpr std::array<std::array<char, 4>, 5> kStarts{{{'\xD4', '\xC3', '\xB2', '\xA1'},
+                                                        {'\xA1', '\xB2', '\xC3', '\xD4'},
+                                                        {'\x4D', '\x3C', '\xB2', '\xA1'},
+                                                        {'\xA1', '\xB2', '\x3C', '\x4D'},
+                                                        {'\x0A', '\x0D', '\x0D', '\x0A'}}};  // pcapng
+  return std::find(kStarts.begin(), kStarts.end(), start) != kStarts.end();
+}
+
+Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
+                                                   const SampleSourceOptions& options) {
+  Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path);
+  if (!link) return link.error();
+  LinkInput input;
+  input.name = path;
+  input.sensor = crazyflie_sensor(options);
+  input.notes = (*link)->notes();
+  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
+  input.progress = [replay = link->get()]() { return std::optional<double>(replay->progress()); };
+  input.link = std::move(link).value();
+  Result<BlockDescription> description = read_block_description(path + ".toml");
+  if (description) {
+    input.description = std::move(description).value();
+  } else if (description.error().code != ErrorCode::kNotFound) {
+    return description.error();
+  }
+  auto source = std::make_unique<LinkSampleSource>(std::move(input));
+  const Status found = source->find_first_sample();
+  if (!found) return found.error();
+  return std::unique_ptr<SampleSource>(std::move(source));
+}
+
+Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const SampleSourceOptions& options) {
+  const Result<std::uint64_t> size = size_of_input_file(path);
+  if (!size) return size.error();
+  if (looks_like_capture(path) || path.ends_with(".pcap")) return open_capture(path, options);
+  return CarmenSampleSource::open(path, options);
+}
+
+Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, const InputUri& parsed,
+                                                      const SampleSourceOptions& options) {
+  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed);
+  if (!link) return link.error();
+  LinkInput input;
+  input.name = uri;
+  input.sensor = crazyflie_sensor(options);
+  input.starts_logging = true;
+  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
+  input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };
+  input.T_world_body_at = [simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); };
+  input.link = std::move(link).value();
+  return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
+                                                         const SampleSourceOptions& options) {
+  const Status checked = check_options(options);
+  if (!checked) return checked.error();
+  const Result<InputUri> parsed = parse_input_uri(uri);
+  if (!parsed) return parsed.error();
+  if (parsed->kind == InputUri::Kind::kFile) return open_file(parsed->path, options);
+  return open_simulation(uri, *parsed, options);
+}
+
+}  // namespace swiftlet
