@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "core/mapping/map_legend.hpp"
@@ -71,12 +70,21 @@ void draw_closures(RgbImage& image, const MapScene& scene, const MapView& view) 
                      map_style::kDropped);
 }
 
-void draw_mark(RgbImage& image, const PixelPoint& centre, const Colour& colour, std::string_view name) {
+void draw_mark(RgbImage& image, const PixelPoint& centre, double radius_px, const Colour& colour) {
+  draw_disc(image, centre, radius_px + 2.0, map_style::kPaper);
+  draw_disc(image, centre, radius_px, colour);
+}
+
+/// Named to either side, the end on a smaller disc: both can be read where a run ends at its start.
+void draw_marks(RgbImage& image, const PixelPoint& start, const PixelPoint& end) {
   constexpr double kTextPx = 14.0;
-  draw_disc(image, centre, map_style::kMarkRadiusPx + 2.0, map_style::kPaper);
-  draw_disc(image, centre, map_style::kMarkRadiusPx, colour);
-  draw_text_with_halo(image, {centre.x + 2.0 * map_style::kMarkRadiusPx, centre.y + kTextPx / 2.0}, kTextPx,
-                      name, map_style::kInk, map_style::kPaper);
+  constexpr double kToText = 1.5 * map_style::kStartRadiusPx;
+  draw_mark(image, start, map_style::kStartRadiusPx, map_style::time_colour(0.0));
+  draw_mark(image, end, map_style::kEndRadiusPx, map_style::time_colour(1.0));
+  draw_text_with_halo(image, {start.x + kToText, start.y + kTextPx / 2.0}, kTextPx, "start", map_style::kInk,
+                      map_style::kPaper);
+  draw_text_with_halo(image, {end.x - kToText - text_width_px(kTextPx, "end"), end.y + kTextPx / 2.0},
+                      kTextPx, "end", map_style::kInk, map_style::kPaper);
 }
 
 }  // namespace
@@ -90,10 +98,9 @@ RgbImage draw_map(const MapScene& scene) {
     draw_line(image, view.pixel(wall.start_map), view.pixel(wall.end_map), map_style::kWall);
   draw_closures(image, scene, view);
   draw_path(image, scene, view);
-  if (!scene.scans.empty()) {
-    draw_mark(image, view.pixel(scene.scans.front().corrected_map), map_style::time_colour(0.0), "start");
-    draw_mark(image, view.pixel(scene.scans.back().corrected_map), map_style::time_colour(1.0), "end");
-  }
+  if (!scene.scans.empty())
+    draw_marks(image, view.pixel(scene.scans.front().corrected_map),
+               view.pixel(scene.scans.back().corrected_map));
   draw_legend(image, view.height_px(), view.px_per_m(), scene);
   return image;
 }
