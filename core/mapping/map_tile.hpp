@@ -4,18 +4,20 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 namespace swiftlet {
 
 inline constexpr int kTileCells = 64;  ///< cells along one side of a tile
+inline constexpr std::size_t kCellsInTile = std::size_t{kTileCells} * kTileCells;
 
 /// Which tile: tile (x, y) covers map coordinates [64 x, 64 x + 64) * resolution, likewise y.
 struct TileIndex {
   std::int32_t x = 0;
   std::int32_t y = 0;
-  auto operator<=>(const TileIndex&) const = default;
+  auto operator<=>(const TileIndex&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// One square of the map, complete in itself; crosses queues by value.
@@ -23,7 +25,7 @@ struct MapTile {
   TileIndex index;
   std::uint32_t version = 0;  ///< counts up with every change of this tile
   /// Row by row from the lowest y, each from the lowest x: 0..100 percent occupied, -1 unknown.
-  std::array<std::int8_t, kTileCells * kTileCells> occupancy_percent{};
+  std::array<std::int8_t, kCellsInTile> occupancy_percent{};
 };
 static_assert(std::is_trivially_copyable_v<MapTile>);
 

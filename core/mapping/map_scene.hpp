@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <vector>
+
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/mapping/map_tile.hpp"
+
+namespace swiftlet {
+
+class Backend;
+class MapBuilder;
+
+struct MapSegment {
+  Point2 start_map;
+  Point2 end_map;
+};
+
+/// One scan of the run.
+struct ScenePoint {
+  Point2 corrected_map;
+  Point2 odometry_map;          ///< dead reckoning, begun at the corrected pose of its segment's first scan
+  bool starts_segment = false;  ///< dead reckoning does not lead here from the scan before
+};
+
+/// What a picture of a run shows, as plain values. All points are in the map frame.
+struct MapScene {
+  double resolution_m = 0.05;
+  std::vector<MapTile> tiles;
+  std::vector<ScenePoint> scans;     ///< in order of time
+  std::vector<MapSegment> walls;     ///< as far as the grid bears them out
+  std::vector<MapSegment> closures;  ///< accepted, from keyframe to keyframe
+  std::vector<MapSegment> dropped_closures;
+  Duration duration{0};  ///< from the first scan to the last
+};
+
+/// The present state of a run. Allocates.
+[[nodiscard]] MapScene make_map_scene(const Backend& backend, const MapBuilder& map);
+
+}  // namespace swiftlet

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/mapping/tile_store.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet {
+
+std::int8_t occupancy_percent(const CellCounts& counts, const MapConfig& config) {
+  if (counts.hits == 0 && counts.misses == 0) return -1;
+  const double log_odds = counts.hits * config.hit_log_odds + counts.misses * config.miss_log_odds;
+  const double limited = std::clamp(log_odds, -kMaxLogOdds, kMaxLogOdds);
+  return static_cast<std::int8_t>(std::lround(100.0 / (1.0 + std::exp(-limited))));
+}
+
+TileStore::TileStore(const MapConfig& config) : config_(config) {
+  for (std::uint32_t hits = 0; hits < kTableHits; ++hits)
+    for (std::uint32_t misses = 0; misses < kTableMisses; ++misses)
+      percent_table_.push_back(occupancy_percent({hits, misses}, config));
+}
+
+TileStore::Tile& TileStore::touch(TileIndex index) {
+  std::unique_ptr<Tile>& tile = tiles_[index];
+  if (tile == nullptr) {
+    tile = std::make_unique<Tile>();
+    tile->published.index = index;
+    tile->published.occupancy_percent.fill(-1);
+  }
+  tile->touched = true;
+  return *tile;
+}
+
+bool TileStore::refresh(Tile& tile) const {
+  bool changed = false;
+  bool empty = true;
+  for (std::size_t i = 0; i < tile.counts.size(); ++i) {
+    const std::int8_t percent = percent_of(tile.counts[i]);
+    empty = empty && percent < 0;
+    if (percent == tile.published.occupancy_percent[i]) continue;
+    tile.published.occupancy_percent[i] = percent;
+    changed = true;
+  }
+  tile.touched = false;
+  tile.empty = empty;
+  if (changed) ++tile.published.version;
+  return changed;
+}
+
+std::vector<TileIndex> TileStore::publish() {
+  last_tile_ = nullptr;
+  std::vector<TileIndex> changed;
+  for (const auto& [index, tile] : tiles_)
+    if (tile->touched && refresh(*tile)) changed.push_back(index);
+  return changed;
+}
+
+MapTile TileStore::tile(TileIndex index) const {
+  const auto found = tiles_.find(index);
+  if (found != tiles_.end()) return found->second->published;
+  MapTile unknown;
+  unknown.index = index;
+  unknown.occupancy_percent.fill(-1);
+  return unknown;
+}
+
+std::vector<TileIndex> TileStore::tiles() const {
+  std::vector<TileIndex> indices;
+  for (const auto& [index, tile] : tiles_)
+    if (!tile->empty) indices.push_back(index);
+  return indices;
+}
+
+}  // namespace swiftlet

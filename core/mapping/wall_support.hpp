@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/mapping/cell_walk.hpp"
+#include "core/mapping/map_scene.hpp"
+
+namespace swiftlet {
+
+/// The parts of a wall along which the grid is occupied within 0.1 m of it, gaps of up to 0.4 m closed, parts
+/// shorter than 0.4 m left out. The frontend's walls know nothing of what the backend's
+/// final refinement did to the scans behind them: for a picture, the grid says how far each still holds.
+/// `is_occupied` answers for a cell of `resolution_m`.
+[[nodiscard]] std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolution_m,
+                                                      const std::function<bool(CellIndex)>& is_occupied);
+
+}  // namespace swiftlet

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+/// Creates the directory where it is missing and makes sure that files can be written there. Asked before a
+/// run, so that hours of work do not end at a closed door. kInvalidInput: it cannot be.
+[[nodiscard]] Status prepare_output_directory(const std::filesystem::path& directory);
+
+/// Writes the whole file under another name beside it, then renames it: whoever looks sees the old file or
+/// the new one, never half of one. kOutOfSpace: writing failed; the old file is untouched.
+[[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace swiftlet

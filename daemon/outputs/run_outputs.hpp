@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/backend/backend.hpp"
+#include "core/base/result.hpp"
+#include "core/frontend/frontend.hpp"
+#include "core/mapping/map_builder.hpp"
+#include "core/mapping/trajectory_error.hpp"
+#include "daemon/stage_times.hpp"
+#include "firmware_link/sample_source.hpp"
+
+namespace swiftlet {
+
+/// A finished run, as seen by whoever writes it down. The references must outlive it.
+struct RunView {
+  const Backend& backend;
+  const MapBuilder& map;
+  const InputReport& input;
+  const FrontendCounters& frontend;
+  std::vector<StageSummary> times;
+  std::vector<StampedPose> truth;  ///< T_world_body in order of time; empty where nobody knows it
+  std::string input_uri;
+  SensorModel sensor;  ///< as used: with the configuration's overrides
+};
+
+/// Error of the path before and after correction, over the scans whose stamp the truth knows.
+struct RunError {
+  TrajectoryError odometry;
+  TrajectoryError corrected;
+};
+/// nullopt when the truth knows none of the scans.
+[[nodiscard]] std::optional<RunError> run_error(const Backend& backend,
+                                                const std::vector<StampedPose>& truth);
+
+/// Writes map.png, map.pgm, map.yaml, trajectory.tum, odometry.tum, report.json and, where the truth is
+/// known, ground_truth.tum into the directory, which is created where missing. Each file is complete or not
+/// there: the first that cannot be written ends it, those before it stay.
+[[nodiscard]] Status write_run_outputs(const std::filesystem::path& directory, const RunView& run);
+
+}  // namespace swiftlet

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/outputs/run_report.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace swiftlet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json input_json(const RunView& run) {
+  const InputReport& input = run.input;
+  return {{"uri", run.input_uri},
+          {"frames", input.frames},
+          {"samples", input.samples},
+          {"range_packets", input.range_packets},
+          {"odometry_packets", input.odometry_packets},
+          {"duplicates", input.duplicates},
+          {"out_of_order", input.out_of_order},
+          {"gaps", input.gaps},
+          {"missing_packets", input.missing_packets},
+          {"unpaired", input.unpaired},
+          {"segments", input.segments},
+          {"beams", {{"hits", input.hits}, {"no_returns", input.no_returns}, {"invalid", input.invalid}}},
+          {"notes", input.notes},
+          {"problems", input.problems}};
+}
+
+Json sensor_json(const RunView& run) {
+  return {{"beams", run.backend.scans().beams().count},
+          {"min_range_m", run.sensor.min_range_m},
+          {"max_range_m", run.sensor.max_range_m},
+          {"range_sigma_m", run.sensor.range_sigma_m},
+          {"range_age_s", to_seconds(run.sensor.range_age)}};
+}
+
+Json frontend_json(const FrontendCounters& frontend) {
+  return {{"samples", frontend.samples},
+          {"keyframes", frontend.keyframes},
+          {"lines_extracted", frontend.lines_extracted},
+          {"observations_added", frontend.observations_added},
+          {"batches_rolled_back", frontend.batches_rolled_back},
+          {"landmarks_created", frontend.landmarks_created},
+          {"landmarks_retired", frontend.landmarks_retired},
+          {"poses_retired", frontend.poses_retired},
+          {"refused_full", frontend.refused_full}};
+}
+
+Json backend_json(const Backend& backend) {
+  const BackendCounters& counters = backend.counters();
+  return {{"scans", counters.scans},
+          {"keyframes", counters.keyframes},
+          {"submaps", counters.submaps},
+          {"walls", backend.walls().size()},
+          {"closures",
+           {{"tried", counters.candidates_matched},
+            {"accepted", counters.closures_accepted},
+            {"dropped", counters.closures_dropped}}},
+          {"optimizations", counters.optimizations},
+          {"refined", counters.refined},
+          {"solver_failures", counters.solver_failures}};
+}
+
+Json trajectory_json(const Backend& backend) {
+  const ScanStore& scans = backend.scans();
+  if (scans.size() == 0) return {{"duration_s", 0.0}, {"odometry_length_m", 0.0}};
+  const StoredScan& last = scans[static_cast<ScanIndex>(scans.size() - 1)];
+  return {{"duration_s", to_seconds(last.stamp - scans[0].stamp)}, {"odometry_length_m", last.path_m}};
+}
+
+/// The rectangle around all tiles.
+Json map_json(const MapBuilder& map) {
+  const std::vector<TileIndex> tiles = map.tiles();
+  const double resolution_m = map.config().resolution_m;
+  Json json{{"resolution_m", resolution_m}, {"tiles", tiles.size()}};
+  if (tiles.empty()) return json;
+  const auto by_y = [](TileIndex a, TileIndex b) { return a.y < b.y; };
+  const auto [lowest, highest] = std::minmax_element(tiles.begin(), tiles.end(), by_y);
+  const double tile_m = kTileCells * resolution_m;
+  json["extent_m"] = {{"x", {tiles.front().x * tile_m, (tiles.back().x + 1) * tile_m}},
+                      {"y", {lowest->y * tile_m, (highest->y + 1) * tile_m}}};
+  return json;
+}
+
+Json times_json(const std::vector<StageSummary>& times) {
+  Json json = Json::object();
+  for (const StageSummary& stage : times)
+    json[stage.name] = {{"count", stage.count},
+                        {"mean_ms", stage.mean_ms},
+                        {"p50_ms", stage.p50_ms},
+                        {"p99_ms", stage.p99_ms},
+                        {"max_ms", stage.max_ms}};
+  return json;
+}
+
+Json error_json(const TrajectoryError& error) {
+  return {{"rmse_m", error.rmse_m}, {"mean_m", error.mean_m}, {"max_m", error.max_m}};
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0.0;
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+std::string run_report_json(const RunView& run) {
+  Json json{{"input", input_json(run)},
+            {"sensor", sensor_json(run)},
+            {"frontend", frontend_json(run.frontend)},
+            {"backend", backend_json(run.backend)},
+            {"trajectory", trajectory_json(run.backend)},
+            {"map", map_json(run.map)}};
+  if (const auto error = run_error(run.backend, run.truth))
+    json["absolute_trajectory_error"] = {{"samples", error->corrected.pairs},
+                                         {"odometry", error_json(error->odometry)},
+                                         {"corrected", error_json(error->corrected)}};
+  json["stage_times"] = times_json(run.times);
+  json["peak_memory_mb"] = peak_memory_mb();
+  // Names of files may hold any bytes: what is not UTF-8 is replaced, not a reason to lose the report.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/mapping/map_builder.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/core/mapping/room_flight.hpp"
+
+namespace swiftlet {
+namespace {
+
+const SensorModel kSensor = SensorModel::crazyflie();
+
+int percent_at(const MapBuilder& map, double x_m, double y_m) {
+  const double tile_m = kTileCells * map.config().resolution_m;
+  const TileIndex index{static_cast<int>(std::floor(x_m / tile_m)),
+                        static_cast<int>(std::floor(y_m / tile_m))};
+  const int column = static_cast<int>((x_m - index.x * tile_m) / map.config().resolution_m);
+  const int row = static_cast<int>((y_m - index.y * tile_m) / map.config().resolution_m);
+  return map.tile(index).occupancy_percent[static_cast<std::size_t>(row * kTileCells + column)];
+}
+
+void expect_same_map(const MapBuilder& a, const MapBuilder& b) {
+  ASSERT_EQ(a.tiles(), b.tiles());
+  for (const TileIndex index : a.tiles())
+    EXPECT_EQ(a.tile(index).occupancy_percent, b.tile(index).occupancy_percent);
+}
+
+TEST(MapBuilder, DrawsTheWallsOfARoomAndClearsItsMiddle) {
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  for (const FrontendStep& step : room_flight(100)) {
+    const BackendUpdate update = backend.add(step);
+    map.update(backend, update.poses_changed);
+  }
+  // The flight begins at the map's origin, 5 m right of the room's centre line: walls at y = +-2.
+  EXPECT_GT(percent_at(map, 3.02, 2.02), 60);
+  EXPECT_GT(percent_at(map, 3.02, -1.98), 60);
+  EXPECT_LT(percent_at(map, 3.02, 1.0), 45);
+  EXPECT_LT(percent_at(map, 5.0, 0.02), 10);
+  EXPECT_EQ(percent_at(map, 3.02, 3.0), -1);
+}
+
+TEST(MapBuilder, ClearsAlongBeamsWithoutReturnUpToTheSensorsRange) {
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  backend.add(room_flight(1).front());  // front: 11 m, no return; the sensor sees 3 m
+  map.update(backend, false);
+  EXPECT_EQ(percent_at(map, 2.92, 0.02), 40);
+  EXPECT_EQ(percent_at(map, 3.12, 0.02), -1);
+}
+
+TEST(MapBuilder, FollowsThePosesAStepAtATimeAsIfDrawnAtOnce) {
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder followed(MapConfig{}, kSensor);
+  for (const FrontendStep& step : room_flight(100, 0.004)) {
+    const BackendUpdate update = backend.add(step);
+    followed.update(backend, update.poses_changed);
+  }
+  followed.update(backend, backend.finish().poses_changed);
+  MapBuilder drawn_at_once(MapConfig{}, kSensor);
+  drawn_at_once.update(backend, true);
+  expect_same_map(followed, drawn_at_once);
+}
+
+TEST(MapBuilder, FollowsWhenItIsAskedOnlyNowAndThen) {
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder seldom(MapConfig{}, kSensor);
+  int count = 0;
+  for (const FrontendStep& step : room_flight(100, 0.004)) {
+    backend.add(step);
+    if (++count % 37 == 0) seldom.update(backend, false);
+  }
+  seldom.update(backend, false);
+  MapBuilder drawn_at_once(MapConfig{}, kSensor);
+  drawn_at_once.update(backend, true);
+  expect_same_map(seldom, drawn_at_once);
+}
+
+TEST(MapBuilder, ReportsExactlyTheTilesWhoseContentChanged) {
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  for (const FrontendStep& step : room_flight(60, 0.004)) {
+    std::vector<MapTile> before;
+    for (const TileIndex index : map.tiles()) before.push_back(map.tile(index));
+    backend.add(step);
+    const std::vector<TileIndex> changed = map.update(backend, false);
+    EXPECT_TRUE(std::is_sorted(changed.begin(), changed.end()));
+    for (const MapTile& tile : before) {
+      const bool same = tile.occupancy_percent == map.tile(tile.index).occupancy_percent;
+      EXPECT_EQ(same, !std::binary_search(changed.begin(), changed.end(), tile.index));
+      EXPECT_EQ(same, tile.version == map.tile(tile.index).version);
+    }
+  }
+}
+
+TEST(MapBuilder, HoldsNothingBeforeTheFirstScan) {
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  EXPECT_TRUE(map.update(backend, true).empty());
+  EXPECT_TRUE(map.tiles().empty());
+}
+
+}  // namespace
+}  // namespace swiftlet

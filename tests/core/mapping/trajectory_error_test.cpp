@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/mapping/trajectory_error.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+#include <vector>
+
+namespace swiftlet {
+namespace {
+
+std::vector<Point2> random_path(std::uint32_t seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> step(0.0, 0.3);
+  std::vector<Point2> path{{0.0, 0.0}};
+  for (int i = 0; i < 200; ++i)
+    path.push_back({path.back().x_m + step(generator) + 0.1, path.back().y_m + step(generator)});
+  return path;
+}
+
+TEST(TrajectoryError, IsZeroForAPathThatIsOnlyMovedAndTurned) {
+  const std::vector<Point2> truth = random_path(1);
+  const Pose2 T_estimate_truth(3.0, -7.0, 2.5);
+  std::vector<Point2> estimate;
+  for (const Point2& p : truth) estimate.push_back(T_estimate_truth * p);
+  const TrajectoryError error = trajectory_error(estimate, truth);
+  EXPECT_EQ(error.pairs, truth.size());
+  EXPECT_NEAR(error.rmse_m, 0.0, 1e-12);
+  EXPECT_NEAR(error.T_truth_estimate.yaw_rad(), -2.5, 1e-12);
+}
+
+TEST(TrajectoryError, CountsWhatNoAlignmentMends) {
+  const std::vector<Point2> truth = {{1, 0}, {0, 2}, {-1, 0}, {0, -2}};
+  const std::vector<Point2> stretched = {{1.5, 0}, {0, 2}, {-1.5, 0}, {0, -2}};
+  const TrajectoryError error = trajectory_error(stretched, truth);
+  EXPECT_NEAR(error.rmse_m, std::sqrt((0.25 + 0.0 + 0.25 + 0.0) / 4.0), 1e-12);
+  EXPECT_NEAR(error.mean_m, 0.25, 1e-12);
+  EXPECT_NEAR(error.max_m, 0.5, 1e-12);
+}
+
+TEST(TrajectoryError, NoOtherAlignmentIsBetter) {
+  const std::vector<Point2> truth = random_path(2);
+  std::vector<Point2> estimate = random_path(3);
+  const TrajectoryError best = trajectory_error(estimate, truth);
+  const auto rmse_with = [&](const Pose2& T_truth_estimate) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const Point2 p = T_truth_estimate * estimate[i];
+      sum += std::pow(p.x_m - truth[i].x_m, 2) + std::pow(p.y_m - truth[i].y_m, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(truth.size()));
+  };
+  EXPECT_NEAR(rmse_with(best.T_truth_estimate), best.rmse_m, 1e-9);
+  for (const double step : {-1e-3, 1e-3}) {
+    const Pose2& T = best.T_truth_estimate;
+    EXPECT_GT(rmse_with({T.x_m() + step, T.y_m(), T.yaw_rad()}), best.rmse_m);
+    EXPECT_GT(rmse_with({T.x_m(), T.y_m() + step, T.yaw_rad()}), best.rmse_m);
+    EXPECT_GT(rmse_with({T.x_m(), T.y_m(), T.yaw_rad() + step}), best.rmse_m);
+  }
+}
+
+TEST(TrajectoryError, OfNothingIsNothing) { EXPECT_EQ(trajectory_error({}, {}).pairs, 0U); }
+
+TEST(TrajectoryError, OfOnePointIsZero) {
+  const std::vector<Point2> a = {{1, 2}};
+  const std::vector<Point2> b = {{5, 5}};
+  EXPECT_DOUBLE_EQ(trajectory_error(a, b).rmse_m, 0.0);
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/mapping/wall_support.hpp"
+
+#include <gmock/gmock.h>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kResolutionM = 0.05;
+
+/// Occupied cells along the x axis, between two x in metres.
+auto row_between(double low_m, double high_m) {
+  return [=](CellIndex cell) {
+    const double x_m = (cell.x + 0.5) * kResolutionM;
+    return cell.y == 0 && x_m > low_m && x_m < high_m;
+  };
+}
+
+TEST(WallSupport, KeepsAWallThatTheGridShowsThroughout) {
+  const auto parts = supported_parts({{0.0, 0.02}, {2.0, 0.02}}, kResolutionM, row_between(-1.0, 3.0));
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_DOUBLE_EQ(parts[0].start_map.x_m, 0.0);
+  EXPECT_DOUBLE_EQ(parts[0].end_map.x_m, 2.0);
+}
+
+TEST(WallSupport, CutsOffWhatReachesBeyond) {
+  const auto parts = supported_parts({{0.0, 0.02}, {9.0, 0.02}}, kResolutionM, row_between(-1.0, 3.0));
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_NEAR(parts[0].end_map.x_m, 3.0, 0.2);
+}
+
+TEST(WallSupport, BridgesAShortGapAndSplitsAtALongOne) {
+  const auto with_gap = [](double low_m, double high_m) {
+    return [=](CellIndex cell) { return row_between(-1.0, low_m)(cell) || row_between(high_m, 9.0)(cell); };
+  };
+  const MapSegment wall{{0.0, 0.02}, {5.0, 0.02}};
+  EXPECT_EQ(supported_parts(wall, kResolutionM, with_gap(2.0, 2.3)).size(), 1U);
+  EXPECT_EQ(supported_parts(wall, kResolutionM, with_gap(2.0, 3.0)).size(), 2U);
+}
+
+TEST(WallSupport, LeavesOutWhatOnlyCrossesAWall) {
+  EXPECT_TRUE(supported_parts({{1.0, -2.0}, {1.0, 2.0}}, kResolutionM, row_between(-1.0, 3.0)).empty());
+}
+
+TEST(WallSupport, AWallWithoutLengthHasNoParts) {
+  EXPECT_TRUE(supported_parts({{1.0, 0.0}, {1.0, 0.0}}, kResolutionM, row_between(-1.0, 3.0)).empty());
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/outputs/file_writer.hpp"
+
+#include <gmock/gmock.h>
+
+#include <iterator>
+
+#include "tests/daemon/outputs/temporary_directory.hpp"
+
+namespace swiftlet {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(WriteFile, WritesAllBytesAndLeavesNothingElse) {
+  const TemporaryDirectory directory;
+  const std::string bytes("a\0b\n", 4);
+  ASSERT_TRUE(write_file(directory.path() / "file", bytes).ok());
+  EXPECT_EQ(text_of(directory.path() / "file"), bytes);
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), fs::directory_iterator()), 1);
+}
+
+TEST(WriteFile, ReplacesAnOlderFile) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory.path() / "file", "a long first text").ok());
+  ASSERT_TRUE(write_file(directory.path() / "file", "second").ok());
+  EXPECT_EQ(text_of(directory.path() / "file"), "second");
+}
+
+TEST(WriteFile, KeepsTheOldFileWhenItFails) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory.path() / "file", "old").ok());
+  fs::create_directory(directory.path() / "file.unfinished");  // stands in the way
+  const Status status = write_file(directory.path() / "file", "new");
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().message, testing::HasSubstr((directory.path() / "file").string()));
+  EXPECT_EQ(text_of(directory.path() / "file"), "old");
+}
+
+TEST(WriteFile, SaysThatTheDiskIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const TemporaryDirectory directory;
+  fs::create_symlink("/dev/full", directory.path() / "file.unfinished");
+  const Status status = write_file(directory.path() / "file", std::string(100'000, 'x'));
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::kOutOfSpace);
+  EXPECT_THAT(status.error().message, testing::HasSubstr("No space left"));
+  EXPECT_FALSE(fs::exists(directory.path() / "file"));
+}
+
+TEST(PrepareOutputDirectory, CreatesWhatIsMissing) {
+  const TemporaryDirectory directory;
+  EXPECT_TRUE(prepare_output_directory(directory.path() / "a" / "b").ok());
+  EXPECT_TRUE(prepare_output_directory(directory.path() / "a" / "b").ok());
+  EXPECT_TRUE(fs::is_directory(directory.path() / "a" / "b"));
+}
+
+TEST(PrepareOutputDirectory, RefusesAFileInItsPlace) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory.path() / "file", "").ok());
+  for (const fs::path& path : {directory.path() / "file", directory.path() / "file" / "below"}) {
+    const Status status = prepare_output_directory(path);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().code, ErrorCode::kInvalidInput);
+    EXPECT_THAT(status.error().message, testing::HasSubstr(path.string()));
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <vector>
+
+#include "daemon/outputs/run_outputs.hpp"
+#include "tests/core/mapping/room_flight.hpp"
+
+namespace swiftlet {
+
+/// A flight of 81 samples through a room, drawn, with a truth of which the odometry knows nothing: every step
+/// was a tenth longer than it said.
+struct FinishedRun {
+  explicit FinishedRun(int samples = 81) {
+    for (const FrontendStep& step : room_flight(samples)) {
+      backend.add(step);
+      map.update(backend, false);
+      truth.push_back({step.sample.stamp, Pose2(1.1 * step.sample.T_odom_body.x_m(), 0.0, 0.0)});
+    }
+    input.samples = static_cast<std::uint64_t>(samples);
+    input.notes = {"a note"};
+    input.problems = {"damaged at byte 123"};
+    frontend.keyframes = 17;
+  }
+  [[nodiscard]] RunView view(bool with_truth) const {
+    return {.backend = backend,
+            .map = map,
+            .input = input,
+            .frontend = frontend,
+            .times = {{"frontend", 81, 0.1, 0.09, 0.4, 0.5}},
+            .truth = with_truth ? truth : std::vector<StampedPose>{},
+            .input_uri = "sim://room",
+            .sensor = SensorModel::crazyflie()};
+  }
+
+  Backend backend{without_loops(), SensorModel::crazyflie(), BeamLayout::multiranger()};
+  MapBuilder map{MapConfig{}, SensorModel::crazyflie()};
+  InputReport input;
+  FrontendCounters frontend;
+  std::vector<StampedPose> truth;
+};
+
+}  // namespace swiftlet

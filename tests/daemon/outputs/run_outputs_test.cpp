@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/outputs/run_outputs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "daemon/outputs/ros_map.hpp"
+#include "tests/daemon/outputs/finished_run.hpp"
+#include "tests/daemon/outputs/temporary_directory.hpp"
+
+namespace swiftlet {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> names_in(const fs::path& directory) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory)) names.insert(entry.path().filename());
+  return names;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::istringstream text(text_of(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(RunOutputs, WritesEveryFileAndNothingElse) {
+  const TemporaryDirectory directory;
+  const FinishedRun run;
+  ASSERT_TRUE(write_run_outputs(directory.path() / "new", run.view(false)).ok());
+  EXPECT_EQ(names_in(directory.path() / "new"),
+            (std::set<std::string>{"map.pgm", "map.png", "map.yaml", "odometry.tum", "report.json",
+                                   "trajectory.tum"}));
+}
+
+TEST(RunOutputs, WritesTheTruthWhereItIsKnown) {
+  const TemporaryDirectory directory;
+  const FinishedRun run;
+  ASSERT_TRUE(write_run_outputs(directory.path(), run.view(true)).ok());
+  EXPECT_EQ(lines_of(directory.path() / "ground_truth.tum").size(), 81U);
+}
+
+TEST(RunOutputs, TrajectoriesHaveOneLineASample) {
+  const TemporaryDirectory directory;
+  const FinishedRun run;
+  ASSERT_TRUE(write_run_outputs(directory.path(), run.view(false)).ok());
+  const std::vector<std::string> corrected = lines_of(directory.path() / "trajectory.tum");
+  ASSERT_EQ(corrected.size(), 81U);
+  EXPECT_THAT(corrected[13], testing::StartsWith("1600000001.423000 1.300000 "));
+  EXPECT_THAT(lines_of(directory.path() / "odometry.tum")[13],
+              testing::StartsWith("1600000001.423000 1.300000 "));
+}
+
+TEST(RunOutputs, TheGridFileHoldsTheMapsTiles) {
+  const TemporaryDirectory directory;
+  const FinishedRun run;
+  ASSERT_TRUE(write_run_outputs(directory.path(), run.view(false)).ok());
+  const std::string text = text_of(directory.path() / "map.pgm");
+  std::istringstream header(text);
+  std::string magic;
+  std::size_t width = 0;
+  std::size_t height = 0;
+  header >> magic >> width >> height;
+  ASSERT_EQ(magic, "P5");
+  ASSERT_GT(text.size(), width * height);
+  const std::string pixels = text.substr(text.size() - width * height);
+  long occupied = 0;
+  for (const TileIndex index : run.map.tiles())
+    for (const std::int8_t percent : run.map.tile(index).occupancy_percent)
+      if (pgm_value(percent) == kPgmOccupied) ++occupied;
+  EXPECT_GT(occupied, 100);
+  EXPECT_EQ(std::count(pixels.begin(), pixels.end(), '\0'), occupied);
+}
+
+TEST(RunOutputs, AreTheSameBytesForTheSameRun) {
+  const TemporaryDirectory directory;
+  for (const char* name : {"a", "b"})
+    ASSERT_TRUE(write_run_outputs(directory.path() / name, FinishedRun().view(true)).ok());
+  for (const char* file :
+       {"map.png", "map.pgm", "map.yaml", "trajectory.tum", "odometry.tum", "ground_truth.tum"})
+    EXPECT_EQ(text_of(directory.path() / "a" / file), text_of(directory.path() / "b" / file)) << file;
+}
+
+TEST(RunOutputs, NamesTheFileThatCannotBeWrittenAndKeepsTheOthers) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory.path() / "map.png");
+  const Status status = write_run_outputs(directory.path(), FinishedRun().view(false));
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().message, testing::HasSubstr("map.png"));
+  EXPECT_EQ(lines_of(directory.path() / "trajectory.tum").size(), 81U);
+}
+
+TEST(RunError, PairsByStampAndLeavesOutWhatTheTruthDoesNotKnow) {
+  const FinishedRun run;
+  std::vector<StampedPose> some;
+  for (std::size_t i = 0; i < run.truth.size(); i += 2) some.push_back(run.truth[i]);
+  some.insert(some.begin(), {run.truth.front().stamp - Duration(5), Pose2(99.0, 99.0, 0.0)});
+  const auto error = run_error(run.backend, some);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->odometry.pairs, 41U);
+  EXPECT_FALSE(run_error(run.backend, {}).has_value());
+}
+
+}  // namespace
+}  // namespace swiftlet

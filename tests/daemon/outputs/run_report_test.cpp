@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/outputs/run_report.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/daemon/outputs/finished_run.hpp"
+
+namespace swiftlet {
+namespace {
+
+using nlohmann::json;
+
+TEST(RunReport, TellsWhatCameInAndWhatWasMadeOfIt) {
+  const FinishedRun run;
+  const json report = json::parse(run_report_json(run.view(false)));
+  EXPECT_EQ(report["input"]["uri"], "sim://room");
+  EXPECT_EQ(report["input"]["samples"], 81);
+  EXPECT_EQ(report["input"]["notes"], json({"a note"}));
+  EXPECT_EQ(report["input"]["problems"], json({"damaged at byte 123"}));
+  EXPECT_EQ(report["sensor"]["beams"], 4);
+  EXPECT_EQ(report["frontend"]["keyframes"], 17);
+  EXPECT_EQ(report["backend"]["scans"], 81);
+  EXPECT_EQ(report["backend"]["keyframes"], 17);
+  EXPECT_EQ(report["backend"]["closures"]["accepted"], 0);
+  EXPECT_NEAR(report["trajectory"]["duration_s"].get<double>(), 8.0, 1e-9);
+  EXPECT_NEAR(report["trajectory"]["odometry_length_m"].get<double>(), 8.0, 1e-9);
+  EXPECT_GT(report["map"]["tiles"], 0);
+  EXPECT_EQ(report["stage_times"]["frontend"]["p99_ms"], 0.4);
+  EXPECT_GT(report["peak_memory_mb"].get<double>(), 1.0);
+  EXPECT_FALSE(report.contains("absolute_trajectory_error"));
+}
+
+TEST(RunReport, GivesTheErrorWhereTheTruthIsKnown) {
+  const FinishedRun run;
+  const json report = json::parse(run_report_json(run.view(true)));
+  // Positions 0, 0.1, .. 8 m against ones a tenth farther apart: a tenth of the spread of the former.
+  const double spread = 0.1 * std::sqrt((81.0 * 81.0 - 1.0) / 12.0);
+  EXPECT_NEAR(report["absolute_trajectory_error"]["odometry"]["rmse_m"].get<double>(), 0.1 * spread, 1e-9);
+  EXPECT_EQ(report["absolute_trajectory_error"]["samples"], 81);
+}
+
+TEST(RunReport, SurvivesNamesThatAreNotText) {
+  const FinishedRun run;
+  RunView view = run.view(false);
+  view.input_uri = "replay:caf\xe9.pcap";
+  EXPECT_TRUE(json::parse(run_report_json(view)).is_object());
+}
+
+TEST(RunReport, OfARunOfNothingIsStillOne) {
+  const FinishedRun run(0);
+  const json report = json::parse(run_report_json(run.view(true)));
+  EXPECT_EQ(report["backend"]["scans"], 0);
+  EXPECT_EQ(report["map"]["tiles"], 0);
+}
+
+}  // namespace
+}  // namespace swiftlet

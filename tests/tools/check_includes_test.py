@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""tools/check_includes.py finds each kind of fault in a small made-up repository."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+sys.dont_write_bytecode = True
+import check_includes  # noqa: E402
+
+SPDX = "// SPDX-License-Identifier: MIT\n// SPDX-FileCopyrightText: 2026 The swiftlet authors\n"
+
+
+class CheckIncludes(unittest.TestCase):
+    def faults(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            for path, text in files.items():
+                file = Path(folder, path)
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(text, encoding="utf-8")
+            return list(check_includes.faults_in(Path(folder)))
+
+    def assert_fault(self, files, part):
+        faults = self.faults(files)
+        self.assertEqual(len(faults), 1, faults)
+        self.assertIn(part, faults[0])
+
+    def test_accepts_includes_that_run_the_right_way(self):
+        self.assertEqual([], self.faults({
+            "core/base/a.hpp": SPDX,
+            "core/frontend/b.cpp": SPDX + '#include "core/base/a.hpp"\n#include <vector>\n',
+            "daemon/c.cpp": SPDX + '#include "core/base/a.hpp"\n#include <thread>\n',
+            "proto/d_t.lcm": "",
+            "daemon/e.cpp": SPDX + '#include "swiftlet/d_t.hpp"\n',
+        }))
+
+    def test_refuses_an_include_against_the_direction(self):
+        for user, used in (("core/base", "core/geometry"), ("core/frontend", "core/backend"),
+                           ("core/backend", "core/mapping"), ("firmware_link", "core/backend"),
+                           ("core/mapping", "daemon"), ("daemon", "tools"), ("tools", "tests")):
+            self.assert_fault({f"{used}/a.hpp": SPDX, f"{user}/b.hpp": SPDX + f'#include "{used}/a.hpp"\n'},
+                              f"{user} must not include {used}/a.hpp")
+
+    def test_refuses_a_path_that_does_not_begin_at_the_top(self):
+        self.assert_fault({"core/base/a.hpp": SPDX, "core/base/b.hpp": SPDX + '#include "a.hpp"\n'}, "no path")
+
+    def test_refuses_threads_files_and_clocks_in_core(self):
+        self.assert_fault({"core/base/a.hpp": SPDX + "#include <mutex>\n"}, "<mutex>")
+        self.assert_fault({"core/base/a.hpp": SPDX + "auto t = Clock::now();\n"}, "cannot ask for the time")
+        self.assertEqual([], self.faults({"core/base/a.hpp": SPDX + "// there is no now() here\n"}))
+
+    def test_refuses_a_library_in_two_source_files(self):
+        for header in ("libusb-1.0/libusb.h", "cholmod.h", "lcm/lcm-cpp.hpp"):
+            files = {"daemon/a.cpp": SPDX + f"#include <{header}>\n", "daemon/b.cpp": SPDX + f"#include <{header}>\n"}
+            self.assert_fault(files, "daemon/a.cpp, daemon/b.cpp")
+            files["tests/daemon/b.cpp"] = files.pop("daemon/b.cpp")
+            self.assertEqual([], self.faults(files))
+
+    def test_refuses_a_file_without_licence_lines(self):
+        self.assert_fault({"core/base/a.hpp": "#pragma once\n"}, "SPDX")
+        self.assert_fault({"tools/run": "#!/bin/sh\necho\n"}, "SPDX")
+
+
+if __name__ == "__main__":
+    unittest.main()

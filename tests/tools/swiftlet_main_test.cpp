@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+
+// The command line as its user meets it: exit codes, one line for what is wrong, files.
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "tests/daemon/outputs/temporary_directory.hpp"
+
+namespace swiftlet {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+class SwiftletCommand : public testing::Test {
+ protected:
+  /// `arguments` as a shell takes them; {} stands for the test's directory.
+  Outcome run(std::string arguments) const {
+    for (auto at = arguments.find("{}"); at != std::string::npos; at = arguments.find("{}"))
+      arguments.replace(at, 2, directory_.path());
+    const fs::path out = directory_.path() / "stdout";
+    const fs::path err = directory_.path() / "stderr";
+    const std::string command = std::string(SWIFTLET_COMMAND) + " " + arguments + " >" + out.string() +
+                                " 2>" + err.string() + " </dev/null";
+    const int status = std::system(command.c_str());  // NOLINT(*-env33-c,cert-*): a shell is what is tested
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+  }
+  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+auto refuses_with(const std::string& what) {
+  return AllOf(
+      testing::Field(&Outcome::exit_code, 2), testing::Field(&Outcome::out, ""),
+      testing::Field(
+          &Outcome::err,
+          AllOf(StartsWith("swiftlet: "), HasSubstr(what), EndsWith("\n"),
+                testing::ResultOf(
+                    [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }, 1))));
+}
+
+/// Half a minute of CARMEN log: a robot that drives along a wall, nothing to correct.
+std::string small_log() {
+  std::ostringstream text;
+  for (int i = 0; i < 150; ++i) {
+    text << "FLASER 180";
+    for (int beam = 0; beam < 180; ++beam) text << (beam < 90 ? " 2.0" : " 3.0");
+    const double x = 0.1 * i;
+    text << " " << x << " 0 0 " << x << " 0 0 " << 100.0 + 0.2 * i << " host " << 0.2 * i << "\n";
+  }
+  return text.str();
+}
+
+TEST_F(SwiftletCommand, HelpAndVersionAreNoErrors) {
+  const Outcome help = run("map --help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("INPUT"), HasSubstr("--frontend-only")));
+  EXPECT_EQ(run("--version").exit_code, 0);
+}
+
+TEST_F(SwiftletCommand, RefusesWhatItDoesNotKnow) {
+  EXPECT_THAT(run(""), refuses_with("swiftlet --help"));
+  EXPECT_THAT(run("fly"), refuses_with("swiftlet --help"));
+  EXPECT_THAT(run("map in.pcap -o {}/out --frobnicate"), refuses_with("--frobnicate"));
+  EXPECT_THAT(run("map in.pcap"), refuses_with("--output"));
+  EXPECT_THAT(run("map in.clf -o {}/out --beams 1"), refuses_with("--beams"));
+  EXPECT_THAT(run("map in.clf -o {}/out --odometry-only --frontend-only"), refuses_with("--frontend-only"));
+}
+
+TEST_F(SwiftletCommand, NamesTheInputThatCannotBeUsed) {
+  EXPECT_THAT(run("map {}/missing.pcap -o {}/out"), refuses_with("missing.pcap"));
+  write("text.pcap", "this is no capture");
+  EXPECT_THAT(run("map {}/text.pcap -o {}/out"), refuses_with("text.pcap"));
+  write("empty.clf", "");
+  EXPECT_THAT(run("map {}/empty.clf -o {}/out"), refuses_with("empty.clf"));
+  EXPECT_THAT(run("map 'sim://nowhere?seed=1' -o {}/out"), refuses_with("nowhere"));
+  EXPECT_THAT(run("map {}/file.docx -o {}/out"), refuses_with("file.docx"));
+}
+
+TEST_F(SwiftletCommand, NamesTheConfigurationThatCannotBeUsed) {
+  write("run.clf", small_log());
+  EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/none.toml"), refuses_with("none.toml"));
+  write("bad.toml", "[map]\nresolution_m = -1.0\n");
+  EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/bad.toml"), refuses_with("bad.toml"));
+}
+
+TEST_F(SwiftletCommand, NamesTheOutputDirectoryThatCannotBeWritten) {
+  write("run.clf", small_log());
+  write("file", "in the way");
+  EXPECT_THAT(run("map {}/run.clf -o {}/file"), refuses_with("file"));
+  EXPECT_EQ(text_of(file("file")), "in the way");
+}
+
+TEST_F(SwiftletCommand, KeepsWhatAnEarlierRunWroteWhenItRefuses) {
+  write("run.clf", small_log());
+  ASSERT_EQ(run("map {}/run.clf -o {}/out").exit_code, 0);
+  const std::string before = text_of(file("out/trajectory.tum"));
+  ASSERT_FALSE(before.empty());
+  write("empty.clf", "");
+  EXPECT_THAT(run("map {}/empty.clf -o {}/out"), refuses_with("empty.clf"));
+  EXPECT_EQ(text_of(file("out/trajectory.tum")), before);
+}
+
+TEST_F(SwiftletCommand, MapsALaserLogAndSaysWhereTheFilesAre) {
+  write("run.clf", small_log());
+  const Outcome outcome = run("map {}/run.clf -o {}/out --beams 7");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("150 samples"), HasSubstr("map.png")));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("[")));  // no progress bar where there is no terminal
+  for (const char* name : {"map.png", "map.pgm", "map.yaml", "trajectory.tum", "odometry.tum", "report.json"})
+    EXPECT_GT(fs::file_size(file("out") / name), 0U) << name;
+  const std::string trajectory = text_of(file("out/trajectory.tum"));
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 150);
+}
+
+TEST_F(SwiftletCommand, OdometryOnlyCorrectsNothing) {
+  write("run.clf", small_log());
+  ASSERT_EQ(run("map {}/run.clf -o {}/out --odometry-only").exit_code, 0);
+  EXPECT_EQ(text_of(file("out/trajectory.tum")), text_of(file("out/odometry.tum")));
+}
+
+TEST_F(SwiftletCommand, GivesTheSameBytesTwice) {
+  write("run.clf", small_log());
+  for (const char* name : {"a", "b"})
+    ASSERT_EQ(run("map {}/run.clf -o {}/" + std::string(name)).exit_code, 0);
+  for (const char* name : {"map.png", "map.pgm", "trajectory.tum"})
+    EXPECT_EQ(text_of(file("a") / name), text_of(file("b") / name)) << name;
+}
+
+fs::path dataset(const std::string& name) {
+  const char* folder = std::getenv("SWIFTLET_DATASETS");  // NOLINT(concurrency-*)
+  return fs::path(folder != nullptr ? folder : SWIFTLET_DATASETS_BESIDE) / name;
+}
+
+TEST_F(SwiftletCommand, UsesACaptureUpToTheDamageAndReportsIt) {
+  const fs::path flight = dataset("flights/olsson.pcap");
+  if (!fs::exists(flight)) GTEST_SKIP() << flight << " is missing";
+  const std::string whole = text_of(flight);
+  std::ofstream(file("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 8 + 7);
+  const Outcome outcome = run("map {}/cut.pcap -o {}/out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("swiftlet: warning: "), HasSubstr("byte")));
+  EXPECT_THAT(text_of(file("out/report.json")), HasSubstr("byte"));
+  EXPECT_GT(fs::file_size(file("out/trajectory.tum")), 1000U);
+}
+
+TEST_F(SwiftletCommand, RefusesACaptureThatIsCutBeforeItsFirstSample) {
+  const fs::path flight = dataset("flights/olsson.pcap");
+  if (!fs::exists(flight)) GTEST_SKIP() << flight << " is missing";
+  std::ofstream(file("cut.pcap"), std::ios::binary) << text_of(flight).substr(0, 300);
+  EXPECT_THAT(run("map {}/cut.pcap -o {}/out"), refuses_with("cut.pcap"));
+}
+
+}  // namespace
+}  // namespace swiftlet

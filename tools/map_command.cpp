@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "tools/map_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "daemon/configuration.hpp"
+#include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/run_outputs.hpp"
+#include "daemon/pipeline.hpp"
+#include "firmware_link/sample_source.hpp"
+#include "tools/progress_bar.hpp"
+
+namespace swiftlet {
+
+namespace {
+
+Result<Configuration> configuration_for(const MapCommand& command) {
+  Configuration config;
+  if (!command.config_file.empty()) {
+    Result<Configuration> loaded = load_configuration(command.config_file);
+    if (!loaded) return loaded;
+    config = std::move(loaded).value();
+  }
+  if (command.odometry_only) config.frontend.use_landmarks = false;
+  if (command.odometry_only || command.frontend_only) config.backend.close_loops = false;
+  return config;
+}
+
+Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const Configuration& config) {
+  SampleSourceOptions options;
+  options.beam_count = command.beams;
+  options.max_range_m = config.sensor.max_range_m;
+  if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
+  return open_sample_source(command.input, options);
+}
+
+/// To the end of the input. The report, with what ended the input before its time among the problems.
+InputReport run_to_end(Pipeline& pipeline, const SampleSource& source) {
+  ProgressBar bar(stderr, ProgressBar::Clock::now());
+  Result<bool> more = pipeline.step();
+  while (more && *more) {
+    bar.update(source.progress(), ProgressBar::Clock::now());
+    more = pipeline.step();
+  }
+  InputReport report = source.report();
+  if (!more) {
+    const std::string& reason = more.error().message;
+    if (std::find(report.problems.begin(), report.problems.end(), reason) == report.problems.end())
+      report.problems.push_back(reason);
+  }
+  return report;
+}
+
+Status check_usable(const MapCommand& command, const InputReport& report, const Backend& backend) {
+  if (backend.scans().size() > 0) return {};
+  const std::string reason =
+      report.problems.empty() ? "it ended before the first one" : report.problems.front();
+  return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
+}
+
+void print_summary(const MapCommand& command, const RunView& run) {
+  for (const std::string& note : run.input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
+  for (const std::string& problem : run.input.problems)
+    std::fprintf(stderr, "swiftlet: warning: %s\n", problem.c_str());
+  const BackendCounters& counters = run.backend.counters();
+  std::printf("%zu samples, %llu keyframes, %llu loop closures (%llu of them dropped), %zu input problems\n",
+              run.backend.scans().size(), static_cast<unsigned long long>(counters.keyframes),
+              static_cast<unsigned long long>(counters.closures_accepted),
+              static_cast<unsigned long long>(counters.closures_dropped), run.input.problems.size());
+  const std::string directory = command.output_directory.string();
+  std::printf("files: %s: map.png map.pgm map.yaml trajectory.tum odometry.tum %sreport.json\n",
+              directory.c_str(), run.truth.empty() ? "" : "ground_truth.tum ");
+  if (const auto error = run_error(run.backend, run.truth))
+    std::printf("error before correction %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
+                error->odometry.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
+  std::printf("picture: %s\n", (command.output_directory / "map.png").c_str());
+}
+
+}  // namespace
+
+Status run_map_command(const MapCommand& command) {
+  const Result<Configuration> config = configuration_for(command);
+  if (!config) return config.error();
+  const Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
+  if (!opened) return opened.error();
+  SampleSource& source = **opened;
+  if (Status ready = prepare_output_directory(command.output_directory); !ready) return ready;
+
+  Pipeline pipeline(*config, source);
+  const InputReport report = run_to_end(pipeline, source);
+  if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
+  const RunView run{.backend = pipeline.backend(),
+                    .map = pipeline.map(),
+                    .input = report,
+                    .frontend = pipeline.frontend().counters(),
+                    .times = pipeline.stage_times(),
+                    .truth = source.ground_truth(),
+                    .input_uri = command.input,
+                    .sensor = config->sensor.applied_to(source.sensor())};
+  if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
+  print_summary(command, run);
+  return {};
+}
+
+}  // namespace swiftlet

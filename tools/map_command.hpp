@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+/// What `swiftlet map` was asked to do.
+struct MapCommand {
+  std::string input;  ///< URI or plain path, see open_sample_source
+  std::filesystem::path output_directory;
+  std::string config_file;     ///< empty: the defaults
+  std::optional<int> beams;    ///< laser logs: how many beams to keep
+  bool odometry_only = false;  ///< baseline: dead reckoning, nothing corrected
+  bool frontend_only = false;  ///< baseline: walls, but no loop closures
+};
+
+/// Takes the whole input through the pipeline at full speed in this thread and writes the outputs. A summary
+/// goes to stdout; progress and what was wrong with the input, one line each, to stderr.
+///
+/// An input that is damaged after usable samples is not an error: the outputs are written from what came
+/// before, the damage is among the lines on stderr and in report.json. Errors: kNotFound, kInvalidInput:
+/// input, configuration or output directory cannot be used, or the input holds no usable sample; nothing was
+/// written. kOutOfSpace: an output could not be written; those before it stay.
+[[nodiscard]] Status run_map_command(const MapCommand& command);
+
+}  // namespace swiftlet
