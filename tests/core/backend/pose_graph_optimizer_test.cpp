@@ -155,6 +155,7 @@ TEST(PoseGraphOptimizer, EqualsADenseGaussNewtonStepByStep) {
     ASSERT_TRUE(PoseGraphOptimizer(kPhi, iterations).optimize(graph));
     for (int i = 0; i < iterations; ++i) ASSERT_GT(dense_step(twin), 1e-5) << "no early end";
     expect_same_poses(graph, twin, 1e-8);
+    dense_step(twin);  // writes the scales at the poses it starts from
     for (std::size_t i = 0; i < graph.constraints.size(); ++i)
       EXPECT_NEAR(graph.constraints[i].dcs_scale, twin.constraints[i].dcs_scale, 1e-8);
   }
