@@ -214,6 +214,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.add_motion(step.made);
   s.carry_new_poses();
   s.take_walls(step.made);
+  if (step.made.starts_segment) s.open_submaps.clear();  // a submap is one stretch of known motion
   s.finish_submaps(step.made.id);
   s.counters.submaps = s.submaps.size();
   update.new_closures = s.close_loops(step.made.id);

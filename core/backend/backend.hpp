@@ -19,7 +19,7 @@ namespace swiftlet {
 struct MapCorrection {
   KeyframeId keyframe{};  ///< the keyframe it was computed at
   Pose2 T_map_local;
-  std::uint32_t version = 0;  ///< counts up with every change
+  std::uint32_t version = 0;  ///< counts up whenever keyframes before this one moved
 };
 
 struct LoopClosure {

@@ -87,14 +87,11 @@ Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanSt
   EvidenceGrid grid(geometry, config);
   for (const PlacedScan& scan : placed) grid.add(scans, scan);
 
-  std::vector<std::uint8_t> occupied = grid.bytes();
-  std::vector<std::uint8_t> kernelled = max_kernel(geometry, occupied, config.max_kernel_cells);
+  std::vector<std::uint8_t> kernelled = max_kernel(geometry, grid.bytes(), config.max_kernel_cells);
   // Levels enough that the widest search is a handful of blocks.
-  const int levels = 1 + static_cast<int>(std::ceil(
-                             std::log2(std::max(2.0, config.search_radius_m / config.grid_resolution_m))));
-  return Submap{
-      id,  reference, first, last, std::move(occupied), MaxPyramid(geometry, std::move(kernelled), levels),
-      low, high};
+  const double widest_cells = std::max(2.0, config.search_radius_m / config.grid_resolution_m);
+  const int levels = 1 + static_cast<int>(std::ceil(std::log2(widest_cells)));
+  return Submap{id, reference, first, last, MaxPyramid(geometry, std::move(kernelled), levels), low, high};
 }
 
 }  // namespace swiftlet

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/backend/backend_config.hpp"
 #include "core/backend/keyframe_chain.hpp"
@@ -20,10 +19,9 @@ struct Submap {
   SubmapId id{};
   KeyframeId reference{};  ///< its frame: the keyframe in the middle
   KeyframeId first{};
-  KeyframeId last{};                   ///< scans from `first` up to, not including, `last`
-  std::vector<std::uint8_t> occupied;  ///< without the kernel, for refining below the grid's resolution
-  MaxPyramid pyramid;                  ///< with the kernel
-  Point2 low_m;                        ///< box around all hits, in the submap's frame
+  KeyframeId last{};   ///< scans from `first` up to, not including, `last`
+  MaxPyramid pyramid;  ///< with the kernel
+  Point2 low_m;        ///< box around all hits and the path, in the submap's frame
   Point2 high_m;
 };
 

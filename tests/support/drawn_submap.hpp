@@ -29,10 +29,13 @@ inline Submap drawn_submap(const std::vector<std::string>& picture, double resol
   }
   const Point2 high{-geometry.origin_m.x_m, -geometry.origin_m.y_m};
   std::vector<std::uint8_t> kernelled = max_kernel(geometry, cells, kernel_cells);
-  return Submap{SubmapId{},        KeyframeId{},
-                KeyframeId{},      KeyframeId{},
-                std::move(cells),  MaxPyramid(geometry, std::move(kernelled), levels),
-                geometry.origin_m, high};
+  return Submap{SubmapId{},
+                KeyframeId{},
+                KeyframeId{},
+                KeyframeId{},
+                MaxPyramid(geometry, std::move(kernelled), levels),
+                geometry.origin_m,
+                high};
 }
 
 }  // namespace swiftlet

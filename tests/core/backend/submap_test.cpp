@@ -42,8 +42,12 @@ class SubmapTest : public testing::Test {
   SubmapTest() {
     for (const char place : {'b', 'c', 'd', 'a'}) vehicle_.fly_to(room_, room_.place(place));
   }
-  [[nodiscard]] static Submap build(const StoredRun& run, KeyframeId first, KeyframeId last) {
-    return build_submap(SubmapId{5}, first, last, run.scans(), run.chain(), run.T_local_keyframe(), {});
+  /// Without the kernel unless asked for, so that a cell shows what was drawn in it.
+  [[nodiscard]] static Submap build(const StoredRun& run, KeyframeId first, KeyframeId last,
+                                    int kernel_cells = 1) {
+    BackendConfig config;
+    config.max_kernel_cells = kernel_cells;
+    return build_submap(SubmapId{5}, first, last, run.scans(), run.chain(), run.T_local_keyframe(), config);
   }
   [[nodiscard]] Pose2 T_world_submap(const StoredRun& run, const Submap& submap) const {
     return start_ * run.T_local_keyframe()[index_of(submap.reference)];
@@ -57,7 +61,16 @@ class SubmapTest : public testing::Test {
 std::uint8_t occupied_at(const Submap& submap, const Point2& p_submap) {
   const GridGeometry& grid = submap.pyramid.geometry();
   const CellIndex c = grid.cell(p_submap);
-  return grid.contains(c) ? submap.occupied[grid.offset(c)] : std::uint8_t{0};
+  return submap.pyramid.max_at(0, c.x, c.y);
+}
+
+std::vector<std::uint8_t> cells_of(const Submap& submap) {
+  const GridGeometry& grid = submap.pyramid.geometry();
+  std::vector<std::uint8_t> cells;
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) cells.push_back(submap.pyramid.max_at(0, x, y));
+  }
+  return cells;
 }
 
 TEST_F(SubmapTest, ItsFrameIsTheKeyframeInTheMiddle) {
@@ -73,7 +86,8 @@ TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
   const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_world_to_submap = T_world_submap(run, submap).inverse();
-  std::vector<std::uint8_t> is_hit(submap.occupied.size(), 0);
+  const std::vector<std::uint8_t> occupied = cells_of(submap);
+  std::vector<std::uint8_t> is_hit(occupied.size(), 0);
   const GridGeometry& grid = submap.pyramid.geometry();
   std::size_t hits = 0;
   std::size_t high = 0;
@@ -89,8 +103,8 @@ TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
   }
   EXPECT_GT(static_cast<double>(high), 0.95 * static_cast<double>(hits))
       << "a grazing beam may win here or there";
-  for (std::size_t k = 0; k < submap.occupied.size(); ++k) {
-    EXPECT_TRUE(submap.occupied[k] <= kEven || is_hit[k] == 1) << "cell " << k;
+  for (std::size_t k = 0; k < occupied.size(); ++k) {
+    EXPECT_TRUE(occupied[k] <= kEven || is_hit[k] == 1) << "cell " << k;
   }
 }
 
@@ -122,7 +136,7 @@ TEST_F(SubmapTest, NothingIsKnownOutsideTheRoom) {
       const Point2 p = T_world * grid.center({x, y});
       const bool inside = p.x_m > kRoomCorner.x_m + wall_m && p.x_m < kRoomCorner.x_m + width_m - wall_m &&
                           p.y_m > kRoomCorner.y_m + wall_m && p.y_m < kRoomCorner.y_m + height_m - wall_m;
-      EXPECT_TRUE(inside || submap.occupied[grid.offset({x, y})] == 0) << p.x_m << ", " << p.y_m;
+      EXPECT_TRUE(inside || submap.pyramid.max_at(0, x, y) == 0) << p.x_m << ", " << p.y_m;
     }
   }
 }
@@ -141,14 +155,9 @@ TEST_F(SubmapTest, TheBoxHoldsTheHitsTightly) {
 
 TEST_F(SubmapTest, ThePyramidIsTheGridWithTheKernel) {
   const StoredRun run(vehicle_.samples());
-  const Submap submap = build(run, KeyframeId{0}, run.newest());
-  const GridGeometry& grid = submap.pyramid.geometry();
-  const std::vector<std::uint8_t> expected =
-      max_kernel(grid, submap.occupied, BackendConfig().max_kernel_cells);
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x)
-      ASSERT_EQ(submap.pyramid.max_at(0, x, y), expected[grid.offset({x, y})]);
-  }
+  const Submap plain = build(run, KeyframeId{0}, run.newest());
+  const Submap kernelled = build(run, KeyframeId{0}, run.newest(), 3);
+  EXPECT_EQ(cells_of(kernelled), max_kernel(plain.pyramid.geometry(), cells_of(plain), 3));
 }
 
 TEST_F(SubmapTest, HoldsOnlyTheScansOfItsStretch) {
@@ -168,7 +177,8 @@ TEST_F(SubmapTest, ABeamThatMeetsNothingSaysNothing) {
   blind.fly_to(room_, room_.place('b'));
   const StoredRun run(blind.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
-  EXPECT_EQ(*std::max_element(submap.occupied.begin(), submap.occupied.end()), 0);
+  const std::vector<std::uint8_t> occupied = cells_of(submap);
+  EXPECT_EQ(*std::max_element(occupied.begin(), occupied.end()), 0);
 }
 
 }  // namespace
