@@ -15,9 +15,9 @@ int percent_at(const MapBuilder& map, double x_m, double y_m) {
   const double tile_m = kTileCells * map.config().resolution_m;
   const TileIndex index{static_cast<int>(std::floor(x_m / tile_m)),
                         static_cast<int>(std::floor(y_m / tile_m))};
-  const int column = static_cast<int>((x_m - index.x * tile_m) / map.config().resolution_m);
-  const int row = static_cast<int>((y_m - index.y * tile_m) / map.config().resolution_m);
-  return map.tile(index).occupancy_percent[static_cast<std::size_t>(row * kTileCells + column)];
+  const auto column = static_cast<std::size_t>((x_m - index.x * tile_m) / map.config().resolution_m);
+  const auto row = static_cast<std::size_t>((y_m - index.y * tile_m) / map.config().resolution_m);
+  return map.tile(index).occupancy_percent[row * kTileCells + column];
 }
 
 void expect_same_map(const MapBuilder& a, const MapBuilder& b) {

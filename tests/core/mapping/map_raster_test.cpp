@@ -17,7 +17,7 @@ MapScene small_scene() {
   MapTile tile;
   tile.occupancy_percent.fill(3);
   for (int x = 0; x < kTileCells; ++x)
-    tile.occupancy_percent[static_cast<std::size_t>((kTileCells - 1) * kTileCells + x)] = 98;
+    tile.occupancy_percent[kCellsInTile - kTileCells + static_cast<std::size_t>(x)] = 98;
   scene.tiles.push_back(tile);
   for (int i = 0; i <= 20; ++i) {
     const Point2 p{0.5 + 0.1 * i, 1.0};
@@ -72,7 +72,7 @@ TEST(MapRaster, DrawsClosuresAndWalls) {
 
 TEST(MapRaster, KeepsThinWallsVisibleAtSmallScales) {
   MapScene scene = small_scene();
-  scene.scans.push_back({{400.0, 300.0}, {400.0, 300.0}, true});
+  scene.scans = {{{400.0, 300.0}, {400.0, 300.0}, true}, {{-400.0, 300.0}, {-400.0, 300.0}, true}};
   const RgbImage image = draw_map(scene);
   EXPECT_EQ(colour_at(scene, image, {1.52, 3.17}), map_style::kInk);
 }

@@ -22,8 +22,9 @@ inline std::vector<FrontendStep> room_flight(int samples, double drift_per_keyfr
     const double x = -5.0 + kStepM * i;
     FrontendStep step;
     step.sample.sequence = static_cast<std::uint32_t>(i);
-    step.sample.stamp = HostTime(std::chrono::milliseconds(1'600'000'000'123LL + 100 * i));
+    step.sample.stamp = HostTime(std::chrono::milliseconds(1'600'000'000'123LL + 100LL * i));
     step.sample.T_odom_body = Pose2(kStepM * i, 0.0, 0.0);
+    step.T_dead_body = step.sample.T_odom_body;
     step.sample.starts_segment = i == 0;
     step.sample.beam_count = 4;
     const double to_front = 6.0 - x;

@@ -14,13 +14,13 @@ namespace swiftlet {
 namespace {
 
 /// The lower left corner of the map, rows from the top: '#' more occupied than not, '.' free, ' ' unknown.
-std::vector<std::string> picture(const TileStore& store, int width, int height) {
+std::vector<std::string> picture(const TileStore& store, std::size_t width, std::size_t height) {
   const MapTile tile = store.tile({0, 0});
   std::vector<std::string> rows;
-  for (int y = height - 1; y >= 0; --y) {
+  for (std::size_t y = height; y-- > 0;) {
     std::string row;
-    for (int x = 0; x < width; ++x) {
-      const int percent = tile.occupancy_percent[static_cast<std::size_t>(y * kTileCells + x)];
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::int8_t percent = tile.occupancy_percent[y * kTileCells + x];
       row += percent < 0 ? ' ' : percent > 50 ? '#' : '.';
     }
     rows.push_back(row);

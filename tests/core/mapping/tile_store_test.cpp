@@ -14,9 +14,9 @@ using testing::IsEmpty;
 std::int8_t percent_at(const TileStore& store, CellIndex cell) {
   const TileIndex index{cell.x >= 0 ? cell.x / kTileCells : (cell.x + 1) / kTileCells - 1,
                         cell.y >= 0 ? cell.y / kTileCells : (cell.y + 1) / kTileCells - 1};
-  const int column = cell.x - index.x * kTileCells;
-  const int row = cell.y - index.y * kTileCells;
-  return store.tile(index).occupancy_percent[static_cast<std::size_t>(row * kTileCells + column)];
+  const auto column = static_cast<std::size_t>(cell.x - index.x * kTileCells);
+  const auto row = static_cast<std::size_t>(cell.y - index.y * kTileCells);
+  return store.tile(index).occupancy_percent[row * kTileCells + column];
 }
 
 TEST(OccupancyPercent, IsUnknownWithoutEvidence) { EXPECT_EQ(occupancy_percent({}, {}), -1); }

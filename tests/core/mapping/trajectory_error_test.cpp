@@ -23,6 +23,7 @@ TEST(TrajectoryError, IsZeroForAPathThatIsOnlyMovedAndTurned) {
   const std::vector<Point2> truth = random_path(1);
   const Pose2 T_estimate_truth(3.0, -7.0, 2.5);
   std::vector<Point2> estimate;
+  estimate.reserve(truth.size());
   for (const Point2& p : truth) estimate.push_back(T_estimate_truth * p);
   const TrajectoryError error = trajectory_error(estimate, truth);
   EXPECT_EQ(error.pairs, truth.size());
@@ -53,10 +54,10 @@ TEST(TrajectoryError, NoOtherAlignmentIsBetter) {
   };
   EXPECT_NEAR(rmse_with(best.T_truth_estimate), best.rmse_m, 1e-9);
   for (const double step : {-1e-3, 1e-3}) {
-    const Pose2& T = best.T_truth_estimate;
-    EXPECT_GT(rmse_with({T.x_m() + step, T.y_m(), T.yaw_rad()}), best.rmse_m);
-    EXPECT_GT(rmse_with({T.x_m(), T.y_m() + step, T.yaw_rad()}), best.rmse_m);
-    EXPECT_GT(rmse_with({T.x_m(), T.y_m(), T.yaw_rad() + step}), best.rmse_m);
+    const Pose2& T_best = best.T_truth_estimate;
+    EXPECT_GT(rmse_with({T_best.x_m() + step, T_best.y_m(), T_best.yaw_rad()}), best.rmse_m);
+    EXPECT_GT(rmse_with({T_best.x_m(), T_best.y_m() + step, T_best.yaw_rad()}), best.rmse_m);
+    EXPECT_GT(rmse_with({T_best.x_m(), T_best.y_m(), T_best.yaw_rad() + step}), best.rmse_m);
   }
 }
 

@@ -15,7 +15,8 @@ MapTile unknown_tile(TileIndex index) {
 }
 
 std::uint8_t pixel(const RosMap& map, int column, int row_from_top) {
-  return map.pixels[static_cast<std::size_t>(row_from_top * map.width + column)];
+  return map.pixels[static_cast<std::size_t>(row_from_top) * static_cast<std::size_t>(map.width) +
+                    static_cast<std::size_t>(column)];
 }
 
 TEST(PgmValue, FollowsMapServersTrinaryValues) {
@@ -38,8 +39,8 @@ TEST(PgmValue, IsReadBackByTheThresholdsOfTheYaml) {
 
 TEST(RosMap, PutsTheHighestRowFirst) {
   MapTile tile = unknown_tile({0, 0});
-  tile.occupancy_percent[0] = 98;                           // lower left cell
-  tile.occupancy_percent[kTileCells * kTileCells - 1] = 2;  // upper right cell
+  tile.occupancy_percent[0] = 98;                // lower left cell
+  tile.occupancy_percent[kCellsInTile - 1] = 2;  // upper right cell
   const RosMap map = make_ros_map({&tile, 1}, 0.05);
   EXPECT_EQ(map.width, kTileCells);
   EXPECT_EQ(map.height, kTileCells);
@@ -52,7 +53,7 @@ TEST(RosMap, CoversAllTilesInAnyOrder) {
   MapTile low = unknown_tile({-2, -1});
   MapTile high = unknown_tile({0, 1});
   low.occupancy_percent[0] = 98;
-  high.occupancy_percent[kTileCells * kTileCells - 1] = 98;
+  high.occupancy_percent[kCellsInTile - 1] = 98;
   const std::vector<MapTile> forth = {low, high};
   const std::vector<MapTile> back = {high, low};
   const RosMap map = make_ros_map(forth, 0.05);
@@ -67,7 +68,7 @@ TEST(RosMap, CoversAllTilesInAnyOrder) {
 
 TEST(RosMap, OfNothingIsOneUnknownTile) {
   const RosMap map = make_ros_map({}, 0.05);
-  EXPECT_EQ(map.pixels.size(), static_cast<std::size_t>(kTileCells * kTileCells));
+  EXPECT_EQ(map.pixels.size(), kCellsInTile);
   EXPECT_THAT(map.pixels, testing::Each(kPgmUnknown));
 }
 
