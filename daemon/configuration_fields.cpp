@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/configuration_fields.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "core/sensing/keyframe.hpp"
+
+namespace swiftlet {
+namespace {
+
+// clang-format off
+constexpr ConfigurationField kFields[] = {
+    {"sensor", "min_range_m", "m", "shorter readings are invalid", 0, 10, [](Configuration& c) -> FieldPointer { return &c.sensor.min_range_m; }},
+    {"sensor", "max_range_m", "m", "longer readings count as no return", 0.1, 100, [](Configuration& c) -> FieldPointer { return &c.sensor.max_range_m; }},
+    {"sensor", "range_sigma_m", "m", "standard deviation of a reading, along the beam", 0.0001, 1, [](Configuration& c) -> FieldPointer { return &c.sensor.range_sigma_m; }},
+    {"sensor", "range_age_s", "s", "how much older the ranges of a packet are than its stamp", 0, 1, [](Configuration& c) -> FieldPointer { return &c.sensor.range_age_s; }},
+    {"sensor", "odometry_xy_per_metre", "m/m", "standard deviation of a step's position, per metre travelled", 0, 1, [](Configuration& c) -> FieldPointer { return &c.sensor.odometry_xy_per_metre; }},
+    {"sensor", "odometry_yaw_per_radian", "rad/rad", "standard deviation of a step's heading, per radian turned", 0, 1, [](Configuration& c) -> FieldPointer { return &c.sensor.odometry_yaw_per_radian; }},
+    {"sensor", "odometry_yaw_per_metre_rad", "rad/m", "standard deviation of a step's heading, per metre travelled", 0, 1, [](Configuration& c) -> FieldPointer { return &c.sensor.odometry_yaw_per_metre_rad; }},
+    {"frontend", "use_landmarks", "", "false: dead reckoning only, a baseline", 0, 0, [](Configuration& c) -> FieldPointer { return &c.frontend.use_landmarks; }},
+    {"frontend", "keyframe_distance_m", "m", "a keyframe after this much travel", 0.01, 10, [](Configuration& c) -> FieldPointer { return &c.frontend.keyframe_distance_m; }},
+    {"frontend", "keyframe_turn_rad", "rad", "a keyframe after this much turning", 0.01, 3.2, [](Configuration& c) -> FieldPointer { return &c.frontend.keyframe_turn_rad; }},
+    {"frontend", "multiscan_scans", "", "how many scans are seen together", 1, 128, [](Configuration& c) -> FieldPointer { return &c.frontend.multiscan_scans; }},
+    {"frontend", "split_distance_m", "m", "a point farther than this from the chord splits a segment", 0.001, 2, [](Configuration& c) -> FieldPointer { return &c.frontend.split_distance_m; }},
+    {"frontend", "max_point_gap_m", "m", "neighbours along a line farther apart than this are not one wall", 0.01, 10, [](Configuration& c) -> FieldPointer { return &c.frontend.max_point_gap_m; }},
+    {"frontend", "min_line_points", "", "fewer points make no line", 2, 1000, [](Configuration& c) -> FieldPointer { return &c.frontend.min_line_points; }},
+    {"frontend", "min_line_length_m", "m", "shorter segments are not used", 0.01, 10, [](Configuration& c) -> FieldPointer { return &c.frontend.min_line_length_m; }},
+    {"frontend", "association_error_m", "m", "summed distance of both end points from the wall (epsilon of eq. 5)", 0.001, 5, [](Configuration& c) -> FieldPointer { return &c.frontend.association_error_m; }},
+    {"frontend", "association_gap_m", "m", "how far two segments may miss each other and still overlap (eq. 8)", 0, 10, [](Configuration& c) -> FieldPointer { return &c.frontend.association_gap_m; }},
+    {"frontend", "association_keyframes", "", "a wall not seen within this many keyframes is not associated", 1, 1000000, [](Configuration& c) -> FieldPointer { return &c.frontend.association_keyframes; }},
+    {"frontend", "window_keyframes", "", "keyframes optimised at once (fixed lag)", 2, double{kMaxKeyframeWindow}, [](Configuration& c) -> FieldPointer { return &c.frontend.window_keyframes; }},
+    {"frontend", "solver_iterations", "", "Levenberg-Marquardt steps at most", 1, 1000, [](Configuration& c) -> FieldPointer { return &c.frontend.solver_iterations; }},
+    {"frontend", "chi_square_confidence", "", "confidence of the consistency check (eq. 19)", 0.5, 0.999999, [](Configuration& c) -> FieldPointer { return &c.frontend.chi_square_confidence; }},
+    {"backend", "submap_length_m", "m", "a submap covers this much travel", 0.5, 1000, [](Configuration& c) -> FieldPointer { return &c.backend.submap_length_m; }},
+    {"backend", "grid_resolution_m", "m", "cell size of submaps", 0.01, 1, [](Configuration& c) -> FieldPointer { return &c.backend.grid_resolution_m; }},
+    {"backend", "hit_probability", "", "p(occupied given that a beam ended here)", 0.5, 0.999, [](Configuration& c) -> FieldPointer { return &c.backend.hit_probability; }},
+    {"backend", "miss_probability", "", "p(occupied given that a beam passed through)", 0.001, 0.5, [](Configuration& c) -> FieldPointer { return &c.backend.miss_probability; }},
+    {"backend", "max_kernel_cells", "", "width of the max kernel (eq. 22); 1 is eq. 21, no kernel", 1, 15, [](Configuration& c) -> FieldPointer { return &c.backend.max_kernel_cells; }},
+    {"backend", "close_loops", "", "false: the frontend alone, a baseline", 0, 0, [](Configuration& c) -> FieldPointer { return &c.backend.close_loops; }},
+    {"backend", "multiscan_length_m", "m", "the recent travel that is matched against submaps", 0.5, 1000, [](Configuration& c) -> FieldPointer { return &c.backend.multiscan_length_m; }},
+    {"backend", "match_every_keyframes", "", "look for loops at every n-th keyframe", 1, 1000, [](Configuration& c) -> FieldPointer { return &c.backend.match_every_keyframes; }},
+    {"backend", "min_travel_between_m", "m", "travel between the two ends of a closure", 0, 10000, [](Configuration& c) -> FieldPointer { return &c.backend.min_travel_between_m; }},
+    {"backend", "search_radius_m", "m", "widest search around the predicted position", 0.1, 100, [](Configuration& c) -> FieldPointer { return &c.backend.search_radius_m; }},
+    {"backend", "search_angle_rad", "rad", "widest search around the predicted heading", 0.01, 3.2, [](Configuration& c) -> FieldPointer { return &c.backend.search_angle_rad; }},
+    {"backend", "min_score", "", "mean probability under the scan's points that makes a closure", 0, 1, [](Configuration& c) -> FieldPointer { return &c.backend.min_score; }},
+    {"backend", "min_match_points", "", "fewer points decide nothing", 1, 100000, [](Configuration& c) -> FieldPointer { return &c.backend.min_match_points; }},
+    {"backend", "dcs_phi", "", "closures whose chi-square exceeds this are scaled down (DCS)", 0.001, 1000000, [](Configuration& c) -> FieldPointer { return &c.backend.dcs_phi; }},
+    {"backend", "drop_scale", "", "closures scaled below this in the final pass are dropped", 0, 1, [](Configuration& c) -> FieldPointer { return &c.backend.drop_scale; }},
+    {"backend", "optimizer_iterations", "", "Gauss-Newton steps at most", 1, 1000, [](Configuration& c) -> FieldPointer { return &c.backend.optimizer_iterations; }},
+    {"map", "resolution_m", "m", "cell size of the map that is published and written", 0.01, 1, [](Configuration& c) -> FieldPointer { return &c.map.resolution_m; }},
+    {"map", "hit_log_odds", "", "what one beam's end adds to its cell", 0.01, 10, [](Configuration& c) -> FieldPointer { return &c.map.hit_log_odds; }},
+    {"map", "miss_log_odds", "", "what one beam adds to each cell it passes through", -10, -0.001, [](Configuration& c) -> FieldPointer { return &c.map.miss_log_odds; }},
+    {"map", "clear_range_m", "m", "beams clear cells up to this distance at most", 0.1, 100, [](Configuration& c) -> FieldPointer { return &c.map.clear_range_m; }},
+    {"publish", "status_period_s", "s", "between two status messages; walls and the map's summary go with them", 0.05, 3600, [](Configuration& c) -> FieldPointer { return &c.publish.status_period_s; }},
+    {"publish", "tile_refresh_period_s", "s", "every tile is sent again at least this often, for late joiners", 0.1, 3600, [](Configuration& c) -> FieldPointer { return &c.publish.tile_refresh_period_s; }},
+    {"publish", "channel_prefix", "", "what every channel's name begins with", 0, 0, [](Configuration& c) -> FieldPointer { return &c.publish.channel_prefix; }},
+};
+// clang-format on
+
+std::string range_problem(const ConfigurationField& field, double value) {
+  if (std::isfinite(value) && value >= field.lowest && value <= field.highest) return {};
+  return fmt::format("{}.{} = {}: must lie between {} and {}", field.section, field.key, value, field.lowest,
+                     field.highest);
+}
+
+struct Problem {
+  const ConfigurationField& field;
+
+  std::string operator()(const bool*) const { return {}; }
+  std::string operator()(const int* value) const { return range_problem(field, *value); }
+  std::string operator()(const double* value) const { return range_problem(field, *value); }
+  std::string operator()(const std::optional<double>* value) const {
+    return *value ? range_problem(field, **value) : std::string();
+  }
+  std::string operator()(const std::string*) const { return {}; }
+};
+
+}  // namespace
+
+std::span<const ConfigurationField> configuration_fields() { return kFields; }
+
+std::string field_problem(const ConfigurationField& field, Configuration& config) {
+  return std::visit(Problem{field}, field.in(config));
+}
+
+}  // namespace swiftlet
