@@ -29,8 +29,8 @@ struct ConfigurationField {
 /// In the order of the reference page, section by section.
 [[nodiscard]] std::span<const ConfigurationField> configuration_fields();
 
-/// What is wrong with this field's value in `config`, as "section.key = value: must lie between ..."; empty when
-/// nothing is.
+/// What is wrong with this field's value in `config`, as "section.key = value: must lie between ..."; empty
+/// when nothing is.
 [[nodiscard]] std::string field_problem(const ConfigurationField& field, Configuration& config);
 
 /// docs/configuration.md, whole.

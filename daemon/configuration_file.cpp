@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include <spdlog/fmt/fmt.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <filesystem>
-#include <toml++/toml.h>
 
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_fields.hpp"
@@ -24,8 +24,8 @@ struct Assign {
     const std::optional<std::int64_t> number = value.value_exact<std::int64_t>();
     if (!number) return false;
     // Beyond int is beyond every field's bounds too, and is reported as that.
-    *field = static_cast<int>(std::clamp<std::int64_t>(*number, std::numeric_limits<int>::min(),
-                                                       std::numeric_limits<int>::max()));
+    *field = static_cast<int>(
+        std::clamp<std::int64_t>(*number, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
     return true;
   }
 
@@ -98,7 +98,8 @@ class Loader {
       if (field.section != section || field.key != key.str()) continue;
       const FieldPointer target = field.in(config_);
       if (!std::visit(Assign{value}, target)) {
-        note(key.source(), fmt::format("{}.{} must be {}", section, field.key, std::visit(TypeName{}, target)));
+        note(key.source(),
+             fmt::format("{}.{} must be {}", section, field.key, std::visit(TypeName{}, target)));
       } else if (const std::string problem = field_problem(field, config_); !problem.empty()) {
         note(key.source(), problem);
       }
@@ -110,7 +111,8 @@ class Loader {
 
   static bool is_section(std::string_view name) {
     const auto fields = configuration_fields();
-    return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.section == name; });
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const auto& field) { return field.section == name; });
   }
 
   std::string all_problems() {

@@ -44,7 +44,8 @@ Status Daemon::run(const std::stop_token& stop) {
   {
     const std::jthread publisher = named_thread("publisher", [this] { run_publisher(); });
     const std::jthread backend = named_thread("backend", [this] { run_to_end(pipeline_.backend_worker()); });
-    const std::jthread frontend = named_thread("frontend", [this] { run_to_end(pipeline_.frontend_worker()); });
+    const std::jthread frontend =
+        named_thread("frontend", [this] { run_to_end(pipeline_.frontend_worker()); });
     const std::jthread radio = named_thread("radio", [this, &stop] { run_radio(stop); });
   }  // joined in the order of the data's way
   return pipeline_.outcome();

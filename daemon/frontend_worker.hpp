@@ -19,8 +19,8 @@ class FrontendWorker {
  public:
   /// References must outlive the worker. Without `publisher` poses go nowhere but to the backend.
   FrontendWorker(Frontend& frontend, const Clock& clock, SampleQueue::Consumer samples,
-                 StepQueue::Producer steps, CorrectionValue& correction, std::optional<FrontendOutlet> publisher,
-                 StageHistogram& times);
+                 StepQueue::Producer steps, CorrectionValue& correction,
+                 std::optional<FrontendOutlet> publisher, StageHistogram& times);
 
   StepResult step() noexcept;
   /// Sleeps until a sample waits or no more will come.

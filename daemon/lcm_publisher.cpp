@@ -158,7 +158,8 @@ struct LcmPublisher::State {
 
   template <typename Message>
   void send(const std::string& channel, const Message& message) {
-    const std::size_t room = kMaxMessageBytes - channel.size() - 1;  // the datagram also holds the channel's name
+    const std::size_t room =
+        kMaxMessageBytes - channel.size() - 1;  // the datagram also holds the channel's name
     const int bytes = message.encode(buffer.data(), 0, static_cast<int>(room));
     SWIFTLET_CHECK(bytes > 0, "a message fits one datagram by construction");
     if (lcm.publish(channel, buffer.data(), static_cast<unsigned>(bytes)) == 0) return;
@@ -189,7 +190,8 @@ Result<std::unique_ptr<LcmPublisher>> LcmPublisher::open(const std::string& url,
                  "LCM URL \"" + url + "\": must begin with udpm://, file://, tcpq:// or memq://"};
   auto state = std::make_unique<State>(url, channel_prefix, map_id);
   if (!state->lcm.good())
-    return Error{ErrorCode::kInvalidInput, "LCM URL \"" + url + "\": LCM could not open it; check address and route"};
+    return Error{ErrorCode::kInvalidInput,
+                 "LCM URL \"" + url + "\": LCM could not open it; check address and route"};
   return std::unique_ptr<LcmPublisher>(new LcmPublisher(std::move(state)));
 }
 

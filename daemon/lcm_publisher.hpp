@@ -13,8 +13,8 @@
 
 namespace swiftlet {
 
-/// Publishes over LCM with the types in proto/; docs/lcm.md lists the channels. Every message fits one datagram.
-/// One thread at a time. Messages are encoded into a buffer of its own.
+/// Publishes over LCM with the types in proto/; docs/lcm.md lists the channels. Every message fits one
+/// datagram. One thread at a time. Messages are encoded into a buffer of its own.
 class LcmPublisher final : public Publisher {
  public:
   /// The most that one datagram carries; LCM would cut larger messages into fragments.

@@ -34,15 +34,20 @@ struct Options {
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys");
-  app.add_option("--input", options.input_uri, "replay:FILE.pcap, sim://WORLD?seed=N, or a .pcap or .clf[.gz] file");
-  app.add_option("--lcm-url", options.lcm_url, "where to publish")->envname("LCM_DEFAULT_URL")->capture_default_str();
+  app.add_option("--input", options.input_uri,
+                 "replay:FILE.pcap, sim://WORLD?seed=N, or a .pcap or .clf[.gz] file");
+  app.add_option("--lcm-url", options.lcm_url, "where to publish")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
   app.add_option("--rate", options.rate, "replay this many times as fast as recorded")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   app.add_option("--beams", options.beams, "laser logs: how many beams to keep");
-  app.add_option("-o,--output", options.output_directory, "write map, trajectories and report here at the end");
+  app.add_option("-o,--output", options.output_directory,
+                 "write map, trajectories and report here at the end");
   app.add_flag("-v,--verbose", options.verbose, "log each status");
-  app.add_flag("--print-configuration-reference", options.print_reference, "write docs/configuration.md and exit");
+  app.add_flag("--print-configuration-reference", options.print_reference,
+               "write docs/configuration.md and exit");
 }
 
 int refuse(const std::string& why) {
@@ -90,7 +95,8 @@ int tell_problems(const InputReport& report, const Status& outcome) {
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
-  if (const Status made = make_directory(options.output_directory); !made) return refuse(made.error().message);
+  if (const Status made = make_directory(options.output_directory); !made)
+    return refuse(made.error().message);
   Result<std::unique_ptr<SampleSource>> source = open_input(options, *config);
   if (!source) return refuse(source.error().message);
   const Result<std::unique_ptr<LcmPublisher>> publisher =

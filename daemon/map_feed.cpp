@@ -62,10 +62,11 @@ bool MapFeed::flush_closures(const Backend& backend) {
     const bool is_new = i >= sent_closure_dropped_.size();
     if (!is_new && sent_closure_dropped_[i] == closure.dropped) continue;
     if (!publisher_.closures.has_room()) return false;
-    static_cast<void>(publisher_.closures.try_push({.index = static_cast<std::uint32_t>(i),
-                                                    .closure = closure,
-                                                    .from_map = backend.T_map_keyframe(closure.from).position(),
-                                                    .to_map = backend.T_map_keyframe(closure.to).position()}));
+    static_cast<void>(
+        publisher_.closures.try_push({.index = static_cast<std::uint32_t>(i),
+                                      .closure = closure,
+                                      .from_map = backend.T_map_keyframe(closure.from).position(),
+                                      .to_map = backend.T_map_keyframe(closure.to).position()}));
     if (is_new) sent_closure_dropped_.push_back(closure.dropped);
     sent_closure_dropped_[i] = closure.dropped;
   }

@@ -26,7 +26,9 @@ class MapFeed {
   /// Hands over what there is room for, and the backend's counters.
   void flush(const Backend& backend, const MapBuilder& map);
   /// True when the publisher has been given everything.
-  [[nodiscard]] bool is_empty() const { return dirty_tiles_.empty() && !walls_pending_ && !closures_pending_; }
+  [[nodiscard]] bool is_empty() const {
+    return dirty_tiles_.empty() && !walls_pending_ && !closures_pending_;
+  }
   /// Tells the publisher that nothing more will come.
   void close() { publisher_.tiles.close(); }
 

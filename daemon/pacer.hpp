@@ -15,7 +15,9 @@ namespace swiftlet {
 class Pacer {
  public:
   /// Precondition: rate > 0.
-  explicit Pacer(double rate) : rate_(rate) { SWIFTLET_CHECK(rate > 0.0, "the rate of a replay is positive"); }
+  explicit Pacer(double rate) : rate_(rate) {
+    SWIFTLET_CHECK(rate > 0.0, "the rate of a replay is positive");
+  }
 
   /// When the sample stamped `stamp` is due. Call once for each sample, in order.
   MonotonicTime due(HostTime stamp, MonotonicTime now) noexcept {

@@ -15,13 +15,13 @@ namespace swiftlet {
 /// Where the vehicle is, in all three frames; one for each sample.
 struct PoseUpdate {
   HostTime stamp{};
-  std::uint32_t sequence = 0;            ///< RangeSample::sequence
-  std::uint32_t segment = 0;             ///< counts up each time the dead reckoning began anew; the first is 1
-  KeyframeId keyframe{};                 ///< the newest at the time
+  std::uint32_t sequence = 0;  ///< RangeSample::sequence
+  std::uint32_t segment = 0;   ///< counts up each time the dead reckoning began anew; the first is 1
+  KeyframeId keyframe{};       ///< the newest at the time
   std::uint32_t correction_version = 0;  ///< MapCorrection::version behind T_map_body; 0: none yet
-  Pose2 T_map_body;
-  Pose2 T_local_body;
-  Pose2 T_odom_body;
+  Pose2 T_map_body{};
+  Pose2 T_local_body{};
+  Pose2 T_odom_body{};
 };
 
 /// The numbers of an InputReport, without its texts.
@@ -42,16 +42,16 @@ struct InputStatus {
 /// A wall at its present place in the map.
 struct WallInMap {
   LandmarkId id{};
-  Point2 start_map;
-  Point2 end_map;
+  Point2 start_map{};
+  Point2 end_map{};
 };
 
 /// A loop closure, when found and again when the final pass drops it.
 struct ClosureUpdate {
   std::uint32_t index = 0;  ///< in Backend::closures()
-  LoopClosure closure;
-  Point2 from_map;  ///< where the two keyframes stand now
-  Point2 to_map;
+  LoopClosure closure{};
+  Point2 from_map{};  ///< where the two keyframes stand now
+  Point2 to_map{};
 };
 
 static_assert(std::is_trivially_copyable_v<PoseUpdate> && std::is_trivially_copyable_v<InputStatus> &&

@@ -38,10 +38,11 @@ using StepQueue = StageQueue<FrontendStep, 1024>;
 /// backend -> frontend: newest wins.
 using CorrectionValue = LatestValue<MapCorrection>;
 
-/// frontend -> publisher: 25 s at 10 Hz. Full: the newest pose is refused and counted; the map misses nothing.
+/// frontend -> publisher: 25 s at 10 Hz. Full: the newest pose is refused and counted; the map misses
+/// nothing.
 using PoseQueue = SpscQueue<PoseUpdate, 256>;
-/// backend -> publisher. Full: what did not fit stays with the backend's worker, which offers its newest state
-/// again later. Closed when everything has been handed over, after the final pass.
+/// backend -> publisher. Full: what did not fit stays with the backend's worker, which offers its newest
+/// state again later. Closed when everything has been handed over, after the final pass.
 using TileQueue = StageQueue<MapTile, 256>;
 /// backend -> publisher. Full: as for tiles.
 using WallQueue = SpscQueue<WallInMap, 1024>;
@@ -86,8 +87,8 @@ struct PublisherQueues {
     return {tiles.producer(), walls.producer(), closures.producer(), backend};
   }
   PublisherInlet inlet() {
-    return {poses.consumer(), tiles.consumer(), walls.consumer(), closures.consumer(),
-            input,            frontend,         backend};
+    return {poses.consumer(), tiles.consumer(), walls.consumer(), closures.consumer(), input,
+            frontend,         backend};
   }
 };
 

@@ -19,9 +19,10 @@ namespace swiftlet {
 struct MapSummary {
   double resolution_m = 0.0;
   std::uint32_t tiles = 0;
-  std::uint64_t version_sum = 0;  ///< over all tiles: equal to a consumer's own sum when it has the newest of each
-  TileIndex lowest;               ///< corners of the tiles' bounding box; both (0, 0) while there are none
-  TileIndex highest;
+  std::uint64_t version_sum =
+      0;               ///< over all tiles: equal to a consumer's own sum when it has the newest of each
+  TileIndex lowest{};  ///< corners of the tiles' bounding box; both (0, 0) while there are none
+  TileIndex highest{};
 };
 
 enum class DaemonState : std::uint8_t {

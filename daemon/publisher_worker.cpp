@@ -9,8 +9,9 @@
 
 namespace swiftlet {
 
-PublisherWorker::PublisherWorker(const PublishConfig& config, double resolution_m, const PublisherInlet& inlet,
-                                 Gauges gauges, Publisher& publisher, const Clock& clock)
+PublisherWorker::PublisherWorker(const PublishConfig& config, double resolution_m,
+                                 const PublisherInlet& inlet, Gauges gauges, Publisher& publisher,
+                                 const Clock& clock)
     : config_(config),
       resolution_m_(resolution_m),
       inlet_(inlet),
@@ -90,7 +91,8 @@ void PublisherWorker::keep(const MapTile& tile) {
 }
 
 void PublisherWorker::refresh_tiles(std::size_t at_most, MonotonicTime now) {
-  refresh_due_ += static_cast<double>(tiles_.size()) * to_seconds(now - last_step_) / config_.tile_refresh_period_s;
+  refresh_due_ +=
+      static_cast<double>(tiles_.size()) * to_seconds(now - last_step_) / config_.tile_refresh_period_s;
   // What the pace does not allow is put off, but not piled up beyond one round.
   refresh_due_ = std::min(refresh_due_, static_cast<double>(tiles_.size()));
   for (; at_most > 0 && refresh_due_ >= 1.0; --at_most, refresh_due_ -= 1.0) refresh_next_tile();

@@ -36,8 +36,8 @@ class PublisherWorker {
   };
 
   /// References must outlive the worker.
-  PublisherWorker(const PublishConfig& config, double resolution_m, const PublisherInlet& inlet, Gauges gauges,
-                  Publisher& publisher, const Clock& clock);
+  PublisherWorker(const PublishConfig& config, double resolution_m, const PublisherInlet& inlet,
+                  Gauges gauges, Publisher& publisher, const Clock& clock);
 
   /// One tick's worth. kIdle: call again after kTick. kFinished: all is sent, also the final status.
   StepResult step();

@@ -5,7 +5,8 @@
 namespace swiftlet {
 
 RadioWorker::RadioWorker(SampleSource& source, const Clock& clock, const InputPolicy& policy,
-                         SampleQueue::Producer samples, LatestValue<InputStatus>* status, StageHistogram& times)
+                         SampleQueue::Producer samples, LatestValue<InputStatus>* status,
+                         StageHistogram& times)
     : source_(source),
       clock_(clock),
       policy_(policy),
@@ -57,16 +58,16 @@ void RadioWorker::report_input() {
   if (status_ == nullptr) return;
   const InputReport& report = source_.report();
   status_->store({.frames = report.frames,
-                           .samples = report.samples,
-                           .gaps = report.gaps,
-                           .missing_packets = report.missing_packets,
-                           .duplicates = report.duplicates,
-                           .out_of_order = report.out_of_order,
-                           .unpaired = report.unpaired,
-                           .segments = report.segments,
-                           .problems = report.problems.size(),
-                           .progress = source_.progress().value_or(-1.0),
-                           .ended = ended_});
+                  .samples = report.samples,
+                  .gaps = report.gaps,
+                  .missing_packets = report.missing_packets,
+                  .duplicates = report.duplicates,
+                  .out_of_order = report.out_of_order,
+                  .unpaired = report.unpaired,
+                  .segments = report.segments,
+                  .problems = report.problems.size(),
+                  .progress = source_.progress().value_or(-1.0),
+                  .ended = ended_});
 }
 
 }  // namespace swiftlet

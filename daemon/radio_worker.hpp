@@ -16,8 +16,9 @@ namespace swiftlet {
 
 /// How samples enter the pipeline.
 struct InputPolicy {
-  /// Recordings: replay at this many times the pace of the samples' own stamps; empty: as fast as they are read.
-  std::optional<double> rate;
+  /// Recordings: replay at this many times the pace of the samples' own stamps; empty: as fast as they are
+  /// read.
+  std::optional<double> rate{};
   /// False for recordings, which wait for room. True for a live link, which cannot be asked to wait.
   bool refuses_when_full = false;
 };

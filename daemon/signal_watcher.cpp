@@ -7,7 +7,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr timespec kLookEvery{.tv_sec = 0, .tv_nsec = 50'000'000};  // how soon the end of the watch is noticed
+constexpr timespec kLookEvery{.tv_sec = 0,
+                              .tv_nsec = 50'000'000};  // how soon the end of the watch is noticed
 
 }  // namespace
 

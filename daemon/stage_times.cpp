@@ -64,7 +64,8 @@ double StageHistogram::percentile_ms(std::uint64_t count, double share) const no
 }
 
 std::vector<StageSummary> StageTimes::summaries() const {
-  return {input.summary("input"), frontend.summary("frontend"), backend.summary("backend"), map.summary("map")};
+  return {input.summary("input"), frontend.summary("frontend"), backend.summary("backend"),
+          map.summary("map")};
 }
 
 }  // namespace swiftlet

@@ -29,15 +29,15 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
       spdlog::warn("queue of {}: full, {} refused in all", now.queues[i].name, now.queues[i].refused);
   }
   spdlog::debug("{} samples ({:.1f} Hz), {} keyframes, {} submaps, {} closures, {} tiles", now.input.samples,
-                now.sample_rate_hz, now.frontend.keyframes, now.backend.submaps, now.backend.closures_accepted,
-                now.map.tiles);
+                now.sample_rate_hz, now.frontend.keyframes, now.backend.submaps,
+                now.backend.closures_accepted, now.map.tiles);
 }
 
 void log_closure(const ClosureUpdate& update) {
   const LoopClosure& closure = update.closure;
-  spdlog::info("loop {} between keyframes {} and {}: {:.2f} m apart, score {:.2f}",
-               closure.dropped ? "dropped" : "closed", index_of(closure.from), index_of(closure.to),
-               std::hypot(closure.T_from_to.x_m(), closure.T_from_to.y_m()), closure.score);
+  spdlog::debug("loop {} between keyframes {} and {}: {:.2f} m apart, score {:.2f}",
+                closure.dropped ? "dropped" : "closed", index_of(closure.from), index_of(closure.to),
+                std::hypot(closure.T_from_to.x_m(), closure.T_from_to.y_m()), closure.score);
 }
 
 }  // namespace swiftlet

@@ -14,7 +14,8 @@ class ManualClock final : public Clock {
   [[nodiscard]] MonotonicTime now() const override { return MonotonicTime(now_.load()); }
   void sleep_until(MonotonicTime wake_at) override {
     MonotonicTime::duration seen = now_.load();
-    while (wake_at.time_since_epoch() > seen && !now_.compare_exchange_weak(seen, wake_at.time_since_epoch())) {
+    while (wake_at.time_since_epoch() > seen &&
+           !now_.compare_exchange_weak(seen, wake_at.time_since_epoch())) {
     }
   }
   void advance(MonotonicTime::duration by) { now_.store(now_.load() + by); }
