@@ -14,26 +14,47 @@
 
 namespace swiftlet {
 
+class BackendWorker;
+class Clock;
+class FrontendWorker;
+class RadioWorker;
+struct InputPolicy;
+struct PipelineQueues;
+
 /// The workers (radio, frontend, backend) and the queues between them, wired for one input. In lockstep one
 /// thread calls step(); the daemon gives each worker a thread of its own. The same steps either way.
 class Pipeline {
  public:
-  /// `source` must outlive the pipeline. Precondition: config.validate() is empty.
+  /// For lockstep: samples are taken as fast as they are read, nobody publishes. `source` must outlive the
+  /// pipeline. Precondition: config.validate() is empty.
   Pipeline(const Configuration& config, SampleSource& source);
+  /// For threads: samples are taken as `policy` says, and what a publisher needs goes to
+  /// queues().to_publisher. `clock` must outlive the pipeline.
+  Pipeline(const Configuration& config, SampleSource& source, const Clock& clock, const InputPolicy& policy);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
   /// Lockstep: takes the next sample through all stages in the calling thread. False when the input has ended
-  /// and the backend's final pass is done. Errors: whatever ended the input before its time (outputs are
-  /// still valid).
+  /// and the backend's final pass is done. Errors: whatever ended the input before its time, said once the
+  /// final pass is done (outputs are valid).
   [[nodiscard]] Result<bool> step();
 
   // Not while threads run.
   [[nodiscard]] const Backend& backend() const;
   [[nodiscard]] const Frontend& frontend() const;
   [[nodiscard]] const MapBuilder& map() const;
+  /// What ended the input before its time, if anything did.
+  [[nodiscard]] const Status& outcome() const;
+
+  /// Any thread.
   [[nodiscard]] std::vector<StageSummary> stage_times() const;
+
+  // For whoever gives each worker its thread.
+  [[nodiscard]] RadioWorker& radio_worker();
+  [[nodiscard]] FrontendWorker& frontend_worker();
+  [[nodiscard]] BackendWorker& backend_worker();
+  [[nodiscard]] PipelineQueues& queues();
 
  private:
   struct State;

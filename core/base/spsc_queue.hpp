@@ -22,6 +22,8 @@ class SpscQueue {
    public:
     /// False when full: the item is refused and counted. Wait-free.
     [[nodiscard]] bool try_push(const T& item) noexcept { return queue_->push(item); }
+    /// Whether the next try_push will succeed. Wait-free.
+    [[nodiscard]] bool has_room() const noexcept { return queue_->ring_.write_available() > 0; }
 
    private:
     friend class SpscQueue;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+
+#include "core/backend/backend.hpp"
+#include "core/mapping/map_builder.hpp"
+#include "daemon/clock.hpp"
+#include "daemon/map_feed.hpp"
+#include "daemon/pipeline_queues.hpp"
+#include "daemon/stage_times.hpp"
+#include "daemon/worker.hpp"
+
+namespace swiftlet {
+
+/// Takes each frontend step through the backend, draws the map at keyframes, and hands corrections to the
+/// frontend and changes to the publisher. After the last step comes the final pass. One thread at a time; may
+/// allocate and may be slow.
+class BackendWorker {
+ public:
+  /// References must outlive the worker. Without `publisher` nobody is told of changes.
+  BackendWorker(Backend& backend, MapBuilder& map, const Clock& clock, StepQueue::Consumer steps,
+                CorrectionValue& correction, const std::optional<BackendOutlet>& publisher,
+                StageTimes& times);
+
+  /// kBlocked: only the publisher's queues stand in the way; call again in a moment.
+  StepResult step();
+  /// Sleeps until a step waits or no more will come.
+  void wait() const noexcept { steps_.wait(); }
+
+ private:
+  Backend& backend_;
+  MapBuilder& map_;
+  const Clock& clock_;
+  StepQueue::Consumer steps_;
+  CorrectionValue& correction_;
+  std::optional<MapFeed> feed_;
+  StageTimes& times_;
+  FrontendStep step_;
+  bool poses_changed_ = false;  // since the map was drawn last
+  std::uint32_t correction_version_ = 0;
+  bool final_pass_done_ = false;
+
+  void add_step();
+  void run_final_pass();
+  void draw_map();
+  void hand_on_correction();
+  /// False while the publisher's queues have no room for all of it.
+  [[nodiscard]] bool hand_on_changes();
+};
+
+}  // namespace swiftlet

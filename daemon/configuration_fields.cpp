@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/configuration_fields.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "core/sensing/keyframe.hpp"
+#include "core/sensing/multiscan.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// The section of `config` that holds a member of `Section`.
+template <typename Section>
+Section& section_in(Configuration& config) {
+  if constexpr (std::is_same_v<Section, SensorOverrides>) return config.sensor;
+  if constexpr (std::is_same_v<Section, FrontendConfig>) return config.frontend;
+  if constexpr (std::is_same_v<Section, BackendConfig>) return config.backend;
+  if constexpr (std::is_same_v<Section, MapConfig>) return config.map;
+  if constexpr (std::is_same_v<Section, PublishConfig>) return config.publish;
+}
+
+template <typename Section, typename T>
+FieldPointer place_of(T Section::*field, Configuration& config) {
+  return &(section_in<Section>(config).*field);
+}
+template <auto kField>
+FieldPointer at(Configuration& config) {
+  return place_of(kField, config);
+}
+
+constexpr ConfigurationField kFields[] = {
+    {"sensor", "min_range_m", "m", "shorter readings are invalid", 0, 10, at<&SensorOverrides::min_range_m>},
+    {"sensor", "max_range_m", "m", "longer readings count as no return", 0.1, 100,
+     at<&SensorOverrides::max_range_m>},
+    {"sensor", "range_sigma_m", "m", "standard deviation of a reading, along the beam", 0.0001, 1,
+     at<&SensorOverrides::range_sigma_m>},
+    {"sensor", "range_age_s", "s", "how much older the ranges of a packet are than its stamp", 0, 1,
+     at<&SensorOverrides::range_age_s>},
+    {"sensor", "odometry_xy_per_metre", "m/m", "standard deviation of a step's position, per metre travelled",
+     0, 1, at<&SensorOverrides::odometry_xy_per_metre>},
+    {"sensor", "odometry_yaw_per_radian", "rad/rad",
+     "standard deviation of a step's heading, per radian turned", 0, 1,
+     at<&SensorOverrides::odometry_yaw_per_radian>},
+    {"sensor", "odometry_yaw_per_metre_rad", "rad/m",
+     "standard deviation of a step's heading, per metre travelled", 0, 1,
+     at<&SensorOverrides::odometry_yaw_per_metre_rad>},
+    {"frontend", "use_landmarks", "", "false: dead reckoning only, a baseline", 0, 0,
+     at<&FrontendConfig::use_landmarks>},
+    {"frontend", "keyframe_distance_m", "m", "a keyframe after this much travel", 0.01, 10,
+     at<&FrontendConfig::keyframe_distance_m>},
+    {"frontend", "keyframe_turn_rad", "rad", "a keyframe after this much turning", 0.01, 3.2,
+     at<&FrontendConfig::keyframe_turn_rad>},
+    {"frontend", "multiscan_points", "",
+     "k scans are seen together, k = this / beams, rounded up, at least 2", 8,
+     double{kMaxMultiscanPoints - kMaxBeams}, at<&FrontendConfig::multiscan_points>},
+    {"frontend", "min_drift_rad_per_metre", "rad/m",
+     "systematic yaw of the dead reckoning that is learnt from the walls is taken out above this; a large "
+     "value keeps the dead reckoning as it is",
+     0.0001, 100, at<&FrontendConfig::min_drift_rad_per_metre>},
+    {"frontend", "split_distance_m", "m", "a point farther than this from the chord splits a segment", 0.001,
+     2, at<&FrontendConfig::split_distance_m>},
+    {"frontend", "max_point_gap_m", "m", "neighbours along a line farther apart than this are not one wall",
+     0.01, 10, at<&FrontendConfig::max_point_gap_m>},
+    {"frontend", "min_line_points", "", "fewer points make no line", 3,
+     double{kMaxMultiscanPoints - kMaxBeams}, at<&FrontendConfig::min_line_points>},
+    {"frontend", "min_line_length_m", "m", "shorter segments are not used", 0.01, 10,
+     at<&FrontendConfig::min_line_length_m>},
+    {"frontend", "max_line_rms_m", "m", "points scattered wider than this around their line make none", 0.001,
+     1, at<&FrontendConfig::max_line_rms_m>},
+    {"frontend", "min_incidence_rad", "rad",
+     "lines that the beams meet at a flatter angle, in the mean, are none", 0, 1.57,
+     at<&FrontendConfig::min_incidence_rad>},
+    {"frontend", "wall_sigma_m", "m", "walls are not ideal lines: added to the error of their distance",
+     0.0001, 1, at<&FrontendConfig::wall_sigma_m>},
+    {"frontend", "wall_sigma_rad", "rad", "walls are not ideal lines: added to the error of their direction",
+     0.0001, 1, at<&FrontendConfig::wall_sigma_rad>},
+    {"frontend", "association_error_m", "m",
+     "summed distance of both end points from the wall (epsilon of eq. 5)", 0.001, 5,
+     at<&FrontendConfig::association_error_m>},
+    {"frontend", "association_gap_m", "m",
+     "how far two segments may miss each other and still overlap (eq. 8)", 0, 10,
+     at<&FrontendConfig::association_gap_m>},
+    {"frontend", "association_mahalanobis2", "",
+     "squared Mahalanobis distance of the lines at most (2 degrees of freedom)", 0.01, 1000,
+     at<&FrontendConfig::association_mahalanobis2>},
+    {"frontend", "association_keyframes", "",
+     "a wall not seen within this many keyframes is not associated; at most window_keyframes", 1,
+     double{kMaxKeyframeWindow}, at<&FrontendConfig::association_keyframes>},
+    {"frontend", "window_keyframes", "", "keyframes optimised at once (fixed lag)", 2,
+     double{kMaxKeyframeWindow}, at<&FrontendConfig::window_keyframes>},
+    {"frontend", "solver_iterations", "", "Levenberg-Marquardt steps at most", 1, 100,
+     at<&FrontendConfig::solver_iterations>},
+    {"frontend", "chi_square_confidence", "", "confidence of the consistency check (eq. 19)", 0.5, 0.999999,
+     at<&FrontendConfig::chi_square_confidence>},
+    {"backend", "submap_length_m", "m", "a submap covers this much travel", 0.5, 1000,
+     at<&BackendConfig::submap_length_m>},
+    {"backend", "grid_resolution_m", "m", "cell size of submaps", 0.01, 1,
+     at<&BackendConfig::grid_resolution_m>},
+    {"backend", "hit_probability", "", "p(occupied given that a beam ended here)", 0.5, 0.999,
+     at<&BackendConfig::hit_probability>},
+    {"backend", "miss_probability", "", "p(occupied given that a beam passed through)", 0.001, 0.5,
+     at<&BackendConfig::miss_probability>},
+    {"backend", "max_kernel_cells", "", "width of the max kernel (eq. 22); 1 is eq. 21, no kernel", 1, 15,
+     at<&BackendConfig::max_kernel_cells>},
+    {"backend", "close_loops", "", "false: the frontend alone, a baseline", 0, 0,
+     at<&BackendConfig::close_loops>},
+    {"backend", "multiscan_length_m", "m", "the recent travel that is matched against submaps", 0.5, 1000,
+     at<&BackendConfig::multiscan_length_m>},
+    {"backend", "match_every_keyframes", "", "look for loops at every n-th keyframe", 1, 1000,
+     at<&BackendConfig::match_every_keyframes>},
+    {"backend", "min_travel_between_m", "m", "travel between the two ends of a closure", 0, 10000,
+     at<&BackendConfig::min_travel_between_m>},
+    {"backend", "search_radius_m", "m", "widest search around the predicted position", 0.1, 100,
+     at<&BackendConfig::search_radius_m>},
+    {"backend", "search_angle_rad", "rad", "widest search around the predicted heading", 0.01, 3.2,
+     at<&BackendConfig::search_angle_rad>},
+    {"backend", "max_candidates", "", "submaps searched per keyframe at most, the most overlapping first", 1,
+     1000, at<&BackendConfig::max_candidates>},
+    {"backend", "min_score", "", "mean probability under the scan's points that makes a closure", 0, 1,
+     at<&BackendConfig::min_score>},
+    {"backend", "min_match_points", "", "fewer points decide nothing", 1, 100000,
+     at<&BackendConfig::min_match_points>},
+    {"backend", "motion_sigma_scale", "",
+     "the frontend's motion is this much less certain than its white noise model says", 0.1, 100,
+     at<&BackendConfig::motion_sigma_scale>},
+    {"backend", "dcs_phi", "", "closures whose chi-square exceeds this are scaled down (DCS)", 0.001, 1000000,
+     at<&BackendConfig::dcs_phi>},
+    {"backend", "drop_scale", "", "closures scaled below this in the final pass are dropped", 0, 1,
+     at<&BackendConfig::drop_scale>},
+    {"backend", "optimizer_iterations", "", "Gauss-Newton steps at most", 1, 1000,
+     at<&BackendConfig::optimizer_iterations>},
+    {"backend", "refine", "", "false: poses between keyframes stay interpolated at the end of a run", 0, 0,
+     at<&BackendConfig::refine>},
+    {"backend", "refinement_iterations", "", "rounds of walls and poses at most, at the end of a run", 1,
+     1000, at<&BackendConfig::refinement_iterations>},
+    {"map", "resolution_m", "m", "cell size of the map that is published and written", 0.01, 1,
+     at<&MapConfig::resolution_m>},
+    {"map", "hit_log_odds", "", "what one beam's end adds to its cell", 0.01, 10,
+     at<&MapConfig::hit_log_odds>},
+    {"map", "miss_log_odds", "", "what one beam adds to each cell it passes through", -10, -0.001,
+     at<&MapConfig::miss_log_odds>},
+    {"map", "clear_range_m", "m", "beams clear cells up to this distance at most", 0.1, 100,
+     at<&MapConfig::clear_range_m>},
+    {"publish", "status_period_s", "s",
+     "between two status messages; walls and the map's summary go with them", 0.05, 3600,
+     at<&PublishConfig::status_period_s>},
+    {"publish", "tile_refresh_period_s", "s",
+     "every tile is sent again at least this often, for late joiners", 0.1, 3600,
+     at<&PublishConfig::tile_refresh_period_s>},
+    {"publish", "channel_prefix", "", "what every channel's name begins with", 0, 0,
+     at<&PublishConfig::channel_prefix>},
+};
+
+std::string range_problem(const ConfigurationField& field, double value) {
+  if (std::isfinite(value) && value >= field.lowest && value <= field.highest) return {};
+  return fmt::format("{}.{} = {}: must lie between {} and {}", field.section, field.key, value, field.lowest,
+                     field.highest);
+}
+
+struct Problem {
+  const ConfigurationField& field;
+
+  std::string operator()(const bool*) const { return {}; }
+  std::string operator()(const int* value) const { return range_problem(field, *value); }
+  std::string operator()(const double* value) const { return range_problem(field, *value); }
+  std::string operator()(const std::optional<double>* value) const {
+    return *value ? range_problem(field, **value) : std::string();
+  }
+  std::string operator()(const std::string*) const { return {}; }
+};
+
+}  // namespace
+
+std::span<const ConfigurationField> configuration_fields() { return kFields; }
+
+std::string field_problem(const ConfigurationField& field, Configuration& config) {
+  return std::visit(Problem{field}, field.in(config));
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <stop_token>
+
+#include "core/base/result.hpp"
+#include "daemon/clock.hpp"
+#include "daemon/configuration.hpp"
+#include "daemon/pipeline.hpp"
+#include "daemon/publisher.hpp"
+#include "daemon/publisher_worker.hpp"
+#include "daemon/radio_worker.hpp"
+#include "firmware_link/sample_source.hpp"
+
+namespace swiftlet {
+
+/// The pipeline in threads: radio, frontend, backend and publisher, each with its worker and its name.
+class Daemon {
+ public:
+  /// References must outlive the daemon. Precondition: config.validate() is empty.
+  Daemon(const Configuration& config, SampleSource& source, Clock& clock, const InputPolicy& policy,
+         Publisher& publisher);
+
+  /// Runs until the input ends or `stop` is requested; then what has been taken in is worked off, the final
+  /// pass runs and everything is published. Call once. Errors: whatever ended the input before its time.
+  [[nodiscard]] Status run(const std::stop_token& stop);
+
+  /// Not while run() does.
+  [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
+
+ private:
+  Clock& clock_;
+  Pipeline pipeline_;
+  PublisherWorker publisher_worker_;
+
+  void run_radio(const std::stop_token& stop);
+  template <typename Worker>
+  void run_to_end(Worker& worker);
+  void run_publisher();
+  void sleep_for(Duration duration) { clock_.sleep_until(clock_.now() + duration); }
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/pipeline.hpp"
+
+#include <optional>
+
+#include "core/base/check.hpp"
+#include "daemon/backend_worker.hpp"
+#include "daemon/clock.hpp"
+#include "daemon/frontend_worker.hpp"
+#include "daemon/pipeline_queues.hpp"
+#include "daemon/radio_worker.hpp"
+
+namespace swiftlet {
+namespace {
+
+const Clock& steady_clock() {
+  static const SteadyClock clock;
+  return clock;
+}
+
+}  // namespace
+
+struct Pipeline::State {
+  State(const Configuration& config, SampleSource& source, const Clock& clock, const InputPolicy& policy,
+        bool publishes)
+      : sensor(config.sensor.applied_to(source.sensor())),
+        frontend(config.frontend, sensor, source.beams()),
+        backend(config.backend, sensor, source.beams()),
+        map(config.map, sensor),
+        radio_worker(source, clock, policy, queues.samples.producer(),
+                     publishes ? &queues.to_publisher.input : nullptr, times.input),
+        frontend_worker(frontend, clock, queues.samples.consumer(), queues.steps.producer(),
+                        queues.correction, frontend_outlet(publishes), times.frontend),
+        backend_worker(backend, map, clock, queues.steps.consumer(), queues.correction,
+                       backend_outlet(publishes), times) {}
+
+  std::optional<FrontendOutlet> frontend_outlet(bool publishes) {
+    if (!publishes) return std::nullopt;
+    return queues.to_publisher.frontend_outlet();
+  }
+  std::optional<BackendOutlet> backend_outlet(bool publishes) {
+    if (!publishes) return std::nullopt;
+    return queues.to_publisher.backend_outlet();
+  }
+
+  SensorModel sensor;
+  Frontend frontend;
+  Backend backend;
+  MapBuilder map;
+  PipelineQueues queues;
+  StageTimes times;
+  RadioWorker radio_worker;
+  FrontendWorker frontend_worker;
+  BackendWorker backend_worker;
+};
+
+Pipeline::Pipeline(const Configuration& config, SampleSource& source)
+    : state_(std::make_unique<State>(config, source, steady_clock(), InputPolicy{}, false)) {}
+
+Pipeline::Pipeline(const Configuration& config, SampleSource& source, const Clock& clock,
+                   const InputPolicy& policy)
+    : state_(std::make_unique<State>(config, source, clock, policy, true)) {}
+
+Pipeline::~Pipeline() = default;
+
+Result<bool> Pipeline::step() {
+  state_->radio_worker.step();
+  state_->frontend_worker.step();
+  if (state_->backend_worker.step() != StepResult::kFinished) return true;
+  if (!outcome()) return outcome().error();
+  return false;
+}
+
+const Backend& Pipeline::backend() const { return state_->backend; }
+const Frontend& Pipeline::frontend() const { return state_->frontend; }
+const MapBuilder& Pipeline::map() const { return state_->map; }
+const Status& Pipeline::outcome() const { return state_->radio_worker.outcome(); }
+std::vector<StageSummary> Pipeline::stage_times() const { return state_->times.summaries(); }
+
+RadioWorker& Pipeline::radio_worker() { return state_->radio_worker; }
+FrontendWorker& Pipeline::frontend_worker() { return state_->frontend_worker; }
+BackendWorker& Pipeline::backend_worker() { return state_->backend_worker; }
+PipelineQueues& Pipeline::queues() { return state_->queues; }
+
+}  // namespace swiftlet

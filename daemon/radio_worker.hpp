@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+
+#include "core/base/result.hpp"
+#include "daemon/clock.hpp"
+#include "daemon/pacer.hpp"
+#include "daemon/pipeline_queues.hpp"
+#include "daemon/stage_times.hpp"
+#include "daemon/worker.hpp"
+#include "firmware_link/sample_source.hpp"
+
+namespace swiftlet {
+
+/// How samples enter the pipeline.
+struct InputPolicy {
+  /// Recordings: replay at this many times the pace of the samples' own stamps; empty: as fast as they are
+  /// read.
+  std::optional<double> rate{};
+  /// False for recordings, which wait for room. True for a live link, which cannot be asked to wait.
+  bool refuses_when_full = false;
+};
+
+/// Takes samples from the input and hands them to the frontend, when they are due. One thread at a time.
+/// @note A step allocates nothing (beyond what the source's own next() does), takes no lock and logs nothing.
+class RadioWorker {
+ public:
+  /// References must outlive the worker. `status` may be null: nobody is told then.
+  RadioWorker(SampleSource& source, const Clock& clock, const InputPolicy& policy,
+              SampleQueue::Producer samples, LatestValue<InputStatus>* status, StageHistogram& times);
+
+  /// kProgress: one sample handed on (or refused). kIdle: none due before due(), or the link was silent.
+  StepResult step();
+  /// When the next sample is due; now or earlier when none is held back.
+  [[nodiscard]] MonotonicTime due() const { return due_; }
+  /// Takes no further samples, as if the input had ended here.
+  void end_input();
+  /// What ended the input before its time, if anything did.
+  [[nodiscard]] const Status& outcome() const { return outcome_; }
+
+ private:
+  SampleSource& source_;
+  const Clock& clock_;
+  InputPolicy policy_;
+  SampleQueue::Producer samples_;
+  LatestValue<InputStatus>* status_;
+  StageHistogram& times_;
+  std::optional<Pacer> pacer_;
+  std::optional<RangeSample> held_;  // read, not yet due
+  MonotonicTime due_{};
+  bool break_pending_ = false;  // a refused sample began a segment: the next one handed on must say so
+  bool ended_ = false;
+  Status outcome_;
+
+  bool fetch();
+  void hand_on(RangeSample sample);
+  void report_input();
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <csignal>
+#include <stop_token>
+#include <thread>
+
+namespace swiftlet {
+
+/// Turns the first SIGINT or SIGTERM into a request to stop; a second one ends the program at once, as it
+/// would have without the watcher. Make it before any other thread: it blocks both signals in the calling
+/// thread, and threads inherit that.
+class SignalWatcher {
+ public:
+  SignalWatcher();
+  ~SignalWatcher();
+  SignalWatcher(const SignalWatcher&) = delete;
+  SignalWatcher& operator=(const SignalWatcher&) = delete;
+
+  /// Requested when a signal came.
+  [[nodiscard]] std::stop_token token() const { return signalled_.get_token(); }
+
+ private:
+  sigset_t watched_{};
+  sigset_t previous_{};
+  std::stop_source signalled_;
+  std::jthread thread_;
+
+  void watch(const std::stop_token& over);
+};
+
+}  // namespace swiftlet

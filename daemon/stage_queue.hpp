@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/spsc_queue.hpp"
+
+namespace swiftlet {
+
+/// A queue between two workers: an SpscQueue with a word for "nothing more will come" and a bell by which the
+/// consumer's thread sleeps without spinning. Neither end takes a lock; ringing costs a system call only when
+/// someone sleeps. The queue must outlive both ends.
+template <typename T, std::size_t kCapacity>
+class StageQueue {
+ public:
+  class Producer {
+   public:
+    /// False when full: the item is refused and counted.
+    [[nodiscard]] bool try_push(const T& item) noexcept {
+      if (!end_.try_push(item)) return false;
+      queue_->ring();
+      return true;
+    }
+    [[nodiscard]] bool has_room() const noexcept { return end_.has_room(); }
+    /// Nothing more will be pushed. May be said twice.
+    void close() noexcept {
+      queue_->closed_.store(true, std::memory_order_release);
+      queue_->ring();
+    }
+
+   private:
+    friend class StageQueue;
+    explicit Producer(StageQueue* queue) : queue_(queue), end_(queue->ring_buffer_.producer()) {}
+    StageQueue* queue_;
+    typename SpscQueue<T, kCapacity>::Producer end_;
+  };
+
+  class Consumer {
+   public:
+    /// False when nothing waits.
+    [[nodiscard]] bool try_pop(T& item) noexcept { return end_.try_pop(item); }
+    /// Ask before try_pop: an empty queue that was closed before the look stays empty.
+    [[nodiscard]] bool closed() const noexcept { return queue_->closed_.load(std::memory_order_acquire); }
+    /// Sleeps until something waits or the queue is closed.
+    void wait() const noexcept {
+      const std::uint32_t heard = queue_->bell_.load(std::memory_order_acquire);
+      if (end_.size() > 0 || closed()) return;
+      queue_->bell_.wait(heard, std::memory_order_acquire);
+    }
+
+   private:
+    friend class StageQueue;
+    explicit Consumer(StageQueue* queue) : queue_(queue), end_(queue->ring_buffer_.consumer()) {}
+    StageQueue* queue_;
+    typename SpscQueue<T, kCapacity>::Consumer end_;
+  };
+
+  Producer producer() noexcept { return Producer(this); }
+  Consumer consumer() noexcept { return Consumer(this); }
+
+  static constexpr std::size_t capacity() { return kCapacity; }
+  /// Any thread.
+  [[nodiscard]] std::uint64_t rejected_count() const noexcept { return ring_buffer_.rejected_count(); }
+  /// The most items that ever waited. Any thread.
+  [[nodiscard]] std::uint64_t high_water() const noexcept { return ring_buffer_.high_water(); }
+
+ private:
+  void ring() noexcept {
+    bell_.fetch_add(1, std::memory_order_release);
+    bell_.notify_one();
+  }
+
+  SpscQueue<T, kCapacity> ring_buffer_;
+  std::atomic<bool> closed_{false};
+  std::atomic<std::uint32_t> bell_{0};
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include "daemon/pipeline_messages.hpp"
+#include "daemon/publisher.hpp"
+
+namespace swiftlet {
+
+// The publisher's thread writes the log for the workers that must not: it has their counters.
+
+/// One line for whatever deserves attention between two statuses: refusals, roll-backs, a new beginning of
+/// the dead reckoning, solver failures. Allocates.
+void log_changes(const DaemonStatus& before, const DaemonStatus& now);
+/// One line for a loop closure found or dropped. Allocates.
+void log_closure(const ClosureUpdate& update);
+
+}  // namespace swiftlet

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/signal_watcher.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+
+namespace swiftlet {
+namespace {
+
+bool is_requested_soon(const std::stop_token& token) {
+  for (int i = 0; i < 500 && !token.stop_requested(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return token.stop_requested();
+}
+
+TEST(SignalWatcher, RequestsNothingByItself) {
+  const SignalWatcher watcher;
+  EXPECT_FALSE(watcher.token().stop_requested());
+}
+
+TEST(SignalWatcher, TurnsEitherSignalIntoARequestToStop) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const SignalWatcher watcher;
+    ASSERT_EQ(kill(getpid(), signal), 0);
+    EXPECT_TRUE(is_requested_soon(watcher.token())) << signal;
+  }
+}
+
+TEST(SignalWatcherDeathTest, ASecondSignalEndsTheProgram) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        const SignalWatcher watcher;
+        kill(getpid(), SIGTERM);
+        is_requested_soon(watcher.token());
+        for (int i = 0; i < 500; ++i) {
+          kill(getpid(), SIGTERM);
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+      },
+      testing::KilledBySignal(SIGTERM), "");
+}
+
+}  // namespace
+}  // namespace swiftlet

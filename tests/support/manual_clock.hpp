@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <atomic>
+
+#include "daemon/clock.hpp"
+
+namespace swiftlet {
+
+/// Time that moves only when told to, or when someone sleeps: sleeping takes no time at all. Any thread.
+class ManualClock final : public Clock {
+ public:
+  [[nodiscard]] MonotonicTime now() const override { return MonotonicTime(now_.load()); }
+  void sleep_until(MonotonicTime wake_at) override {
+    MonotonicTime::duration seen = now_.load();
+    while (wake_at.time_since_epoch() > seen &&
+           !now_.compare_exchange_weak(seen, wake_at.time_since_epoch())) {
+    }
+  }
+  void advance(MonotonicTime::duration by) { now_.store(now_.load() + by); }
+
+ private:
+  std::atomic<MonotonicTime::duration> now_{MonotonicTime::duration(0)};
+};
+
+}  // namespace swiftlet
