@@ -33,6 +33,9 @@ SensorModel SensorOverrides::applied_to(SensorModel model) const {
   model.odometry.xy_per_metre = odometry_xy_per_metre.value_or(model.odometry.xy_per_metre);
   model.odometry.yaw_per_radian = odometry_yaw_per_radian.value_or(model.odometry.yaw_per_radian);
   model.odometry.yaw_per_metre_rad = odometry_yaw_per_metre_rad.value_or(model.odometry.yaw_per_metre_rad);
+  model.odometry.drift_yaw_per_metre_rad =
+      drift_yaw_per_metre_rad.value_or(model.odometry.drift_yaw_per_metre_rad);
+  model.odometry.drift_yaw_per_radian = drift_yaw_per_radian.value_or(model.odometry.drift_yaw_per_radian);
   return model;
 }
 

@@ -23,6 +23,8 @@ struct SensorOverrides {
   std::optional<double> odometry_xy_per_metre;
   std::optional<double> odometry_yaw_per_radian;
   std::optional<double> odometry_yaw_per_metre_rad;
+  std::optional<double> drift_yaw_per_metre_rad;
+  std::optional<double> drift_yaw_per_radian;
 
   /// The input's model with what is set here put in its place.
   [[nodiscard]] SensorModel applied_to(SensorModel model) const;

@@ -38,10 +38,11 @@ UncertainMotion unknown_motion() {
 struct Frontend::State {
   State(const FrontendConfig& config_in, const SensorModel& sensor, const BeamLayout& beams)
       : config(config_in),
-        odometry_noise(sensor.odometry.scaled(config.motion_sigma_scale)),
+        odometry_noise(sensor.odometry),
         multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points)),
         extractor(config, sensor.range_sigma_m),
-        chi_square(config.chi_square_confidence) {}
+        chi_square(config.chi_square_confidence),
+        drift(sensor.odometry) {}
 
   void track_motion(const RangeSample& sample);
   [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
@@ -166,7 +167,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
 
 /// From a motion that enough has been seen of since; what was corrected already counts as error too.
 void Frontend::State::learn_drift() {
-  if (!config.learn_drift || graph.poses().size() < kDriftLagKeyframes + 2) return;
+  if (graph.poses().size() < kDriftLagKeyframes + 2) return;
   const PoseVertex& from = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 2];
   const PoseVertex& to = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 1];
   const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];

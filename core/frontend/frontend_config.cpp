@@ -29,7 +29,6 @@ std::vector<std::string> FrontendConfig::validate() const {
   require_positive(keyframe_distance_m, "keyframe_distance_m", problems);
   require_positive(keyframe_turn_rad, "keyframe_turn_rad", problems);
   require_within(multiscan_points, 8, kMostPoints, "multiscan_points", problems);
-  require_positive(motion_sigma_scale, "motion_sigma_scale", problems);
   require_positive(split_distance_m, "split_distance_m", problems);
   require_positive(max_point_gap_m, "max_point_gap_m", problems);
   require_within(min_line_points, 3, kMostPoints, "min_line_points", problems);

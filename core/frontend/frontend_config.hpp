@@ -16,11 +16,6 @@ struct FrontendConfig {
   double keyframe_turn_rad = radians(30);  ///< ... or this much turning
   int multiscan_points = 120;              ///< k scans are seen together, k = ceil(this / beams), at least 2
 
-  bool learn_drift = true;  ///< systematic yaw of the dead reckoning is learnt from the walls and taken out
-  /// Motion is this much less certain than the sensor's noise of independent steps says: scale and heading
-  /// errors persist from step to step.
-  double motion_sigma_scale = 2.0;
-
   // Line extraction
   double split_distance_m = 0.10;  ///< a point farther than this from the chord splits a segment
   double max_point_gap_m = 0.8;    ///< neighbours along a line farther apart than this are not one wall

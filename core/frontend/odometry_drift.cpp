@@ -7,17 +7,20 @@ namespace {
 
 constexpr double squared(double x) { return x * x; }
 
-// Per motion: drift changes slowly.
-constexpr double kWanderPerMetre = radians(0.05);
-constexpr double kWanderPerRadian = 0.001;
+constexpr double kWanderShare = 0.025;  // of its standard deviation, per motion
 // Walls that err together for a whole window make the graph's estimates err together.
 constexpr double kWallSigmaRad = radians(1.0);
 
 }  // namespace
 
+OdometryDrift::OdometryDrift(const OdometryNoise& noise)
+    : covariance_(Eigen::Vector2d(squared(noise.drift_yaw_per_metre_rad), squared(noise.drift_yaw_per_radian))
+                      .asDiagonal()),
+      wander_(squared(kWanderShare) * covariance_) {}
+
 void OdometryDrift::learn(double forward_m, double turn_rad, double yaw_error_rad, double yaw_variance_rad2) {
   const Eigen::Vector2d motion(forward_m, turn_rad);
-  covariance_.diagonal() += Eigen::Vector2d(squared(kWanderPerMetre), squared(kWanderPerRadian));
+  covariance_ += wander_;
   const double innovation_variance =
       motion.dot(covariance_ * motion) + squared(kWallSigmaRad) + yaw_variance_rad2;
   const Eigen::Vector2d gain = covariance_ * motion / innovation_variance;

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry/angle.hpp"
+#include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
 
@@ -16,6 +16,9 @@ namespace swiftlet {
 /// @note Fixed storage. One thread at a time.
 class OdometryDrift {
  public:
+  /// `noise` says how large the drift may be; where it says 0, none is ever found.
+  explicit OdometryDrift(const OdometryNoise& noise);
+
   /// The graph says that in a motion of `forward_m` and `turn_rad`, both as measured, the measured yaw lacked
   /// `yaw_error_rad`, of which noise may have `yaw_variance_rad2`.
   void learn(double forward_m, double turn_rad, double yaw_error_rad, double yaw_variance_rad2);
@@ -25,7 +28,8 @@ class OdometryDrift {
 
  private:
   Eigen::Vector2d estimate_ = Eigen::Vector2d::Zero();  // rad/m, rad/rad
-  Eigen::Matrix2d covariance_ = Eigen::Vector2d(radians(2.0) * radians(2.0), 0.05 * 0.05).asDiagonal();
+  Eigen::Matrix2d covariance_;
+  Eigen::Matrix2d wander_;  // what each motion adds: drift changes slowly
 };
 
 }  // namespace swiftlet

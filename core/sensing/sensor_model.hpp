@@ -20,9 +20,10 @@ struct BeamLayout {
   static BeamLayout multiranger() { return {4, {0.0, kPi / 2.0, kPi, -kPi / 2.0}}; }
 };
 
-/// Standard deviations of one step of dead reckoning, as functions of its length d (m) and turn (rad):
+/// How dead reckoning errs. Independent errors of one step, as functions of its length d (m) and turn (rad):
 /// sigma_xy = xy_floor + xy_per_metre * d + xy_per_radian * turn,
-/// sigma_yaw = yaw_floor + yaw_per_radian * turn + yaw_per_metre * d.
+/// sigma_yaw = yaw_floor + yaw_per_radian * turn + yaw_per_metre * d;
+/// and errors that persist over the whole run, which the frontend learns to take out (none where 0).
 struct OdometryNoise {
   double xy_floor_m = 0.002;
   double xy_per_metre = 0.05;
@@ -30,12 +31,9 @@ struct OdometryNoise {
   double yaw_floor_rad = radians(0.05);
   double yaw_per_radian = 0.05;
   double yaw_per_metre_rad = radians(1.0);
-
-  /// The same with all standard deviations multiplied by `factor`.
-  [[nodiscard]] OdometryNoise scaled(double factor) const {
-    return {factor * xy_floor_m,    factor * xy_per_metre,   factor * xy_per_radian_m,
-            factor * yaw_floor_rad, factor * yaw_per_radian, factor * yaw_per_metre_rad};
-  }
+  double drift_yaw_per_metre_rad =
+      0.0;  ///< standard deviation of the yaw that is missed with every metre forward
+  double drift_yaw_per_radian = 0.0;  ///< ... and with every radian turned
 };
 
 /// All that is particular to a sensor and its vehicle; the algorithm's settings are the same for all of them.
@@ -46,17 +44,26 @@ struct SensorModel {
   Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp
   OdometryNoise odometry;
 
-  /// Crazyflie with Multiranger and flow deck. Readings are measured about 0.1 s before the packet that
-  /// carries them.
+  /// Crazyflie with Multiranger and flow deck. Its yaw comes from a gyro, so no error of it goes with travel.
+  /// Readings are measured about 0.1 s before the packet that carries them.
   static SensorModel crazyflie() {
     SensorModel model;
     model.range_age = std::chrono::milliseconds(100);
     return model;
   }
-  /// Laser scanners on wheeled robots as in CARMEN logs, capped at 5 m as in the IROS 2022 paper.
+  /// Laser scanners on wheeled robots as in CARMEN logs, capped at 5 m as in the IROS 2022 paper. Wheels of
+  /// two sizes turn a robot by degrees with every metre.
   static SensorModel carmen_laser() {
     SensorModel model;
     model.max_range_m = 5.0;
+    model.odometry = {.xy_floor_m = 0.004,
+                      .xy_per_metre = 0.1,
+                      .xy_per_radian_m = 0.02,
+                      .yaw_floor_rad = radians(0.1),
+                      .yaw_per_radian = 0.1,
+                      .yaw_per_metre_rad = radians(2.0),
+                      .drift_yaw_per_metre_rad = radians(2.0),
+                      .drift_yaw_per_radian = 0.05};
     return model;
   }
 };

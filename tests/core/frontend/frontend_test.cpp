@@ -23,8 +23,9 @@ struct RunOutcome {
 };
 
 RunOutcome run(const RoomDrive& drive, const FrontendConfig& config = {},
-               const BeamLayout& beams = BeamLayout::multiranger()) {
-  Frontend frontend(config, SensorModel::crazyflie(), beams);
+               const BeamLayout& beams = BeamLayout::multiranger(),
+               const SensorModel& sensor = SensorModel::crazyflie()) {
+  Frontend frontend(config, sensor, beams);
   RunOutcome out;
   for (const RangeSample& sample : drive.samples) out.steps.push_back(frontend.process(sample));
   out.counters = frontend.counters();
@@ -123,12 +124,12 @@ TEST(Frontend, IsBetterThanDeadReckoning) {
 }
 
 TEST(Frontend, LearnsThatTheOdometryTurnsWithoutKnowingIt) {
-  FrontendConfig without;
-  without.learn_drift = false;
-  const RoomDrive drive =
-      drive_around(6, BeamLayout::multiranger(), SensorModel::crazyflie(), {1.0, radians(2.0)}, 6);
-  const double learnt_m = relative_error(drive, run(drive).steps, 200).position_m;
-  const double not_learnt_m = relative_error(drive, run(drive, without).steps, 200).position_m;
+  const BeamLayout beams = BeamLayout::multiranger();
+  SensorModel drifting = SensorModel::crazyflie();
+  drifting.odometry.drift_yaw_per_metre_rad = radians(2.0);
+  const RoomDrive drive = drive_around(6, beams, drifting, {1.0, radians(2.0)}, 6);
+  const double learnt_m = relative_error(drive, run(drive, {}, beams, drifting).steps, 200).position_m;
+  const double not_learnt_m = relative_error(drive, run(drive).steps, 200).position_m;
   EXPECT_LT(learnt_m, 0.6 * not_learnt_m);
 }
 
