@@ -7,13 +7,15 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "daemon/configuration_fields.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/run_outputs.hpp"
 #include "daemon/signal_watcher.hpp"
 
 namespace swiftlet {
@@ -68,15 +70,6 @@ Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const C
   return open_sample_source(options.input_uri, source);
 }
 
-/// Made before the run, so that an impossible directory is known before the work is done.
-Status make_directory(const std::string& path) {
-  if (path.empty()) return {};
-  std::error_code failure;
-  std::filesystem::create_directories(path, failure);
-  if (!failure) return {};
-  return Error{ErrorCode::kInvalidInput, path + ": cannot make this directory: " + failure.message()};
-}
-
 /// Names the run for consumers: the time it began, in microseconds since 1970.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -84,20 +77,39 @@ std::int64_t new_map_id() {
 }
 
 /// One line for each problem of the input; its exit code.
-int tell_problems(const InputReport& report, const Status& outcome) {
+int tell_problems(const Options& options, const Daemon& daemon, const InputReport& report,
+                  const Status& outcome) {
   int exit_code = 0;
   for (const std::string& note : report.notes) spdlog::info("{}", note);
   for (const std::string& problem : report.problems) exit_code = refuse(problem);
   if (!outcome) exit_code = refuse(outcome.error().message);
+  if (daemon.pipeline().backend().scans().size() == 0 && exit_code == 0)
+    exit_code = refuse(options.input_uri + ": held no usable sample");
   return exit_code;
+}
+
+Status write_outputs(const Options& options, const Configuration& config, const Daemon& daemon,
+                     const SampleSource& source) {
+  if (options.output_directory.empty() || daemon.pipeline().backend().scans().size() == 0) return {};
+  spdlog::info("writing {}", options.output_directory);
+  return write_run_outputs(options.output_directory, {.backend = daemon.pipeline().backend(),
+                                                      .map = daemon.pipeline().map(),
+                                                      .input = source.report(),
+                                                      .frontend = daemon.pipeline().frontend().counters(),
+                                                      .times = daemon.pipeline().stage_times(),
+                                                      .truth = source.ground_truth(),
+                                                      .input_uri = options.input_uri,
+                                                      .sensor = config.sensor.applied_to(source.sensor())});
 }
 
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
-  if (const Status made = make_directory(options.output_directory); !made)
-    return refuse(made.error().message);
-  Result<std::unique_ptr<SampleSource>> source = open_input(options, *config);
+  if (!options.output_directory.empty()) {
+    const Status ready = prepare_output_directory(options.output_directory);
+    if (!ready) return refuse(ready.error().message);
+  }
+  const Result<std::unique_ptr<SampleSource>> source = open_input(options, *config);
   if (!source) return refuse(source.error().message);
   const Result<std::unique_ptr<LcmPublisher>> publisher =
       LcmPublisher::open(options.lcm_url, config->publish.channel_prefix, new_map_id());
@@ -110,9 +122,11 @@ int run(const Options& options) {
   const Status outcome = daemon.run(signals.token());
   if (signals.token().stop_requested()) spdlog::info("stopped by a signal");
   const BackendCounters& counters = daemon.pipeline().backend().counters();
-  spdlog::info("{} scans, {} keyframes, {} closures", counters.scans, counters.keyframes,
-               counters.closures_accepted - counters.closures_dropped);
-  return tell_problems((*source)->report(), outcome);
+  spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
+               counters.keyframes, counters.closures_accepted, counters.closures_dropped);
+  const Status written = write_outputs(options, *config, daemon, **source);
+  const int exit_code = tell_problems(options, daemon, (*source)->report(), outcome);
+  return written ? exit_code : refuse(written.error().message);
 }
 
 int main_without_exceptions(int argc, char** argv) {

@@ -15,8 +15,8 @@ namespace swiftlet {
 namespace {
 
 const Clock& steady_clock() {
-  static const SteadyClock clock;
-  return clock;
+  static const SteadyClock kClock;
+  return kClock;
 }
 
 }  // namespace

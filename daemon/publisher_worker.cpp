@@ -82,12 +82,12 @@ std::size_t PublisherWorker::take_tiles() {
 }
 
 void PublisherWorker::keep(const MapTile& tile) {
-  const auto [kept, is_new] = tiles_.try_emplace(tile.index, tile);
-  if (!is_new) {
-    version_sum_ -= kept->second.version;
-    kept->second = tile;
-  }
+  const bool holds_anything = std::any_of(tile.occupancy_percent.begin(), tile.occupancy_percent.end(),
+                                          [](std::int8_t percent) { return percent >= 0; });
+  KeptTile& kept = tiles_[tile.index];
   version_sum_ += tile.version;
+  version_sum_ -= kept.tile.version;  // 0 for a new one
+  kept = {tile, holds_anything};
 }
 
 void PublisherWorker::refresh_tiles(std::size_t at_most, MonotonicTime now) {
@@ -102,7 +102,7 @@ void PublisherWorker::refresh_next_tile() {
   auto next = tiles_.upper_bound(last_refreshed_);
   if (next == tiles_.end()) next = tiles_.begin();
   last_refreshed_ = next->first;
-  publisher_.publish_tile(now_, next->second, resolution_m_);
+  publisher_.publish_tile(now_, next->second.tile, resolution_m_);
 }
 
 void PublisherWorker::publish_summary(MonotonicTime now) {
@@ -130,9 +130,10 @@ MapSummary PublisherWorker::map_summary() const {
                  .version_sum = version_sum_,
                  .lowest = {},
                  .highest = {}};
-  if (tiles_.empty()) return out;
-  out.lowest = out.highest = tiles_.begin()->first;
-  for (const auto& [index, tile] : tiles_) {
+  bool is_first = true;
+  for (const auto& [index, kept] : tiles_) {
+    if (!kept.holds_anything) continue;
+    if (std::exchange(is_first, false)) out.lowest = out.highest = index;
     out.lowest = {std::min(out.lowest.x, index.x), std::min(out.lowest.y, index.y)};
     out.highest = {std::max(out.highest.x, index.x), std::max(out.highest.y, index.y)};
   }

@@ -52,7 +52,13 @@ class PublisherWorker {
 
   HostTime now_{};  // stamp of the newest pose
   DaemonStatus status_;
-  std::map<TileIndex, MapTile> tiles_;
+  /// A tile from which everything was rubbed out is kept and sent like the others: consumers must learn of
+  /// it.
+  struct KeptTile {
+    MapTile tile;
+    bool holds_anything = false;
+  };
+  std::map<TileIndex, KeptTile> tiles_;
   std::map<LandmarkId, WallInMap> walls_;
   std::uint64_t version_sum_ = 0;
 

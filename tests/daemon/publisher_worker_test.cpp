@@ -28,8 +28,9 @@ struct Bench {
                 .stages = [] { return std::vector<StageSummary>{{.name = "map", .count = 3}}; }},
                published, clock) {}
 
-  void push_tile(std::int32_t x, std::uint32_t version) {
-    const MapTile tile{.index = {x, -x}, .version = version};
+  void push_tile(std::int32_t x, std::uint32_t version, std::int8_t occupancy_percent = 80) {
+    MapTile tile{.index = {x, -x}, .version = version};
+    tile.occupancy_percent.fill(occupancy_percent);
     ASSERT_TRUE(queues->to_publisher.tiles.producer().try_push(tile));
   }
   StepResult tick() {
@@ -119,6 +120,17 @@ TEST(PublisherWorker, SumsTheNewestVersionsSoThatAConsumerKnowsWhetherItHasThemA
   EXPECT_EQ(map.version_sum, 6U);
   EXPECT_EQ(map.lowest, (TileIndex{-1, -3}));
   EXPECT_EQ(map.highest, (TileIndex{3, 1}));
+}
+
+TEST(PublisherWorker, SendsATileThatWasRubbedOutButLeavesItOutOfTheMapsExtent) {
+  Bench bench;
+  bench.push_tile(1, 1);
+  bench.push_tile(9, 1);
+  bench.push_tile(9, 2, -1);
+  bench.ticks(251);
+  EXPECT_EQ(bench.published.newest.at({9, -9}).version, 2U);
+  EXPECT_EQ(bench.published.maps.back().tiles, 2U);
+  EXPECT_EQ(bench.published.maps.back().highest, (TileIndex{1, -1}));
 }
 
 TEST(PublisherWorker, SaysThatItIsFinishingWhenTheInputHasEnded) {

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""Runs swiftletd as its users do. swiftletd_test.py CASE SWIFTLETD CONSUMER DATASETS_BESIDE
+
+CASE is the name of one of the functions below. Exit code 77: skipped, the last line says why.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+URL = "udpm://239.255.76.67:7667?ttl=0"
+TIMEOUT_S = 300
+# A network of its own, so that nothing else is heard and nothing leaves the machine.
+NETWORK = ["unshare", "--user", "--map-root-user", "--net", "--", "sh", "-c",
+           'ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo && exec "$@"', "sh"]
+
+
+class Skipped(Exception):
+    """What a case needs is not here."""
+
+
+class Failed(Exception):
+    """The daemon did something else than it should."""
+
+
+def expect(condition, why):
+    if not condition:
+        raise Failed(why)
+
+
+class Bench:
+    def __init__(self, swiftletd, consumer, datasets_beside, folder):
+        self.swiftletd, self.consumer, self.folder = swiftletd, consumer, Path(folder)
+        self.datasets = Path(os.environ.get("SWIFTLET_DATASETS", datasets_beside))
+
+    def dataset(self, name):
+        path = self.datasets / name
+        if not path.exists():
+            raise Skipped(f"{path} is not there")
+        return path
+
+    def daemon(self, *arguments):
+        """To its end, publishing nowhere: (exit code, lines on stderr)."""
+        url = f"file://{self.folder}/run.lcm?mode=w"
+        done = subprocess.run([self.swiftletd, "--lcm-url", url, *map(str, arguments)], stderr=subprocess.PIPE,
+                              timeout=TIMEOUT_S, check=False)
+        return done.returncode, done.stderr.decode().splitlines()
+
+
+def in_own_network(command):
+    allowed = subprocess.run([*NETWORK, "true"], capture_output=True, check=False)
+    if allowed.returncode != 0:
+        raise Skipped("network namespaces are not permitted here: " + allowed.stderr.decode().strip())
+    return subprocess.run([*NETWORK, *command], timeout=TIMEOUT_S + 30, check=False).returncode
+
+
+def rebuild_over_multicast(bench, uri, rate):
+    """Daemon and consumer in two processes; both maps must be the same bytes."""
+    out, rebuilt = bench.folder / "out", bench.folder / "rebuilt.pgm"
+    script = bench.folder / "both.sh"
+    script.write_text(
+        f"'{bench.consumer}' '{URL}' '{rebuilt}' {TIMEOUT_S} > '{bench.folder}/consumer.txt' &\n"
+        f"until grep -q listening '{bench.folder}/consumer.txt'; do sleep 0.05; done\n"
+        f"'{bench.swiftletd}' --input '{uri}' --lcm-url '{URL}' --rate {rate} -o '{out}' || exit 1\n"
+        "wait $!\n", encoding="utf-8")
+    expect(in_own_network(["sh", str(script)]) == 0, "the daemon or its consumer failed")
+    expect(rebuilt.read_bytes() == (out / "map.pgm").read_bytes(), "the consumer's map is not the daemon's map.pgm")
+    report = json.loads((out / "report.json").read_text(encoding="utf-8"))
+    expect(report, "the report is empty")
+
+
+def consumer_rebuilds_the_map_of_a_simulated_flight(bench):
+    rebuild_over_multicast(bench, "sim://loop?seed=1", 100)
+
+
+def consumer_rebuilds_the_map_of_a_captured_flight(bench):
+    rebuild_over_multicast(bench, f"replay:{bench.dataset('flights/olsson.pcap')}", 20)
+
+
+def threads_come_to_the_same_trajectory_every_time(bench):
+    runs = []
+    for rate in (200, 1000):
+        out = bench.folder / f"rate{rate}"
+        code, lines = bench.daemon("--input", "sim://loop?seed=2", "--rate", rate, "-o", out)
+        expect(code == 0, lines)
+        runs.append(((out / "trajectory.tum").read_bytes(), (out / "map.pgm").read_bytes()))
+    expect(runs[0] == runs[1], "the pace of the replay changed the result")
+
+
+def stop_with(bench, number):
+    out = bench.folder / "out"
+    with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "20", "-o", str(out),
+                           "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
+        time.sleep(2.0)
+        expect(daemon.poll() is None, "the daemon ended by itself")
+        daemon.send_signal(number)
+        _, said = daemon.communicate(timeout=60)
+    expect(daemon.returncode == 0, said.decode())
+    expect(b"stopped by a signal" in said, said.decode())
+    for name in ("map.pgm", "map.png", "trajectory.tum", "report.json"):
+        expect((out / name).stat().st_size > 0, name + " is empty")
+
+
+def sigint_ends_the_run_with_its_outputs(bench):
+    stop_with(bench, signal.SIGINT)
+
+
+def sigterm_ends_the_run_with_its_outputs(bench):
+    stop_with(bench, signal.SIGTERM)
+
+
+def bad_input_gets_one_line_and_exit_code_2(bench):
+    config = bench.folder / "bad.toml"
+    config.write_text("[map]\nresolution_m = 0.05\nresolutoin_m = 0.1\n", encoding="utf-8")
+    garbage = bench.folder / "garbage.pcap"
+    garbage.write_bytes(b"no capture at all" * 10)
+    for arguments, part in [
+            (["--input", bench.folder / "missing.pcap"], "missing.pcap"),
+            (["--input", garbage], "garbage.pcap"),
+            (["--input", "sim://nowhere"], "nowhere"),
+            (["--input", "sim://loop", "--config", bench.folder / "missing.toml"], "missing.toml"),
+            (["--input", "sim://loop", "--config", config], "bad.toml:3"),
+            (["--input", "sim://loop", "--rate", "-1"], "--rate"),
+            (["--input", "sim://loop", "-o", "/proc/nowhere"], "/proc/nowhere"),
+            ([], "--input")]:
+        code, lines = bench.daemon(*arguments)
+        expect(code == 2, f"{arguments}: exit code {code}")
+        expect(len(lines) == 1 and part in lines[0], f"{arguments}: {lines}")
+    done = subprocess.run([bench.swiftletd, "--input", "sim://loop", "--lcm-url", "mqtt://here"],
+                          capture_output=True, check=False)
+    expect(done.returncode == 2 and b"mqtt://here" in done.stderr, done.stderr.decode())
+
+
+def a_truncated_capture_is_used_up_to_the_damage(bench):
+    whole = bench.dataset("flights/olsson.pcap").read_bytes()
+    cut = bench.folder / "cut.pcap"
+    cut.write_bytes(whole[:len(whole) // 10])
+    out = bench.folder / "out"
+    code, lines = bench.daemon("--input", cut, "--rate", 1000, "-o", out)
+    expect(code == 2, f"exit code {code}")
+    expect(sum("cut.pcap" in line and line.startswith("swiftletd: ") for line in lines) == 1, lines)
+    expect((out / "trajectory.tum").stat().st_size > 0, "what came before the damage is lost")
+
+
+def main():
+    case, swiftletd, consumer, datasets_beside = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            globals()[case](Bench(swiftletd, consumer, datasets_beside, folder))
+        except Skipped as why:
+            print("SKIPPED:", why)
+            return 77
+        except Failed as why:
+            print("FAILED:", why)
+            return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
