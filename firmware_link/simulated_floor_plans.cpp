@@ -78,7 +78,7 @@ std::vector<WallSegment> office_walls() {
 }
 
 /// Round the ring to the left with a look into four rooms; on to the left through its right half and the
-/// passage, then to the right round its left half, with a look into the other four.
+/// passage, then to the right round its left half, with a look into the other four; once round the ring to the right.
 std::vector<Waypoint> office_flight() {
   return {{{10.1, 5.0}},       {{13.0, 5.0}},       {{13.0, 1.8}, kTravel, 2.0 * kPi},
           {{13.0, 5.0}},       {{19.0, 5.0}},       {{19.0, 10.0}},
@@ -93,7 +93,9 @@ std::vector<Waypoint> office_flight() {
           {{7.6, 2.2}},        {{7.6, 5.0}, kKeep}, {{1.0, 5.0}},
           {{1.0, 10.0}},       {{3.2, 10.0}},       {{3.2, 12.8}, kTravel, kPi},
           {{3.2, 10.0}},       {{9.8, 10.0}},       {{9.8, 12.5}},
-          {{9.8, 10.0}},       {{10.1, 8.0}},       {{10.1, 5.0}}};
+          {{9.8, 10.0}},       {{10.1, 8.0}},       {{10.1, 5.0}},
+          {{1.0, 5.0}},        {{1.0, 10.0}},       {{19.0, 10.0}},
+          {{19.0, 5.0}},       {{10.1, 5.0}}};
 }
 
 /// One corridor around a block, 25 m x 15 m.

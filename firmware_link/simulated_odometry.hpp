@@ -19,15 +19,15 @@ namespace swiftlet {
 /// between extremes; position 0.5 to 1.1 m in the office, 0.4 to 0.9 in the maze, 0.7 to 2.1 in loop and
 /// corridors.
 struct FlowOdometryModel {
-  double scale_spread = 0.015;       ///< constant scale error, evenly between plus and minus this
+  double scale_spread = 0.008;       ///< constant scale error, evenly between plus and minus this
   double scale_wander = 0.02;        ///< of the floor underneath: standard deviation...
   double scale_wander_time_s = 6.0;  ///< ...and correlation time
   double velocity_noise_m_s = 0.05;  ///< white, at each step
   double yaw_bias_min_rad_s = radians(2.0) / 60.0;  ///< constant, of either sign, evenly between
   double yaw_bias_max_rad_s = radians(3.0) / 60.0;
-  double yaw_walk_rad_sqrt_s = radians(0.6);  ///< random walk: standard deviation after one second
+  double yaw_walk_rad_sqrt_s = radians(0.8);  ///< random walk: standard deviation after one second
   double turn_scale_spread = 0.01;            ///< of the yaw rate, evenly between plus and minus this
-  double slips_per_s = 1.0 / 45.0;            ///< stretches where the flow sensor misses part of the motion
+  double slips_per_s = 1.0 / 90.0;            ///< stretches where the flow sensor misses part of the motion
   double slip_min_s = 0.3;
   double slip_max_s = 1.0;
   double slip_seen_min_share = 0.3;  ///< of the motion, during a slip
