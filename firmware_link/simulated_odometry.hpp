@@ -15,9 +15,9 @@ namespace swiftlet {
 /// error from minute to minute of 5 and 7 degrees (standard deviation), 19 and 23 degrees between its
 /// extremes, 15 degrees left at the end of olsson. Scale: 0.992 and 0.999, +-3 % and +-2 % from one 3 m chord
 /// to the next. Position after rigid alignment: 1.30 and 1.02 m RMS. With the values below the simulated
-/// flights (150 to 170 m in 6 minutes, seeds 1 to 10): heading 1 to 7 degrees from minute to minute, 16 to 41
-/// between extremes; position 0.5 to 1.1 m in the office, 0.4 to 0.9 in the maze, 0.7 to 2.1 in loop and
-/// corridors.
+/// flights (150 to 195 m in 6 to 7.5 minutes, seeds 1 to 10): heading 3 to 9 degrees from minute to minute,
+/// 16 to 41 between extremes; position 0.6 to 1.5 m in the office, 0.5 to 0.9 in the maze, 0.7 to 2.1 in loop
+/// and corridors.
 struct FlowOdometryModel {
   double scale_spread = 0.008;       ///< constant scale error, evenly between plus and minus this
   double scale_wander = 0.02;        ///< of the floor underneath: standard deviation...
@@ -25,7 +25,7 @@ struct FlowOdometryModel {
   double velocity_noise_m_s = 0.05;  ///< white, at each step
   double yaw_bias_min_rad_s = radians(2.0) / 60.0;  ///< constant, of either sign, evenly between
   double yaw_bias_max_rad_s = radians(3.0) / 60.0;
-  double yaw_walk_rad_sqrt_s = radians(0.8);  ///< random walk: standard deviation after one second
+  double yaw_walk_rad_sqrt_s = radians(0.6);  ///< random walk: standard deviation after one second
   double turn_scale_spread = 0.01;            ///< of the yaw rate, evenly between plus and minus this
   double slips_per_s = 1.0 / 90.0;            ///< stretches where the flow sensor misses part of the motion
   double slip_min_s = 0.3;
