@@ -20,6 +20,9 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Where the unknowns of a pose begin.
+Eigen::Index row_of(std::size_t pose) { return 3 * static_cast<Eigen::Index>(pose); }
+
 /// What pulls at one pose alone.
 struct Pull {
   std::uint32_t pose = 0;
@@ -68,7 +71,7 @@ void fill(PoseSystem& system, const Problem& problem) {
 
 /// The slow twin: all Jacobians of all poses as one dense matrix, the first pose's columns left out.
 std::vector<Pose2> dense_step(const Problem& problem) {
-  const auto n = static_cast<Eigen::Index>(3 * problem.T_map_pose.size());
+  const auto n = row_of(problem.T_map_pose.size());
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n);
   for (std::size_t k = 0; k < problem.constraints.size(); ++k) {
@@ -76,19 +79,19 @@ std::vector<Pose2> dense_step(const Problem& problem) {
     const PoseResidual r =
         pose_residual(c.T_from_to, problem.T_map_pose[index_of(c.from)], problem.T_map_pose[index_of(c.to)]);
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n);
-    J.middleCols<3>(3 * index_of(c.from)) = r.J_from;
-    J.middleCols<3>(3 * index_of(c.to)) = r.J_to;
+    J.middleCols<3>(row_of(index_of(c.from))) = r.J_from;
+    J.middleCols<3>(row_of(index_of(c.to))) = r.J_to;
     H += problem.weights[k] * J.transpose() * c.information * J;
     rhs -= problem.weights[k] * J.transpose() * c.information * r.error;
   }
   for (const Pull& pull : problem.pulls) {
-    H.block<3, 3>(3 * pull.pose, 3 * pull.pose) += pull.H;
-    rhs.segment<3>(3 * pull.pose) += pull.rhs;
+    H.block<3, 3>(row_of(pull.pose), row_of(pull.pose)) += pull.H;
+    rhs.segment<3>(row_of(pull.pose)) += pull.rhs;
   }
   const Eigen::VectorXd d = H.bottomRightCorner(n - 3, n - 3).ldlt().solve(rhs.tail(n - 3));
   std::vector<Pose2> T_map_pose = problem.T_map_pose;
   for (std::size_t i = 1; i < T_map_pose.size(); ++i) {
-    const Eigen::Vector3d moved = T_map_pose[i].vector() + d.segment<3>(3 * static_cast<Eigen::Index>(i) - 3);
+    const Eigen::Vector3d moved = T_map_pose[i].vector() + d.segment<3>(row_of(i - 1));
     T_map_pose[i] = Pose2(moved[0], moved[1], moved[2]);
   }
   return T_map_pose;
@@ -106,10 +109,10 @@ TEST(PoseSystem, EqualsADenseStep) {
     PoseSystem system;
     ASSERT_TRUE(system.prepare(poses, problem.constraints));
     fill(system, problem);
-    std::vector<Pose2> T = problem.T_map_pose;
-    const Result<double> largest = system.step(T);
+    std::vector<Pose2> T_map_pose = problem.T_map_pose;
+    const Result<double> largest = system.step(T_map_pose);
     ASSERT_TRUE(largest) << largest.error().message;
-    expect_same(T, dense_step(problem), 1e-8);
+    expect_same(T_map_pose, dense_step(problem), 1e-8);
   }
 }
 
@@ -120,25 +123,25 @@ TEST(PoseSystem, ReportsTheLargestComponentOfTheStep) {
     ASSERT_TRUE(system.prepare(2, {}));
     system.set_zero();
     system.add(1, Eigen::Matrix3d::Identity(), pull);
-    std::vector<Pose2> T(2);
-    const Result<double> largest = system.step(T);
+    std::vector<Pose2> T_map_pose(2);
+    const Result<double> largest = system.step(T_map_pose);
     ASSERT_TRUE(largest);
     EXPECT_NEAR(*largest, pull.cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_TRUE(poses_near(T[1], Pose2(pull[0], pull[1], pull[2]), 1e-12, 1e-12));
+    EXPECT_TRUE(poses_near(T_map_pose[1], Pose2(pull[0], pull[1], pull[2]), 1e-12, 1e-12));
   }
 }
 
 TEST(PoseSystem, TheFirstPoseStaysWhateverPullsAtIt) {
   PoseSystem system;
-  std::vector<Pose2> T{Pose2(1.0, 2.0, 3.0), Pose2(4.0, 5.0, 0.5)};
-  PoseConstraint c{id(0), id(1), between(T[0], T[1])};
+  std::vector<Pose2> T_map_pose{Pose2(1.0, 2.0, 3.0), Pose2(4.0, 5.0, 0.5)};
+  PoseConstraint c{id(0), id(1), between(T_map_pose[0], T_map_pose[1])};
   ASSERT_TRUE(system.prepare(2, std::vector<PoseConstraint>{c}));
   system.set_zero();
-  system.add(c, 1.0, T);
+  system.add(c, 1.0, T_map_pose);
   system.add(0, Eigen::Matrix3d::Identity(), Eigen::Vector3d(9.0, 9.0, 9.0));
-  const std::vector<Pose2> before = T;
-  ASSERT_TRUE(system.step(T));
-  expect_same(T, before, 1e-12);
+  const std::vector<Pose2> before = T_map_pose;
+  ASSERT_TRUE(system.step(T_map_pose));
+  expect_same(T_map_pose, before, 1e-12);
 }
 
 TEST(PoseSystem, StepsLeadToWhatTheConstraintsSay) {
@@ -149,23 +152,24 @@ TEST(PoseSystem, StepsLeadToWhatTheConstraintsSay) {
   for (std::size_t i = 1; i < 12; ++i)
     constraints.push_back({id(i - 1), id(i), between(truth[i - 1], truth[i])});
   constraints.push_back({id(11), id(2), between(truth[11], truth[2])});
-  std::vector<Pose2> T = truth;
+  std::vector<Pose2> T_map_pose = truth;
   for (std::size_t i = 1; i < 12; ++i) {
-    T[i] = Pose2(T[i].x_m() + random_in(random, -0.2, 0.2), T[i].y_m() + random_in(random, -0.2, 0.2),
-                 T[i].yaw_rad() + random_in(random, -0.2, 0.2));
+    T_map_pose[i] = Pose2(T_map_pose[i].x_m() + random_in(random, -0.2, 0.2),
+                          T_map_pose[i].y_m() + random_in(random, -0.2, 0.2),
+                          T_map_pose[i].yaw_rad() + random_in(random, -0.2, 0.2));
   }
   PoseSystem system;
-  ASSERT_TRUE(system.prepare(T.size(), constraints));
+  ASSERT_TRUE(system.prepare(T_map_pose.size(), constraints));
   double largest = 1.0;
   for (int i = 0; i < 10 && largest > 1e-10; ++i) {
     system.set_zero();
-    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T);
-    const Result<double> step = system.step(T);
+    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T_map_pose);
+    const Result<double> step = system.step(T_map_pose);
     ASSERT_TRUE(step);
     largest = *step;
   }
   EXPECT_LE(largest, 1e-10);
-  expect_same(T, truth, 1e-9);
+  expect_same(T_map_pose, truth, 1e-9);
 }
 
 TEST(PoseSystem, OneThatIsKeptSolvesLikeANewOne) {
@@ -194,38 +198,38 @@ TEST(PoseSystem, OneThatIsKeptSolvesLikeANewOne) {
 
 TEST(PoseSystem, APoseThatNothingHoldsIsNamedAndNoneMoves) {
   std::mt19937 random(94);
-  std::vector<Pose2> T;
-  for (int i = 0; i < 4; ++i) T.push_back(random_pose(random, 2.0));
+  std::vector<Pose2> T_map_pose(4);
+  for (Pose2& pose : T_map_pose) pose = random_pose(random, 2.0);
   const std::vector<PoseConstraint> constraints{{id(0), id(1), Pose2(1.0, 0.0, 0.0)},
                                                 {id(1), id(3), Pose2(1.0, 0.0, 0.0)}};
   PoseSystem system;
-  ASSERT_TRUE(system.prepare(T.size(), constraints));
+  ASSERT_TRUE(system.prepare(T_map_pose.size(), constraints));
   system.set_zero();
-  for (const PoseConstraint& c : constraints) system.add(c, 1.0, T);
-  const std::vector<Pose2> before = T;
-  const Result<double> step = system.step(T);
+  for (const PoseConstraint& c : constraints) system.add(c, 1.0, T_map_pose);
+  const std::vector<Pose2> before = T_map_pose;
+  const Result<double> step = system.step(T_map_pose);
   ASSERT_FALSE(step);
   EXPECT_EQ(step.error().code, ErrorCode::kSolver);
   EXPECT_THAT(step.error().message, HasSubstr("near pose 2:"));
-  expect_same(T, before, 0.0);
+  expect_same(T_map_pose, before, 0.0);
 }
 
 TEST(PoseSystem, AStepThatIsNotFiniteIsAnErrorAndNoPoseMoves) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    std::vector<Pose2> T{Pose2(), Pose2(1.0, 0.0, 0.0), Pose2(2.0, 0.0, 0.1)};
+    std::vector<Pose2> T_map_pose{Pose2(), Pose2(1.0, 0.0, 0.0), Pose2(2.0, 0.0, 0.1)};
     const std::vector<PoseConstraint> constraints{{id(0), id(1), Pose2(1.1, 0.0, 0.0)},
                                                   {id(1), id(2), Pose2(1.0, 0.0, 0.0)}};
     PoseSystem system;
-    ASSERT_TRUE(system.prepare(T.size(), constraints));
+    ASSERT_TRUE(system.prepare(T_map_pose.size(), constraints));
     system.set_zero();
-    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T);
+    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T_map_pose);
     system.add(2, Eigen::Matrix3d::Zero(), Eigen::Vector3d(0.0, bad, 0.0));
-    const std::vector<Pose2> before = T;
-    const Result<double> step = system.step(T);
+    const std::vector<Pose2> before = T_map_pose;
+    const Result<double> step = system.step(T_map_pose);
     ASSERT_FALSE(step);
     EXPECT_EQ(step.error().code, ErrorCode::kSolver);
-    expect_same(T, before, 0.0);
+    expect_same(T_map_pose, before, 0.0);
   }
 }
 
@@ -234,12 +238,12 @@ TEST(PoseSystem, SolvesAgainAfterAnError) {
   const Problem problem = random_problem(random, 10);
   PoseSystem system;
   ASSERT_TRUE(system.prepare(10, problem.constraints));
-  std::vector<Pose2> T = problem.T_map_pose;
+  std::vector<Pose2> T_map_pose = problem.T_map_pose;
   system.set_zero();
-  ASSERT_FALSE(system.step(T)) << "nothing holds any pose";
+  ASSERT_FALSE(system.step(T_map_pose)) << "nothing holds any pose";
   fill(system, problem);
-  ASSERT_TRUE(system.step(T));
-  expect_same(T, dense_step(problem), 1e-8);
+  ASSERT_TRUE(system.step(T_map_pose));
+  expect_same(T_map_pose, dense_step(problem), 1e-8);
 }
 
 TEST(PoseSystemDeathTest, OnePoseAloneIsABrokenPromise) {

@@ -128,35 +128,35 @@ LooksAtARoom looks_at_a_room(std::size_t longer = static_cast<std::size_t>(-1)) 
 /// Every pose but the first a little off, each its own way.
 std::vector<Pose2> shaken(const std::vector<Pose2>& path) {
   std::mt19937 random(26);
-  std::vector<Pose2> T = path;
-  for (std::size_t i = 1; i < T.size(); ++i)
-    T[i] = T[i] *
-           Pose2(random_in(random, -0.1, 0.1), random_in(random, -0.1, 0.1), random_in(random, -0.1, 0.1));
-  return T;
+  std::vector<Pose2> T_map_body = path;
+  for (std::size_t i = 1; i < T_map_body.size(); ++i)
+    T_map_body[i] = T_map_body[i] * Pose2(random_in(random, -0.1, 0.1), random_in(random, -0.1, 0.1),
+                                          random_in(random, -0.1, 0.1));
+  return T_map_body;
 }
 
 TEST(Refinement, BringsPassesThroughACorridorTogether) {
   const TestVehicle vehicle = to_and_fro(drifting());
   const std::vector<Pose2> truth = true_poses(vehicle);
-  std::vector<Pose2> T = dead_reckoned(vehicle);
-  const double before_m = aligned_rms_error_m(T, truth);
-  const Result<RefinementReport> report = refine(vehicle, T);
+  std::vector<Pose2> T_map_body = dead_reckoned(vehicle);
+  const double before_m = aligned_rms_error_m(T_map_body, truth);
+  const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
   ASSERT_GT(before_m, 0.15) << "there is something to correct";
-  EXPECT_LT(aligned_rms_error_m(T, truth), 0.5 * before_m);
+  EXPECT_LT(aligned_rms_error_m(T_map_body, truth), 0.5 * before_m);
   EXPECT_TRUE(report->accepted);
   EXPECT_LT(report->held_back_after_m, 0.3 * report->held_back_before_m);
-  EXPECT_TRUE(poses_near(T[0], Pose2(), 0.0, 0.0)) << "the first pose is held";
+  EXPECT_TRUE(poses_near(T_map_body[0], Pose2(), 0.0, 0.0)) << "the first pose is held";
 }
 
 TEST(Refinement, SmoothsOutWhatLoopClosingLeaves) {
   const TestVehicle vehicle = to_and_fro(drifting());
   const std::vector<Pose2> truth = true_poses(vehicle);
-  std::vector<Pose2> T = in_waves(truth);
-  const double before_m = aligned_rms_error_m(T, truth);
-  const Result<RefinementReport> report = refine(vehicle, T);
+  std::vector<Pose2> T_map_body = in_waves(truth);
+  const double before_m = aligned_rms_error_m(T_map_body, truth);
+  const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_LT(aligned_rms_error_m(T, truth), 0.25 * before_m);
+  EXPECT_LT(aligned_rms_error_m(T_map_body, truth), 0.25 * before_m);
   EXPECT_TRUE(report->accepted);
   EXPECT_LT(report->held_back_after_m, 0.15 * report->held_back_before_m);
 }
@@ -180,11 +180,11 @@ TEST(Refinement, ATrueStartStaysNearWhereItIs) {
   TestVehicle vehicle = vehicle_at_start(precise, 21);
   fly_along(vehicle, loop_corridor(), "bcdabcda");
   const std::vector<Pose2> truth = true_poses(vehicle);
-  std::vector<Pose2> T = truth;
-  const Result<RefinementReport> report = refine(vehicle, T);
+  std::vector<Pose2> T_map_body = truth;
+  const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
   ASSERT_TRUE(report->accepted) << "refused, the poses say nothing";
-  EXPECT_LT(worst_m(T, truth), 0.07) << "in 76 m";
+  EXPECT_LT(worst_m(T_map_body, truth), 0.07) << "in 76 m";
 }
 
 TEST(Refinement, RefusesWhatExplainsTheHeldBackReturnsWorse) {
@@ -194,14 +194,14 @@ TEST(Refinement, RefusesWhatExplainsTheHeldBackReturnsWorse) {
   lying.drift_rad_per_m = 0.02;
   const TestVehicle vehicle = to_and_fro(lying);
   const std::vector<Pose2> truth = true_poses(vehicle);
-  std::vector<Pose2> T = truth;
+  std::vector<Pose2> T_map_body = truth;
   SensorModel believed = SensorModel::crazyflie();
   believed.odometry = believed.odometry.scaled(0.001);
-  const Result<RefinementReport> report = refine(vehicle, T, {}, believed);
+  const Result<RefinementReport> report = refine(vehicle, T_map_body, {}, believed);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_GT(report->held_back_after_m, 2.0 * report->held_back_before_m);
   EXPECT_FALSE(report->accepted);
-  EXPECT_TRUE(same_bits(T, truth));
+  EXPECT_TRUE(same_bits(T_map_body, truth));
 }
 
 TEST(Refinement, ASegmentMovesAsAWholeToItsWalls) {
@@ -212,13 +212,14 @@ TEST(Refinement, ASegmentMovesAsAWholeToItsWalls) {
   vehicle.carry_to(loop_corridor(), Pose2(b.x_m, b.y_m, kPi));
   fly_along(vehicle, loop_corridor(), "ab");
   const std::vector<Pose2> truth = true_poses(vehicle);
-  std::vector<Pose2> T = truth;
-  for (std::size_t i = second; i < T.size(); ++i) T[i] = Pose2(0.1, -0.15, 0.01) * T[i];
-  const double before_m = worst_m(T, truth);
-  const Result<RefinementReport> report = refine(vehicle, T);
+  std::vector<Pose2> T_map_body = truth;
+  for (std::size_t i = second; i < T_map_body.size(); ++i)
+    T_map_body[i] = Pose2(0.1, -0.15, 0.01) * T_map_body[i];
+  const double before_m = worst_m(T_map_body, truth);
+  const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report);
   EXPECT_TRUE(report->accepted);
-  EXPECT_LT(worst_m(T, truth), 0.4 * before_m);
+  EXPECT_LT(worst_m(T_map_body, truth), 0.4 * before_m);
 }
 
 TEST(Refinement, ClosuresHoldPassesTogetherWhereNoWallDoes) {
@@ -243,24 +244,24 @@ TEST(Refinement, ClosuresHoldPassesTogetherWhereNoWallDoes) {
 
 TEST(Refinement, TurnsAndShiftsEachScanOntoTheWallsOfTheOthers) {
   const LooksAtARoom looks = looks_at_a_room();
-  std::vector<Pose2> T = shaken(looks.T_map_body);
-  const Result<RefinementReport> report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, T);
+  std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
+  const Result<RefinementReport> report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report->accepted);
   // Pair by pair: only the first scan, which is held, hangs loosely on all the others.
-  for (std::size_t i = 2; i < T.size(); ++i) {
-    EXPECT_TRUE(poses_near(between(T[i - 1], T[i]), between(looks.T_map_body[i - 1], looks.T_map_body[i]),
-                           0.03, 0.02))
+  for (std::size_t i = 2; i < T_map_body.size(); ++i) {
+    EXPECT_TRUE(poses_near(between(T_map_body[i - 1], T_map_body[i]),
+                           between(looks.T_map_body[i - 1], looks.T_map_body[i]), 0.03, 0.02))
         << i;
   }
 }
 
 TEST(Refinement, ATenthOfTheReturnsHasNoSay) {
   const auto refined = [](const LooksAtARoom& looks) {
-    std::vector<Pose2> T = shaken(looks.T_map_body);
-    const auto report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, T);
+    std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
+    const auto report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, T_map_body);
     EXPECT_TRUE(report && report->accepted);
-    return T;
+    return T_map_body;
   };
   const std::vector<Pose2> plain = refined(looks_at_a_room());
   int without_say = 0;
@@ -273,12 +274,12 @@ TEST(Refinement, FewerThanTwoScansStayAsTheyAre) {
   const TestVehicle vehicle = vehicle_at_start({}, 24);
   for (const std::size_t scans : {0U, 1U}) {
     const StoredRun run(std::span(vehicle.samples()).first(scans));
-    std::vector<Pose2> T(scans, Pose2(1.0, 2.0, 3.0));
-    const Result<RefinementReport> report = refine_scan_poses(run.scans(), {}, {}, {}, T);
+    std::vector<Pose2> T_map_body(scans, Pose2(1.0, 2.0, 3.0));
+    const Result<RefinementReport> report = refine_scan_poses(run.scans(), {}, {}, {}, T_map_body);
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->accepted);
     EXPECT_EQ(report->iterations, 0);
-    EXPECT_TRUE(same_bits(T, std::vector<Pose2>(scans, Pose2(1.0, 2.0, 3.0))));
+    EXPECT_TRUE(same_bits(T_map_body, std::vector<Pose2>(scans, Pose2(1.0, 2.0, 3.0))));
   }
 }
 
@@ -287,9 +288,9 @@ TEST(Refinement, TakesNoMoreRoundsThanItMay) {
   const StoredRun run(vehicle.samples());
   BackendConfig config;
   config.refinement_iterations = 2;
-  std::vector<Pose2> T = dead_reckoned(vehicle);
+  std::vector<Pose2> T_map_body = dead_reckoned(vehicle);
   const Result<RefinementReport> report =
-      refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, config, T);
+      refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, config, T_map_body);
   ASSERT_TRUE(report);
   EXPECT_EQ(report->iterations, 2);
 }

@@ -26,11 +26,12 @@ constexpr std::uint32_t kAskingPass = 99;
 
 /// `count` points from `first` on in a direction, all of one pass.
 std::vector<PassPoint> stretch(const Point2& first, double direction_rad, int count, std::uint32_t pass) {
-  std::vector<PassPoint> points;
-  for (int i = 0; i < count; ++i)
-    points.push_back({{first.x_m + i * kSpacingM * std::cos(direction_rad),
-                       first.y_m + i * kSpacingM * std::sin(direction_rad)},
-                      pass});
+  std::vector<PassPoint> points(static_cast<std::size_t>(count), PassPoint{first, pass});
+  for (int i = 0; i < count; ++i) {
+    Point2& p = points[static_cast<std::size_t>(i)].p_map;
+    p.x_m += i * kSpacingM * std::cos(direction_rad);
+    p.y_m += i * kSpacingM * std::sin(direction_rad);
+  }
   return points;
 }
 
@@ -186,8 +187,8 @@ TEST(WallMap, ClutterIsNoWall) {
 
 TEST(WallMap, AShortStretchHasNoDirection) {
   // Many passes that each saw the same post.
-  std::vector<PassPoint> post;
-  for (std::uint32_t pass = 0; pass < 20; ++pass) post.push_back({{1.0 + 0.008 * pass, 1.0}, pass});
+  std::vector<PassPoint> post(20);
+  for (std::uint32_t pass = 0; pass < 20; ++pass) post[pass] = {{1.0 + 0.008 * pass, 1.0}, pass};
   EXPECT_FALSE(WallMap(post, kRadiusM).wall_near({{1.08, 1.0}, kAskingPass}));
   for (PassPoint& p : post) p.p_map.x_m = 1.0 + 0.016 * p.pass;
   EXPECT_TRUE(WallMap(post, kRadiusM).wall_near({{1.16, 1.0}, kAskingPass})) << "long enough";
