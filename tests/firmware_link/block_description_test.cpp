@@ -7,7 +7,7 @@
 
 #include <chrono>
 
-#include "tests/firmware_link/temporary_file.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/synthetic_capture.hpp"
-#include "tests/firmware_link/temporary_file.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tests/firmware_link/laser_lines.hpp"
-#include "tests/firmware_link/temporary_file.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {

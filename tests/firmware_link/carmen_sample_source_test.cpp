@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "tests/firmware_link/laser_lines.hpp"
-#include "tests/firmware_link/reference_data.hpp"
-#include "tests/firmware_link/temporary_file.hpp"
+#include "tests/support/reference_data.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {

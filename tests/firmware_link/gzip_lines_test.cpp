@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/firmware_link/temporary_file.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tests/firmware_link/temporary_file.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "firmware_link/replay_link.hpp"
 #include "tests/firmware_link/frames.hpp"
-#include "tests/firmware_link/reference_data.hpp"
 #include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/reference_data.hpp"
 
 namespace swiftlet {
 namespace {

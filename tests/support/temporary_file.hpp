@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -17,9 +18,9 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& name) {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = (std::filesystem::path(testing::TempDir()) /
-             (std::string(info->test_suite_name()) + "." + info->name() + "." + name))
-                .string();
+    std::string file = std::string(info->test_suite_name()) + "." + info->name() + "." + name;
+    std::replace(file.begin(), file.end(), '/', '.');  // of parameterised tests
+    path_ = (std::filesystem::path(testing::TempDir()) / file).string();
     std::filesystem::remove_all(path_);
   }
   TemporaryFile(const std::string& name, std::string_view text) : TemporaryFile(name) {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+//
+// Real flights of a Crazyflie, from the capture to the corrected poses. Nobody measured where it truly was;
+// corridors that it flew through several times tell by how often their walls are drawn.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/corrected_run.hpp"
+#include "tests/support/map_sharpness.hpp"
+#include "tests/support/reference_data.hpp"
+#include "tests/support/temporary_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::HasSubstr;
+
+std::string flight_path(const char* name) { return reference_file("flights/" + std::string(name) + ".pcap"); }
+
+std::size_t cells_hit(const CorrectedRun& run, const std::vector<Pose2>& T_map_body) {
+  return cells_hit(run.samples, T_map_body, BeamLayout::multiranger());
+}
+
+double length_m(const std::vector<Pose2>& path) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    sum_m += std::hypot(path[i].x_m() - path[i - 1].x_m(), path[i].y_m() - path[i - 1].y_m());
+  return sum_m;
+}
+
+struct KnownFlight {
+  const char* name;
+  std::size_t samples;
+  std::size_t cells;  ///< at most; the paper's own code needs 2398 (olsson) and 2015 (rice)
+};
+
+class Flight : public testing::TestWithParam<KnownFlight> {};
+
+TEST_P(Flight, DrawsSharpWalls) {
+  SWIFTLET_REQUIRE_REFERENCE(flight_path(GetParam().name));
+  const CorrectedRun run = corrected_run(flight_path(GetParam().name));
+  EXPECT_EQ(run.samples.size(), GetParam().samples);
+  ASSERT_EQ(run.T_map_body.size(), run.samples.size());
+  EXPECT_LE(cells_hit(run, run.T_map_body), GetParam().cells);
+  // Not by shrinking the building.
+  const double flown_m = length_m(dead_reckoned(run));
+  EXPECT_NEAR(length_m(run.T_map_body), flown_m, 0.1 * flown_m);
+  EXPECT_GT(run.counters.closures_accepted, 0U);
+  EXPECT_TRUE(run.counters.refined);
+  EXPECT_LT(run.counters.held_back_after_m, run.counters.held_back_before_m);
+  EXPECT_EQ(run.counters.solver_failures, 0U);
+}
+
+TEST_P(Flight, ComesOutTheSameTwice) {
+  SWIFTLET_REQUIRE_REFERENCE(flight_path(GetParam().name));
+  const CorrectedRun one = corrected_run(flight_path(GetParam().name));
+  const CorrectedRun other = corrected_run(flight_path(GetParam().name));
+  ASSERT_FALSE(one.T_map_body.empty());
+  ASSERT_EQ(one.T_map_body.size(), other.T_map_body.size());
+  for (std::size_t i = 0; i < one.T_map_body.size(); ++i) {
+    const Eigen::Vector3d a = one.T_map_body[i].vector();
+    const Eigen::Vector3d b = other.T_map_body[i].vector();
+    for (int k = 0; k < 3; ++k)
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a[k]), std::bit_cast<std::uint64_t>(b[k])) << "sample " << i;
+  }
+}
+
+TEST_P(Flight, StillGivesAMapWhenItsCaptureBreaksOffHalfway) {
+  SWIFTLET_REQUIRE_REFERENCE(flight_path(GetParam().name));
+  const TemporaryFile half("half.pcap");
+  std::filesystem::copy_file(flight_path(GetParam().name), half.path());
+  std::filesystem::permissions(half.path(), std::filesystem::perms::owner_all);  // the data may be read-only
+  std::filesystem::resize_file(half.path(), std::filesystem::file_size(half.path()) / 2);
+  const CorrectedRun run = corrected_run(half.path());
+  ASSERT_EQ(run.input.problems.size(), 1U);
+  EXPECT_THAT(run.input.problems[0], HasSubstr("damaged at byte "));
+  EXPECT_NEAR(static_cast<double>(run.samples.size()), 0.5 * static_cast<double>(GetParam().samples), 100.0);
+  ASSERT_EQ(run.T_map_body.size(), run.samples.size());
+  EXPECT_LT(cells_hit(run, run.T_map_body), cells_hit(run, dead_reckoned(run)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Recorded, Flight,
+                         testing::Values(KnownFlight{"olsson", 3816, 1840}, KnownFlight{"rice", 3149, 1850}),
+                         [](const auto& param) { return std::string(param.param.name); });
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "tests/support/corrected_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/frontend/frontend.hpp"
+
+namespace swiftlet {
+
+CorrectedRun corrected_run(const std::string& uri) {
+  CorrectedRun run;
+  const auto source = open_sample_source(uri, {});
+  EXPECT_TRUE(source.ok()) << (source.ok() ? "" : source.error().message);
+  if (!source.ok()) return run;
+  Frontend frontend({}, (*source)->sensor(), (*source)->beams());
+  Backend backend({}, (*source)->sensor(), (*source)->beams());
+  Result<RangeSample> sample = (*source)->next();
+  for (; sample || sample.error().code == ErrorCode::kTimeout; sample = (*source)->next()) {
+    if (!sample) continue;
+    run.samples.push_back(*sample);
+    backend.add(frontend.process(*sample));
+  }
+  EXPECT_EQ(sample.error().code, ErrorCode::kEndOfRecording) << sample.error().message;
+  backend.finish();
+  for (ScanIndex i = 0; i < backend.scans().size(); ++i) run.T_map_body.push_back(backend.T_map_body(i));
+  run.counters = backend.counters();
+  run.input = (*source)->report();
+  return run;
+}
+
+std::vector<Pose2> dead_reckoned(const CorrectedRun& run) {
+  std::vector<Pose2> T_odom_body;
+  for (const RangeSample& sample : run.samples) T_odom_body.push_back(sample.T_odom_body);
+  return T_odom_body;
+}
+
+}  // namespace swiftlet

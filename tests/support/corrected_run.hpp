@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/backend/backend.hpp"
+#include "firmware_link/sample_source.hpp"
+
+namespace swiftlet {
+
+/// What frontend and backend make of a whole input, with nothing of the daemon around them.
+struct CorrectedRun {
+  std::vector<RangeSample> samples;
+  std::vector<Pose2> T_map_body;  ///< one a sample
+  BackendCounters counters;
+  InputReport input;
+};
+
+/// Opens an input and takes it through frontend and backend, sample by sample and to the final pass. Fails
+/// the running test where it cannot be opened; the run is empty then.
+CorrectedRun corrected_run(const std::string& uri);
+
+/// The dead reckoning of each sample: what a run is corrected from.
+std::vector<Pose2> dead_reckoned(const CorrectedRun& run);
+
+}  // namespace swiftlet
