@@ -51,7 +51,7 @@ constexpr ConfigurationField kFields[] = {
     {"sensor", "drift_yaw_per_metre_rad", "rad/m",
      "standard deviation of the yaw that dead reckoning misses with every metre; 0: none is learnt", 0, 1,
      at<&SensorOverrides::drift_yaw_per_metre_rad>},
-    {"sensor", "drift_yaw_per_radian", "", "the same with every radian turned", 0, 1,
+    {"sensor", "drift_yaw_per_radian", "rad/rad", "the same with every radian turned", 0, 1,
      at<&SensorOverrides::drift_yaw_per_radian>},
     {"frontend", "use_landmarks", "", "false: dead reckoning only, a baseline", 0, 0,
      at<&FrontendConfig::use_landmarks>},
