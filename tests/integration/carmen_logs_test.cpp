@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct KnownLog {
   double mean_m;    ///< at most; the paper's own code: 0.0454 m and 1.131 degrees (ACES), ...
   double mean_deg;  ///< ... 0.0901 m and 2.363 degrees (Intel)
 };
+void PrintTo(const KnownLog& known, std::ostream* out) { *out << known.name; }
 
 class LaserLog : public testing::TestWithParam<KnownLog> {};
 

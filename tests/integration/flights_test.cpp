@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct KnownFlight {
   std::size_t samples;
   std::size_t cells;  ///< at most; the paper's own code needs 2398 (olsson) and 2015 (rice)
 };
+void PrintTo(const KnownFlight& known, std::ostream* out) { *out << known.name; }
 
 class Flight : public testing::TestWithParam<KnownFlight> {};
 
