@@ -59,6 +59,16 @@ std::vector<Pose2> in_waves(std::vector<Pose2> path) {
   return path;
 }
 
+/// Dead reckoning that is thought so many times worse than it is.
+SensorModel with_odometry_noise(double factor) {
+  SensorModel sensor = SensorModel::crazyflie();
+  OdometryNoise& noise = sensor.odometry;
+  for (double* sigma : {&noise.xy_floor_m, &noise.xy_per_metre, &noise.xy_per_radian_m, &noise.yaw_floor_rad,
+                        &noise.yaw_per_radian, &noise.yaw_per_metre_rad})
+    *sigma *= factor;
+  return sensor;
+}
+
 Result<RefinementReport> refine(const TestVehicle& vehicle, std::vector<Pose2>& T_map_body,
                                 const std::vector<PoseConstraint>& closures = {},
                                 const SensorModel& sensor = SensorModel::crazyflie()) {
@@ -96,7 +106,7 @@ BeamLayout star() {
 struct LooksAtARoom {
   ScanStore scans{star()};
   std::vector<Pose2> T_map_body;
-  SensorModel sensor;
+  SensorModel sensor = with_odometry_noise(100.0);
 };
 
 /// `longer` is the number of a return that reads 0.1 m too much.
@@ -105,7 +115,6 @@ LooksAtARoom looks_at_a_room(std::size_t longer = static_cast<std::size_t>(-1)) 
                       0.5);
   std::mt19937 random(25);
   LooksAtARoom looks;
-  looks.sensor.odometry = looks.sensor.odometry.scaled(100.0);
   std::size_t returns = 0;
   for (std::uint32_t i = 0; i < 60; ++i) {
     const Pose2 T_map_body(random_in(random, 0.8, 2.7), random_in(random, 0.8, 2.2),
@@ -195,8 +204,7 @@ TEST(Refinement, RefusesWhatExplainsTheHeldBackReturnsWorse) {
   const TestVehicle vehicle = to_and_fro(lying);
   const std::vector<Pose2> truth = true_poses(vehicle);
   std::vector<Pose2> T_map_body = truth;
-  SensorModel believed = SensorModel::crazyflie();
-  believed.odometry = believed.odometry.scaled(0.001);
+  const SensorModel believed = with_odometry_noise(0.001);
   const Result<RefinementReport> report = refine(vehicle, T_map_body, {}, believed);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_GT(report->held_back_after_m, 2.0 * report->held_back_before_m);

@@ -216,8 +216,8 @@ TEST(WallMap, AnEmptyMapHasNoWalls) {
 
 TEST(WallMap, KeepsOnePointAPassAndCellInTheirMiddle) {
   // A vehicle that hovers draws the first point a hundred times over: it weighs no more than the others.
-  std::vector<PassPoint> points;
-  for (int i = 0; i < 100; ++i) points.push_back({{0.02, i % 2 == 0 ? 0.01 : 0.03}, 0});
+  std::vector<PassPoint> points(50, PassPoint{{0.02, 0.01}, 0});
+  points.insert(points.end(), 50, PassPoint{{0.02, 0.03}, 0});
   for (int i = 1; i < 9; ++i) points.push_back({{0.02 + 0.08 * i, 0.02}, 0});
   points.push_back({{0.02, 0.02}, 1});
   const WallMap map(points, kRadiusM);
