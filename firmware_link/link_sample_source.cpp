@@ -12,8 +12,9 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
-// The vehicle itself takes a link that was silent for a second as lost, and forgets its log blocks.
-constexpr Duration kLinkLost = std::chrono::seconds(1);
+// The vehicle's estimate runs on while the link is silent: as long as the step across a hole is one that it
+// can have flown, it is motion. After this long it may have landed and been carried.
+constexpr Duration kLinkLost = std::chrono::seconds(30);
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
 
 AssemblyConfig assembly_config(const SensorModel& sensor) {

@@ -64,8 +64,6 @@ Status check_usable(const MapCommand& command, const InputReport& report, const 
 
 void print_summary(const MapCommand& command, const RunView& run) {
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
-  for (const std::string& problem : run.input.problems)
-    std::fprintf(stderr, "swiftlet: warning: %s\n", problem.c_str());
   const BackendCounters& counters = run.backend.counters();
   std::printf("%zu samples, %llu keyframes, %llu loop closures (%llu of them dropped), %zu input problems\n",
               run.backend.scans().size(), static_cast<unsigned long long>(counters.keyframes),
@@ -78,6 +76,14 @@ void print_summary(const MapCommand& command, const RunView& run) {
     std::printf("error before correction %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
                 error->odometry.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
   std::printf("picture: %s\n", (command.output_directory / "map.png").c_str());
+}
+
+/// All that was wrong with the input, in the one line that main prints.
+Status damage_of(const InputReport& report) {
+  if (report.problems.empty()) return {};
+  std::string message = report.problems.front();
+  for (std::size_t i = 1; i < report.problems.size(); ++i) message += "; " + report.problems[i];
+  return Error{ErrorCode::kDamaged, message + "; the outputs hold what came before"};
 }
 
 }  // namespace
@@ -103,7 +109,7 @@ Status run_map_command(const MapCommand& command) {
                     .sensor = config->sensor.applied_to(source.sensor())};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
   print_summary(command, run);
-  return {};
+  return damage_of(report);
 }
 
 }  // namespace swiftlet

@@ -23,10 +23,10 @@ struct MapCommand {
 /// Takes the whole input through the pipeline at full speed in this thread and writes the outputs. A summary
 /// goes to stdout; progress and what was wrong with the input, one line each, to stderr.
 ///
-/// An input that is damaged after usable samples is not an error: the outputs are written from what came
-/// before, the damage is among the lines on stderr and in report.json. Errors: kNotFound, kInvalidInput:
-/// input, configuration or output directory cannot be used, or the input holds no usable sample; nothing was
-/// written. kOutOfSpace: an output could not be written; those before it stay.
+/// Errors: kDamaged: the input is damaged after usable samples; the outputs are written from what came
+/// before, and report.json names the damage too. kNotFound, kInvalidInput: input, configuration or output
+/// directory cannot be used, or the input holds no usable sample; nothing was written. kOutOfSpace: an output
+/// could not be written; those before it stay.
 [[nodiscard]] Status run_map_command(const MapCommand& command);
 
 }  // namespace swiftlet

@@ -25,6 +25,7 @@ CorrectedRun corrected_run(const std::string& uri) {
   backend.finish();
   for (ScanIndex i = 0; i < backend.scans().size(); ++i) run.T_map_body.push_back(backend.T_map_body(i));
   run.counters = backend.counters();
+  run.truth = (*source)->ground_truth();
   run.input = (*source)->report();
   return run;
 }

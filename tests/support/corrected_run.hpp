@@ -13,7 +13,8 @@ namespace swiftlet {
 /// What frontend and backend make of a whole input, with nothing of the daemon around them.
 struct CorrectedRun {
   std::vector<RangeSample> samples;
-  std::vector<Pose2> T_map_body;  ///< one a sample
+  std::vector<Pose2> T_map_body;   ///< one a sample
+  std::vector<StampedPose> truth;  ///< one a sample, where the input knows it
   BackendCounters counters;
   InputReport input;
 };

@@ -157,8 +157,9 @@ TEST_F(SwiftletCommand, UsesACaptureUpToTheDamageAndReportsIt) {
   const std::string whole = text_of(flight);
   std::ofstream(file("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 8 + 7);
   const Outcome outcome = run("map {}/cut.pcap -o {}/out");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("swiftlet: warning: "), HasSubstr("byte")));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("swiftlet: "), HasSubstr("byte")));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   EXPECT_THAT(text_of(file("out/report.json")), HasSubstr("byte"));
   EXPECT_GT(fs::file_size(file("out/trajectory.tum")), 1000U);
 }
