@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <utility>
 
 #include "core/backend/backend.hpp"
 #include "core/mapping/map_builder.hpp"
@@ -43,6 +44,7 @@ void add_walls(MapScene& scene, const Backend& backend) {
     for (const MapSegment& part : supported_parts(whole, scene.resolution_m, std::cref(is_occupied)))
       scene.walls.push_back(part);
   }
+  scene.walls = distinct_walls(std::move(scene.walls));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/mapping/wall_support.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace swiftlet {
@@ -11,6 +12,9 @@ namespace {
 constexpr double kReachM = 0.1;
 constexpr double kBridgeM = 0.4;
 constexpr double kLeastM = 0.4;
+constexpr double kSameWallM = 0.25;
+const double kSameWallCos = std::cos(0.35);  // 20 degrees
+constexpr double kProbeM = 0.05;
 
 bool occupied_near(const Point2& p_map, double resolution_m,
                    const std::function<bool(CellIndex)>& is_occupied) {
@@ -50,6 +54,64 @@ std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolutio
   }
   finish();
   return parts;
+}
+
+namespace {
+
+double length_of(const MapSegment& s) {
+  return std::hypot(s.end_map.x_m - s.start_map.x_m, s.end_map.y_m - s.start_map.y_m);
+}
+
+double distance_m(const Point2& p, const MapSegment& s) {
+  const double dx = s.end_map.x_m - s.start_map.x_m;
+  const double dy = s.end_map.y_m - s.start_map.y_m;
+  const double along =
+      ((p.x_m - s.start_map.x_m) * dx + (p.y_m - s.start_map.y_m) * dy) / (dx * dx + dy * dy);
+  const double share = std::clamp(along, 0.0, 1.0);
+  return std::hypot(p.x_m - s.start_map.x_m - share * dx, p.y_m - s.start_map.y_m - share * dy);
+}
+
+bool runs_along(const MapSegment& a, const MapSegment& b) {
+  const double dot = (a.end_map.x_m - a.start_map.x_m) * (b.end_map.x_m - b.start_map.x_m) +
+                     (a.end_map.y_m - a.start_map.y_m) * (b.end_map.y_m - b.start_map.y_m);
+  return std::abs(dot) > kSameWallCos * length_of(a) * length_of(b);
+}
+
+/// The stretches of `wall` that no wall of `told` covers.
+std::vector<MapSegment> untold_parts(const MapSegment& wall, const std::vector<MapSegment>& told) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_of(wall) / kProbeM)));
+  const auto point_at = [&](int step) {
+    const double share = static_cast<double>(step) / steps;
+    return Point2{wall.start_map.x_m + share * (wall.end_map.x_m - wall.start_map.x_m),
+                  wall.start_map.y_m + share * (wall.end_map.y_m - wall.start_map.y_m)};
+  };
+  const auto is_told = [&](const Point2& p) {
+    return std::any_of(told.begin(), told.end(), [&](const MapSegment& t) {
+      return runs_along(wall, t) && distance_m(p, t) < kSameWallM;
+    });
+  };
+  std::vector<MapSegment> parts;
+  int first = 0;
+  for (int step = 0; step <= steps + 1; ++step) {
+    if (step <= steps && !is_told(point_at(step))) continue;
+    const MapSegment part{point_at(first), point_at(std::max(first, step - 1))};
+    if (length_of(part) >= kLeastM) parts.push_back(part);
+    first = step + 1;
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<MapSegment> distinct_walls(std::vector<MapSegment> walls) {
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const MapSegment& a, const MapSegment& b) { return length_of(a) > length_of(b); });
+  std::vector<MapSegment> told;
+  for (const MapSegment& wall : walls) {
+    const std::vector<MapSegment> parts = untold_parts(wall, told);
+    told.insert(told.end(), parts.begin(), parts.end());
+  }
+  return told;
 }
 
 }  // namespace swiftlet

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "firmware_link/capture_reader.hpp"
+#include "firmware_link/capture_writer.hpp"
 #include "tests/support/corrected_run.hpp"
 #include "tests/support/map_sharpness.hpp"
 #include "tests/support/reference_data.hpp"
@@ -88,6 +90,36 @@ TEST_P(Flight, StillGivesAMapWhenItsCaptureBreaksOffHalfway) {
   EXPECT_NEAR(static_cast<double>(run.samples.size()), 0.5 * static_cast<double>(GetParam().samples), 100.0);
   ASSERT_EQ(run.T_map_body.size(), run.samples.size());
   EXPECT_LT(cells_hit(run, run.T_map_body), cells_hit(run, dead_reckoned(run)));
+}
+
+/// The capture without what was heard within [from, to) of its first record.
+void copy_without(const std::string& from_path, const std::string& to_path, Duration from, Duration to) {
+  Result<CaptureReader> reader = CaptureReader::open(from_path);
+  ASSERT_TRUE(reader.ok());
+  Result<CaptureRecord> record = reader->next();
+  ASSERT_TRUE(record.ok());
+  Result<CaptureWriter> writer = CaptureWriter::create(to_path, record->vehicle);
+  ASSERT_TRUE(writer.ok());
+  const HostTime start = record->frame.at;
+  for (; record; record = reader->next()) {
+    const Duration elapsed = record->frame.at - start;
+    if (elapsed >= from && elapsed < to) continue;
+    ASSERT_TRUE(writer->write(record->frame).ok());
+  }
+  ASSERT_TRUE(writer->flush().ok());
+}
+
+TEST_P(Flight, IsAsSharpWithASilenceInTheMiddle) {
+  SWIFTLET_REQUIRE_REFERENCE(flight_path(GetParam().name));
+  for (const int seconds : {1, 10}) {
+    const TemporaryFile holed("holed.pcap");
+    copy_without(flight_path(GetParam().name), holed.path(), std::chrono::seconds(120),
+                 std::chrono::seconds(120 + seconds));
+    const CorrectedRun run = corrected_run(holed.path());
+    EXPECT_EQ(run.input.segments, 1U);
+    EXPECT_GE(run.input.gaps, 1U);
+    EXPECT_LT(cells_hit(run, run.T_map_body), 1950U) << seconds << " s";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Recorded, Flight,

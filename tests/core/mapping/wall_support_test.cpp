@@ -47,5 +47,26 @@ TEST(WallSupport, AWallWithoutLengthHasNoParts) {
   EXPECT_TRUE(supported_parts({{1.0, 0.0}, {1.0, 0.0}}, kResolutionM, row_between(-1.0, 3.0)).empty());
 }
 
+TEST(DistinctWalls, TellAWallSeenOnEveryPassOnce) {
+  const std::vector<MapSegment> seen{
+      {{0.0, 0.0}, {3.0, 0.05}}, {{0.2, 0.1}, {3.1, 0.1}}, {{0.0, -0.1}, {4.0, 0.0}}};
+  const std::vector<MapSegment> told = distinct_walls(seen);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].end_map.x_m, 4.0);
+}
+
+TEST(DistinctWalls, KeepWhatAnotherPassSawFurtherOn) {
+  const std::vector<MapSegment> told = distinct_walls({{{0.0, 0.0}, {3.0, 0.0}}, {{2.0, 0.1}, {4.5, 0.1}}});
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_NEAR(told[1].start_map.x_m, 3.25, 0.1);
+  EXPECT_NEAR(told[1].end_map.x_m, 4.5, 1e-9);
+}
+
+TEST(DistinctWalls, KeepCornersAndTheOtherSideOfACorridor) {
+  const std::vector<MapSegment> walls{
+      {{0.0, 0.0}, {3.0, 0.0}}, {{0.0, 0.0}, {0.0, 2.0}}, {{0.0, 1.5}, {2.0, 1.5}}};
+  EXPECT_EQ(distinct_walls(walls).size(), 3U);
+}
+
 }  // namespace
 }  // namespace swiftlet
