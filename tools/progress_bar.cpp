@@ -20,9 +20,9 @@ constexpr const char* kBackToEmptyLine = "\r\x1b[K";
 std::string progress_text(double fraction, std::chrono::duration<double> elapsed, int width) {
   const double done = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(std::lround(done * width));
-  std::string text = "[" + std::string(static_cast<std::size_t>(filled), '#') +
-                     std::string(static_cast<std::size_t>(width - filled), '.') + "] " +
-                     std::to_string(static_cast<int>(done * 100.0)) + " %";
+  std::string text = "[";
+  text.append(static_cast<std::size_t>(filled), '#').append(static_cast<std::size_t>(width - filled), '.');
+  text.append("] ").append(std::to_string(static_cast<int>(done * 100.0))).append(" %");
   if (done < 0.01) return text;
   const auto seconds_left = std::lround(elapsed.count() * (1.0 - done) / done);
   const std::string rest = std::to_string(seconds_left % 60);

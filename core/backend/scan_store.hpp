@@ -23,7 +23,7 @@ struct ScanReturn {
   bool is_hit = false;
 };
 
-/// One scan as the backend remembers it: a few dozen bytes.
+/// One scan as the backend remembers it: about 180 bytes with four beams.
 struct StoredScan {
   HostTime stamp{};
   Pose2 T_odom_body;

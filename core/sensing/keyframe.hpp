@@ -41,7 +41,7 @@ struct Keyframe {
 struct FrontendStep {
   RangeSample sample;
   Pose2 T_local_body;     ///< estimate at once, in the frontend's continuous frame
-  Pose2 T_dead_body;      ///< dead reckoning less its learnt drift: runs on through keyframes, breaks only
+  Pose2 T_dead_body;      ///< dead reckoning less its learnt drift: runs on through keyframes, stands still
                           ///< where a segment starts
   KeyframeId keyframe{};  ///< the newest keyframe, this sample's own if it made one
   Pose2 T_keyframe_body;  ///< by dead reckoning from that keyframe

@@ -31,7 +31,7 @@ struct RangeSample {
   Pose2 T_odom_body;  ///< dead reckoning, interpolated to measured_at
   bool starts_segment =
       false;  ///< the dead reckoning does not continue from the sample before (first sample, reboot,
-              ///< long gap, estimator reset): the step between the two is not a motion
+              ///< silence of half a minute, estimator reset): the step between the two is not a motion
   std::uint8_t beam_count = 0;                ///< beams in use; bearings are in the BeamLayout of the input
   std::array<float, kMaxBeams> distance_m{};  ///< from body to the hit, along the beam
   std::array<RangeStatus, kMaxBeams> status{};
