@@ -47,7 +47,7 @@ void BlockSystem3::add(std::uint32_t row, std::uint32_t column, const double* bl
   SWIFTLET_CHECK(found != rows.end() && *found == row, "the block is in the pattern");
   const auto k = static_cast<std::size_t>(found - rows.begin());
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto start = static_cast<std::size_t>(column_starts_[3 * column + c]);
+    const auto start = static_cast<std::size_t>(column_starts_[std::size_t{3} * column + c]);
     // Column c of the diagonal block holds its last 3 - c rows.
     const std::size_t first_row = k == 0 ? c : 0;
     const std::size_t at = start + (k == 0 ? 0 : (3 - c) + 3 * (k - 1));

@@ -47,11 +47,11 @@ CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Poi
   angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
   linear_steps_ = static_cast<int>(std::ceil(window.radius_m / grid.resolution_m));
   yaw_steps_ = static_cast<int>(std::ceil(window.angle_rad / angle_step_rad_));
-  cells_by_yaw_.resize(static_cast<std::size_t>(2 * yaw_steps_ + 1));
+  cells_by_yaw_.resize(2 * static_cast<std::size_t>(yaw_steps_) + 1);
   for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
     const Pose2 T(window.T_submap_scan.x_m(), window.T_submap_scan.y_m(),
                   window.T_submap_scan.yaw_rad() + yaw * angle_step_rad_);
-    auto& list = cells_by_yaw_[static_cast<std::size_t>(yaw + yaw_steps_)];
+    auto& list = cells_by_yaw_[slot(yaw)];
     list.reserve(points_scan.size());
     for (const Point2& p : points_scan) list.push_back(grid.cell(T * p));
   }

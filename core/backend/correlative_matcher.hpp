@@ -60,7 +60,11 @@ class CorrelativeMatcher {
   [[nodiscard]] Block make_block(int level, int x, int y, int yaw) const;
   void search(const Block& block, double min_score, DiscreteMatch& best) const;
   [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {
-    return cells_by_yaw_[static_cast<std::size_t>(steps_yaw + yaw_steps_)];
+    return cells_by_yaw_[slot(steps_yaw)];
+  }
+  [[nodiscard]] std::size_t slot(int steps_yaw) const {
+    const int from_lowest = steps_yaw + yaw_steps_;
+    return static_cast<std::size_t>(from_lowest);
   }
   void spread_around(const DiscreteMatch& best, MatchResult& result) const;
 
