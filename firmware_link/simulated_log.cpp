@@ -69,17 +69,16 @@ std::uint16_t half_bits(float value) {
 }
 
 /// What the firmware keeps in memory for a variable of that type, and reads back when it logs.
-double stored(double value, SimulatedLogType type) {
-  return type == SimulatedLogType::kFloat ? static_cast<double>(static_cast<float>(value))
-                                          : std::trunc(value);
+double stored(double value, LogType type) {
+  return type == LogType::kFloat ? static_cast<double>(static_cast<float>(value)) : std::trunc(value);
 }
 
-void put_value(PacketBytes& packet, double value, SimulatedLogType fetch_type) {
+void put_value(PacketBytes& packet, double value, LogType fetch_type) {
   switch (fetch_type) {
-    case SimulatedLogType::kFloat:
+    case LogType::kFloat:
       put_little_endian(packet, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
       break;
-    case SimulatedLogType::kFloat16:
+    case LogType::kHalf:
       put_little_endian(packet, half_bits(static_cast<float>(value)), 2);
       break;
     default:
@@ -177,8 +176,7 @@ std::uint8_t SimulatedLog::append(std::uint8_t id, std::span<const std::uint8_t>
   if (found == blocks_.end()) return kNoEntry;
   std::vector<Entry>& present = found->second.entries;
   for (; entries.size() >= kEntryBytes; entries = entries.subspan(kEntryBytes)) {
-    const Entry entry{static_cast<SimulatedLogType>(entries[0] & 0x0FU),
-                      little_endian_16(entries.subspan(1))};
+    const Entry entry{static_cast<LogType>(entries[0] & 0x0FU), little_endian_16(entries.subspan(1))};
     std::size_t bytes = log_type_size(entry.fetch_type);
     for (const Entry& other : present) bytes += log_type_size(other.fetch_type);
     if (bytes > kMaxBlockBytes) return kTooBig;

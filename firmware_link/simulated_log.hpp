@@ -39,7 +39,7 @@ class SimulatedLog {
 
  private:
   struct Entry {
-    SimulatedLogType fetch_type;
+    LogType fetch_type;
     std::uint16_t variable;
   };
   struct Block {

@@ -16,7 +16,7 @@ constexpr double kGravity = 9.81;      // m/s^2
 constexpr double kVelocityVar = 2e-3;  // (m/s)^2, what the filter believes of its velocity
 
 using State = VehicleState;
-using enum SimulatedLogType;
+using enum LogType;
 
 double vx_world_m_s(const State& s) {
   return std::cos(s.yaw_rad) * s.vx_body_m_s - std::sin(s.yaw_rad) * s.vy_body_m_s;
@@ -149,14 +149,14 @@ constexpr LogVariable kTable[] = {
 
 }  // namespace
 
-std::size_t log_type_size(SimulatedLogType type) {
+std::size_t log_type_size(LogType type) {
   switch (type) {
     case kUint8:
     case kInt8:
       return 1;
     case kUint16:
     case kInt16:
-    case kFloat16:
+    case kHalf:
       return 2;
     case kUint32:
     case kInt32:

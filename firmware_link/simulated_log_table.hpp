@@ -7,22 +7,12 @@
 #include <span>
 #include <string_view>
 
+#include "firmware_link/log_value.hpp"
+
 namespace swiftlet {
 
-/// Types of log variables as the table of contents names them. kFloat16 exists only as a type to fetch as.
-enum class SimulatedLogType : std::uint8_t {
-  kUint8 = 1,
-  kUint16 = 2,
-  kUint32 = 3,
-  kInt8 = 4,
-  kInt16 = 5,
-  kInt32 = 6,
-  kFloat = 7,
-  kFloat16 = 8,
-};
-
 /// Bytes on the wire; 0 for a number that names no type.
-[[nodiscard]] std::size_t log_type_size(SimulatedLogType type);
+[[nodiscard]] std::size_t log_type_size(LogType type);
 
 /// Everything that the vehicle's log variables show, in the vehicle's own frames and SI units: position in
 /// the frame set at take-off, attitude as right-handed roll, pitch, yaw.
@@ -56,7 +46,7 @@ struct VehicleState {
 struct LogVariable {
   std::string_view group;
   std::string_view name;
-  SimulatedLogType type;
+  LogType type;
   double (*read)(const VehicleState&);  ///< in the variable's own unit, before conversion to its type
 };
 

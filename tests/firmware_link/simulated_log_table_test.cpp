@@ -59,17 +59,17 @@ TEST(LogTable, HasDistinctNamesThatFitTheWire) {
 TEST(LogTable, OffersWhatSlamNeedsInTheFirmwaresTypes) {
   for (const char* name : {"stateEstimate.x", "stateEstimate.y", "stateEstimate.yaw", "pm.vbat", "gyro.z"}) {
     ASSERT_NE(find(name), nullptr) << name;
-    EXPECT_EQ(find(name)->type, SimulatedLogType::kFloat) << name;
+    EXPECT_EQ(find(name)->type, LogType::kFloat) << name;
   }
   for (const char* name : {"range.front", "range.back", "range.left", "range.right", "range.up",
                            "range.zrange", "supervisor.info", "pm.vbatMV"}) {
     ASSERT_NE(find(name), nullptr) << name;
-    EXPECT_EQ(find(name)->type, SimulatedLogType::kUint16) << name;
+    EXPECT_EQ(find(name)->type, LogType::kUint16) << name;
   }
   ASSERT_NE(find("stateEstimateZ.x"), nullptr);
-  EXPECT_EQ(find("stateEstimateZ.x")->type, SimulatedLogType::kInt16);
+  EXPECT_EQ(find("stateEstimateZ.x")->type, LogType::kInt16);
   ASSERT_NE(find("stateEstimateZ.quat"), nullptr);
-  EXPECT_EQ(find("stateEstimateZ.quat")->type, SimulatedLogType::kUint32);
+  EXPECT_EQ(find("stateEstimateZ.quat")->type, LogType::kUint32);
 }
 
 TEST(LogTable, ShowsPositionInMetresAndMillimetresAndYawInDegrees) {
