@@ -67,6 +67,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const C
   source.beam_count = options.beams;
   if (config.sensor.range_age_s) source.range_age = from_seconds(*config.sensor.range_age_s);
   source.max_range_m = config.sensor.max_range_m;
+  source.min_range_m = config.sensor.min_range_m;
   return open_sample_source(options.input_uri, source);
 }
 

@@ -29,6 +29,7 @@ SensorModel sensor_model(bool uses_odometry_lines, const SampleSourceOptions& op
   sensor.range_age = uses_odometry_lines ? kAgeAgainstOdometryLines : Duration::zero();
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
+  if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
   return sensor;
 }
 

@@ -39,6 +39,7 @@ SensorModel crazyflie_sensor(const SampleSourceOptions& options) {
   SensorModel sensor = SensorModel::crazyflie();
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
+  if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
   return sensor;
 }
 

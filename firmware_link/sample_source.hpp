@@ -66,6 +66,7 @@ struct SampleSourceOptions {
   std::optional<int> beam_count;      ///< laser logs: how many beams to keep (default 11); 2..kMaxBeams
   std::optional<Duration> range_age;  ///< overrides the sensor model's
   std::optional<double> max_range_m;  ///< overrides the sensor model's
+  std::optional<double> min_range_m;  ///< overrides the sensor model's
 };
 
 /// Opens `replay:FILE.pcap`, `sim://WORLD?seed=N`, or a plain path (.pcap, .clf, .clf.gz). kInvalidInput or

@@ -34,6 +34,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   SampleSourceOptions options;
   options.beam_count = command.beams;
   options.max_range_m = config.sensor.max_range_m;
+  options.min_range_m = config.sensor.min_range_m;
   if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
   return open_sample_source(command.input, options);
 }

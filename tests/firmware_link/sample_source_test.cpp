@@ -93,6 +93,7 @@ TEST(OpenSampleSource, PassesOptionsOnAndSaysWhenOneMeansNothing) {
   options.beam_count = 5;
   options.range_age = Duration::zero();
   options.max_range_m = 1.0;
+  options.min_range_m = 0.2;
   const auto source = open_sample_source(capture.path(), options);
   ASSERT_TRUE(source.ok());
   EXPECT_THAT((*source)->report().notes, Contains(HasSubstr("--beams is ignored")));
@@ -100,6 +101,7 @@ TEST(OpenSampleSource, PassesOptionsOnAndSaysWhenOneMeansNothing) {
   EXPECT_EQ(samples.size(), 8U);
   EXPECT_EQ(samples[0].status[0], RangeStatus::kNoReturn);
   EXPECT_EQ((*source)->sensor().max_range_m, 1.0);
+  EXPECT_EQ((*source)->sensor().min_range_m, 0.2);
 }
 
 TEST(OpenSampleSource, RefusesImpossibleOptions) {
