@@ -9,6 +9,7 @@
 
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
+#include "firmware_link/link_statistics.hpp"
 
 namespace swiftlet {
 
@@ -36,10 +37,13 @@ class Link {
 
   /// The next frame. Errors: kTimeout: nothing heard in time, try again. kEndOfRecording: a replay or
   /// simulation is over. kDamaged: the recording is unusable from here; the message names the byte offset.
-  /// kDeviceLost: reopen.
+  /// A live link outlives everything: dongle pulled, vehicle switched off; it answers kTimeout until the
+  /// vehicle is heard again, and statistics() says what it waits for.
   [[nodiscard]] virtual Result<LinkFrame> receive(Duration timeout) = 0;
-  /// Hands a packet to the vehicle. A recording ignores it.
+  /// Hands a packet to the vehicle. A live link sends it within the next receive(), which hands it back as
+  /// sent; what it has no room for is dropped: requests are repeated anyway. A recording ignores it.
   [[nodiscard]] virtual Status send(std::span<const std::uint8_t> packet) = 0;
+  [[nodiscard]] virtual LinkStatistics statistics() const { return {}; }
 };
 
 }  // namespace swiftlet

@@ -77,6 +77,7 @@ Status LinkSampleSource::step() {
   if (!frame) return answer_failure(frame.error());
   now_ = std::max(now_, frame->at);
   ++report_.frames;
+  if (input_.recording != nullptr) input_.recording->take(*frame);
   const std::optional<LogRecord> record = session_.hear(*frame);
   if (handshake_ && frame->direction == LinkDirection::kFromVehicle) {
     handshake_->hear(frame->packet());

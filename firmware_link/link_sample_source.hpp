@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware_link/block_description.hpp"
+#include "firmware_link/frame_sink.hpp"
 #include "firmware_link/link.hpp"
 #include "firmware_link/log_handshake.hpp"
 #include "firmware_link/log_session.hpp"
@@ -24,7 +25,8 @@ struct LinkInput {
   std::string name;  ///< for messages: path or URI
   std::unique_ptr<Link> link;
   SensorModel sensor = SensorModel::crazyflie();
-  bool starts_logging = false;  ///< a live vehicle: ask it for the log; otherwise only listen
+  bool starts_logging = false;     ///< a live vehicle: ask it for the log; otherwise only listen
+  FrameSink* recording = nullptr;  ///< hears every frame too; must outlive the source
   std::optional<BlockDescription> description;
   std::vector<std::string> notes;
   std::function<std::optional<double>()> progress;   ///< may be empty

@@ -93,6 +93,7 @@ Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, co
   LinkInput input;
   input.name = uri;
   input.sensor = crazyflie_sensor(options);
+  input.recording = options.recording;
   input.starts_logging = true;
   if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
   input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };

@@ -12,6 +12,7 @@
 #include "core/base/time.hpp"
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
+#include "firmware_link/frame_sink.hpp"
 
 namespace swiftlet {
 
@@ -67,6 +68,7 @@ struct SampleSourceOptions {
   std::optional<Duration> range_age;  ///< overrides the sensor model's
   std::optional<double> max_range_m;  ///< overrides the sensor model's
   std::optional<double> min_range_m;  ///< overrides the sensor model's
+  FrameSink* recording = nullptr;     ///< links only: hears every frame; must outlive the source
 };
 
 /// Opens `replay:FILE.pcap`, `sim://WORLD?seed=N`, or a plain path (.pcap, .clf, .clf.gz). kInvalidInput or

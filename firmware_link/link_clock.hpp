@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+#include "core/base/time.hpp"
+
+namespace swiftlet {
+
+/// The time of live links: stamps of frames, time-outs and pauses between polls. Injected, so that tests and
+/// simulated dongles can make their own. One thread at a time.
+class LinkClock {
+ public:
+  LinkClock() = default;
+  virtual ~LinkClock() = default;
+  LinkClock(const LinkClock&) = delete;
+  LinkClock& operator=(const LinkClock&) = delete;
+
+  /// Unix time in whole microseconds, as a recording keeps it; never goes back.
+  [[nodiscard]] virtual HostTime now() = 0;
+  virtual void sleep_for(Duration duration) = 0;
+};
+
+/// Unix time as it was at the start, carried on by the monotonic clock: a correction of the machine's clock
+/// in mid-flight does not reach the stamps.
+class SystemLinkClock final : public LinkClock {
+ public:
+  [[nodiscard]] HostTime now() override {
+    const auto elapsed = std::chrono::steady_clock::now() - steady_start_;
+    return HostTime(std::chrono::floor<std::chrono::microseconds>(unix_start_ + elapsed));
+  }
+  void sleep_for(Duration duration) override { std::this_thread::sleep_for(duration); }
+
+ private:
+  std::chrono::steady_clock::time_point steady_start_ = std::chrono::steady_clock::now();
+  Duration unix_start_ = std::chrono::system_clock::now().time_since_epoch();
+};
+
+}  // namespace swiftlet

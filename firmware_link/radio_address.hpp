@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace swiftlet {
+
+/// As the dongle's data rate request numbers them.
+enum class RadioRate : std::uint8_t { k250Kbps = 0, k1Mbps = 1, k2Mbps = 2 };
+
+/// Which vehicle, through which dongle: what a radio:// URI names. The defaults are the vehicle's factory
+/// setting.
+struct RadioAddress {
+  std::string dongle = "0";   ///< index (fewer than 10 digits) or serial number, in capitals; "*": any
+  std::uint8_t channel = 80;  ///< 0..125: 2400 + channel MHz
+  RadioRate rate = RadioRate::k2Mbps;
+  std::array<std::uint8_t, 5> address{0xE7, 0xE7, 0xE7, 0xE7, 0xE7};  ///< in the order of the URI's text
+  bool safelink = true;
+  std::optional<int> rate_limit_hz;  ///< packets a second at most
+};
+
+}  // namespace swiftlet
