@@ -23,14 +23,20 @@ struct CrtpTopic {
   std::uint8_t port = 0;
   std::uint8_t channel = 0;
 };
+inline constexpr CrtpTopic kParamTocTopic{2, 0};
+inline constexpr CrtpTopic kParamReadTopic{2, 1};
 inline constexpr CrtpTopic kLogTocTopic{5, 0};
 inline constexpr CrtpTopic kLogControlTopic{5, 1};
 inline constexpr CrtpTopic kLogDataTopic{5, 2};
 inline constexpr CrtpTopic kPlatformVersionTopic{13, 1};
+inline constexpr CrtpTopic kLinkEchoTopic{15, 0};
 inline constexpr CrtpTopic kLinkSourceTopic{15, 1};
 
-/// Commands of the log port, version 2, channels 0 (table of contents) and 1 (control).
-enum class LogTocCommand : std::uint8_t { kItem = 2, kInfo = 3 };
+/// Commands of the tables of contents, version 2: channel 0 of the log and of the param port.
+enum class TocCommand : std::uint8_t { kItem = 2, kInfo = 3 };
+/// What the vehicle tells of itself on the platform version channel.
+enum class VersionQuery : std::uint8_t { kProtocol = 0, kFirmware = 1, kDeviceType = 2 };
+/// Commands of the log port's control channel.
 enum class LogCommand : std::uint8_t {
   kDelete = 2,
   kStart = 3,
@@ -81,13 +87,18 @@ constexpr std::uint8_t high_byte(unsigned value) { return static_cast<std::uint8
 
 // The requests a listener sends.
 constexpr CrtpPacket source_request() { return make_crtp_packet(kLinkSourceTopic, {0}); }
-constexpr CrtpPacket protocol_version_request() { return make_crtp_packet(kPlatformVersionTopic, {0}); }
-constexpr CrtpPacket toc_info_request() {
-  return make_crtp_packet(kLogTocTopic, {static_cast<std::uint8_t>(LogTocCommand::kInfo)});
+constexpr CrtpPacket version_request(VersionQuery query) {
+  return make_crtp_packet(kPlatformVersionTopic, {static_cast<std::uint8_t>(query)});
 }
-constexpr CrtpPacket toc_item_request(std::uint16_t id) {
-  return make_crtp_packet(kLogTocTopic,
-                          {static_cast<std::uint8_t>(LogTocCommand::kItem), low_byte(id), high_byte(id)});
+/// `topic`: kLogTocTopic or kParamTocTopic.
+constexpr CrtpPacket toc_info_request(const CrtpTopic& topic) {
+  return make_crtp_packet(topic, {static_cast<std::uint8_t>(TocCommand::kInfo)});
+}
+constexpr CrtpPacket toc_item_request(const CrtpTopic& topic, std::uint16_t id) {
+  return make_crtp_packet(topic, {static_cast<std::uint8_t>(TocCommand::kItem), low_byte(id), high_byte(id)});
+}
+constexpr CrtpPacket param_read_request(std::uint16_t id) {
+  return make_crtp_packet(kParamReadTopic, {low_byte(id), high_byte(id)});
 }
 constexpr CrtpPacket log_reset_request() {
   return make_crtp_packet(kLogControlTopic, {static_cast<std::uint8_t>(LogCommand::kReset)});

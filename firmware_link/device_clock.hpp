@@ -21,16 +21,19 @@ class DeviceClockUnwrapper {
       started_ = true;
       last_ms_ = counter;
     } else {
-      const std::uint32_t forward = (counter - static_cast<std::uint32_t>(last_ms_ & kMask)) & kMask;
-      last_ms_ += forward;
-      if (forward >= kHalfSpan) last_ms_ -= kSpan;
+      last_ms_ += shortest_step_ms(std::int64_t{counter} - last_ms_);
     }
     return DeviceTime(std::chrono::milliseconds(last_ms_));
   }
 
+  /// The step of at most half a span, either way, that looks like `step_ms` on a counter that wraps.
+  static constexpr std::int64_t shortest_step_ms(std::int64_t step_ms) {
+    const std::int64_t forward = step_ms & kMask;
+    return forward >= kSpan / 2 ? forward - kSpan : forward;
+  }
+
  private:
   static constexpr std::uint32_t kMask = 0xFFFFFF;
-  static constexpr std::uint32_t kHalfSpan = 1U << 23;
   static constexpr std::int64_t kSpan = std::int64_t{1} << 24;
   bool started_ = false;
   std::int64_t last_ms_ = 0;

@@ -28,10 +28,13 @@ AssemblyConfig assembly_config(const SensorModel& sensor) {
 }  // namespace
 
 LinkSampleSource::LinkSampleSource(LinkInput input)
-    : input_(std::move(input)), extractor_(session_), assembler_(assembly_config(input_.sensor), report_) {
+    : input_(std::move(input)),
+      cache_(input_.cache_directory),
+      extractor_(session_),
+      assembler_(assembly_config(input_.sensor), report_) {
   report_.notes = input_.notes;
   if (input_.description) session_.describe(*input_.description);
-  if (input_.starts_logging) handshake_.emplace(session_);
+  if (input_.starts_logging) live_.emplace(session_, cache_);
   follow_periods();
 }
 
@@ -51,6 +54,7 @@ Status LinkSampleSource::find_first_sample() {
 Result<RangeSample> LinkSampleSource::next() {
   Result<RangeSample> sample = first_sample_ ? Result<RangeSample>(*first_sample_) : read_sample();
   first_sample_.reset();
+  if (sample && live_) live_->see(sample->T_odom_body);
   if (sample && input_.T_world_body_at)
     truth_.push_back({sample->stamp, input_.T_world_body_at(sample->measured_at)});
   return sample;
@@ -66,38 +70,54 @@ Result<RangeSample> LinkSampleSource::read_sample() {
 }
 
 Status LinkSampleSource::step() {
-  if (handshake_) {
-    if (const std::optional<CrtpPacket> request = handshake_->next_request(now_)) {
-      session_.hear_request(bytes_of(*request));
-      Status sent = input_.link->send(bytes_of(*request));
-      if (!sent) return sent;
-    }
+  if (live_) {
+    Status sent = send_request();
+    if (!sent) return sent;
   }
   const Result<LinkFrame> frame = input_.link->receive(kReceiveTimeout);
   if (!frame) return answer_failure(frame.error());
   now_ = std::max(now_, frame->at);
+  hear(*frame);
+  return {};
+}
+
+Status LinkSampleSource::send_request() {
+  if (input_.clock) now_ = input_.clock->now();
+  const std::optional<CrtpPacket> request = live_->next_request(now_);
+  return request ? input_.link->send(bytes_of(*request)) : Status();
+}
+
+void LinkSampleSource::hear(const LinkFrame& frame) {
   ++report_.frames;
-  if (input_.recording != nullptr) input_.recording->take(*frame);
-  const std::optional<LogRecord> record = session_.hear(*frame);
-  if (handshake_ && frame->direction == LinkDirection::kFromVehicle) {
-    handshake_->hear(frame->packet());
-    if (handshake_->failure()) end_ = handshake_->failure();
-    if (end_ || handshake_->finished()) {
-      report_.notes.insert(report_.notes.end(), handshake_->notes().begin(), handshake_->notes().end());
-      handshake_.reset();
-    }
+  if (input_.recording != nullptr) input_.recording->take(frame);
+  const std::optional<LogRecord> record = session_.hear(frame);
+  if (live_ && frame.direction == LinkDirection::kFromVehicle) {
+    live_->hear(frame, record);
+    hear_cached_toc(frame.at);
+    if (live_->failure()) end_ = live_->failure();
   }
-  if (!record) return {};
+  if (!record) return;
   const std::optional<Reading> reading = extractor_.extract(*record);
-  if (!reading) return {};
+  if (!reading) return;
   follow_periods();
   assembler_.add(*reading);
-  return {};
+}
+
+/// A recording has to hold the names too, or it could not be replayed.
+void LinkSampleSource::hear_cached_toc(HostTime at) {
+  for (const CrtpPacket& reply : live_->take_cached_replies()) {
+    LinkFrame frame;
+    frame.at = at;
+    frame.size = static_cast<std::uint8_t>(reply.size());
+    std::copy(reply.begin(), reply.end(), frame.bytes.begin());
+    if (input_.recording != nullptr) input_.recording->take(frame);
+    static_cast<void>(session_.hear(frame));
+  }
 }
 
 Status LinkSampleSource::answer_failure(const Error& error) {
   if (error.code == ErrorCode::kTimeout) {
-    now_ += kReceiveTimeout;
+    now_ += kReceiveTimeout;  // of a clock, the next look sets it right
     return error;
   }
   assembler_.end();
@@ -153,6 +173,18 @@ std::string LinkSampleSource::explain_no_samples() const {
   if (!extractor_.finds_yaw()) return input_.name + ": no yaw in its log packets; log stateEstimate.yaw";
   return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +
          std::to_string(report_.unpaired) + " range packets)";
+}
+
+std::optional<LiveStatus> LinkSampleSource::live_status() const {
+  if (!live_) return std::nullopt;
+  return LiveStatus{input_.link->statistics(), live_->round_trip(), live_->health()};
+}
+
+std::optional<VehicleEvent> LinkSampleSource::take_event() {
+  if (!live_) return std::nullopt;
+  const std::optional<VehicleEvent> event = live_->take_event();
+  if (event && is_warning(*event)) report_.notes.push_back(describe(*event));
+  return event;
 }
 
 std::optional<double> LinkSampleSource::progress() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,21 +13,27 @@
 #include "firmware_link/block_description.hpp"
 #include "firmware_link/frame_sink.hpp"
 #include "firmware_link/link.hpp"
-#include "firmware_link/log_handshake.hpp"
+#include "firmware_link/link_clock.hpp"
+#include "firmware_link/live_session.hpp"
 #include "firmware_link/log_session.hpp"
 #include "firmware_link/reading_extractor.hpp"
 #include "firmware_link/sample_assembler.hpp"
 #include "firmware_link/sample_source.hpp"
+#include "firmware_link/toc_cache.hpp"
+#include "firmware_link/usb_device.hpp"
 
 namespace swiftlet {
 
 /// What a LinkSampleSource is made of.
 struct LinkInput {
-  std::string name;  ///< for messages: path or URI
+  std::string name;                  ///< for messages: path or URI
+  std::shared_ptr<LinkClock> clock;  ///< of a live link; without one time is what the frames say
+  std::shared_ptr<UsbBus> usb_bus;   ///< what the link uses, if anything
   std::unique_ptr<Link> link;
   SensorModel sensor = SensorModel::crazyflie();
-  bool starts_logging = false;     ///< a live vehicle: ask it for the log; otherwise only listen
-  FrameSink* recording = nullptr;  ///< hears every frame too; must outlive the source
+  bool starts_logging = false;  ///< a vehicle that answers: ask it for the log; otherwise only listen
+  std::filesystem::path cache_directory;  ///< of tables of contents; empty: remembered only while running
+  FrameSink* recording = nullptr;         ///< hears every frame too; must outlive the source
   std::optional<BlockDescription> description;
   std::vector<std::string> notes;
   std::function<std::optional<double>()> progress;   ///< may be empty
@@ -49,12 +56,18 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] const SensorModel& sensor() const override { return input_.sensor; }
   [[nodiscard]] const InputReport& report() const override { return report_; }
   [[nodiscard]] std::optional<double> progress() const override;
+  [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
+  [[nodiscard]] std::optional<LiveStatus> live_status() const override;
+  [[nodiscard]] std::optional<VehicleEvent> take_event() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return truth_; }
 
  private:
   Result<RangeSample> read_sample();
   /// One frame's worth of work.
   Status step();
+  Status send_request();
+  void hear(const LinkFrame& frame);
+  void hear_cached_toc(HostTime at);
   Status answer_failure(const Error& error);
   void follow_periods();
   void finish_report();
@@ -64,7 +77,8 @@ class LinkSampleSource final : public SampleSource {
   BeamLayout beams_ = BeamLayout::multiranger();
   InputReport report_;
   LogSession session_;
-  std::optional<LogHandshake> handshake_;
+  TocCache cache_;
+  std::optional<LiveSession> live_;
   ReadingExtractor extractor_;
   SampleAssembler assembler_;
   Duration range_period_{};

@@ -10,8 +10,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr Duration kRepeatAfter = std::chrono::milliseconds(200);
-constexpr std::uint8_t kPeriod10ms = 10;
+constexpr std::uint8_t kFast10ms = 10;
+constexpr std::uint8_t kSlow10ms = 100;
 constexpr std::size_t kMostRemakes = 20;
 constexpr std::string_view kSourceText = "Bitcraze Crazyflie";
 
@@ -26,50 +26,44 @@ constexpr std::array<std::string_view, 8> kRangeBlock{
     "stateEstimate.qw", "stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz",
     "range.front",      "range.back",       "range.left",       "range.right"};
 constexpr std::array<std::string_view, 1> kRangeBlockExtras{"range.zrange"};
+// The vehicle's health, for the status and for whoever reads the recording.
+constexpr std::array<std::string_view, 8> kSlowBlock{
+    "pm.state",           "radio.rssi",          "range.up",    "stateEstimate.z",
+    "stateEstimate.roll", "stateEstimate.pitch", "kalman.varX", "kalman.varY"};
+constexpr std::uint8_t kSlowBlockId = 3;
 
 }  // namespace
 
-LogHandshake::LogHandshake(const LogSession& session) : session_(session) { enter(Step::kSource); }
+LogHandshake::LogHandshake(const LogSession& session, TocCache& cache) : session_(&session), cache_(&cache) {
+  enter(Step::kSource);
+}
 
 std::optional<CrtpPacket> LogHandshake::next_request(HostTime now) {
-  if (!request_) return std::nullopt;
-  if (sent_at_ && now - *sent_at_ < kRepeatAfter) return std::nullopt;
+  if (step_ == Step::kToc) return toc_->next_request(now);
+  if (!request_.is_due(now)) return std::nullopt;
   // An append must not reach the vehicle twice, and nobody knows whether the first did: make the block anew.
-  if (sent_at_ && step_ == Step::kBlocks && !deleting_ &&
-      (*request_)[1] == static_cast<std::uint8_t>(LogCommand::kAppend))
-    remake_block();
-  if (!request_) return std::nullopt;
-  sent_at_ = now;
-  return request_;
+  const bool is_append = (*request_.packet())[1] == static_cast<std::uint8_t>(LogCommand::kAppend);
+  if (request_.was_sent() && step_ == Step::kBlocks && !deleting_ && is_append) remake_block();
+  return request_.take_due(now);
 }
 
 void LogHandshake::hear(std::span<const std::uint8_t> packet) {
-  if (step_ == Step::kSource && is_on(packet, kLinkSourceTopic)) {
-    const std::string_view text(reinterpret_cast<const char*>(packet.data()) + 1, packet.size() - 1);
-    if (!text.starts_with(kSourceText))
-      return fail("the vehicle is not a Crazyflie, or older than CRTP protocol 1");
-    enter(Step::kVersion);
-  } else if (step_ == Step::kVersion && is_on(packet, kPlatformVersionTopic)) {
-    hear_version(packet);
-  } else if ((step_ == Step::kTocInfo || step_ == Step::kTocItems) && is_on(packet, kLogTocTopic)) {
-    hear_toc(packet);
-  } else if ((step_ == Step::kReset || step_ == Step::kBlocks) && is_on(packet, kLogControlTopic)) {
-    hear_control(packet);
-  }
+  if (step_ == Step::kSource && is_on(packet, kLinkSourceTopic)) return hear_source(packet);
+  if (step_ == Step::kVersion && is_on(packet, kPlatformVersionTopic)) return hear_version(packet);
+  if (step_ == Step::kToc && is_on(packet, kLogTocTopic)) return hear_toc(packet);
+  if (!is_on(packet, kLogControlTopic) || packet.size() < 4) return;
+  if (!request_.packet() || packet[1] != (*request_.packet())[1]) return;
+  if (step_ == Step::kReset) return hear_reset(packet);
+  if (step_ == Step::kBlocks) return hear_block_reply(packet);
 }
 
 void LogHandshake::enter(Step step) {
   step_ = step;
-  request_.reset();
-  if (step == Step::kSource) request(source_request());
-  if (step == Step::kVersion) request(protocol_version_request());
-  if (step == Step::kReset) request(log_reset_request());
-  if (step == Step::kTocInfo) request(toc_info_request());
-}
-
-void LogHandshake::request(const CrtpPacket& packet) {
-  request_ = packet;
-  sent_at_.reset();
+  request_.drop();
+  if (step == Step::kSource) request_.ask(source_request());
+  if (step == Step::kVersion) request_.ask(version_request(VersionQuery::kProtocol));
+  if (step == Step::kReset) request_.ask(log_reset_request());
+  if (step == Step::kToc) toc_.emplace(kLogTocTopic, *cache_);
 }
 
 void LogHandshake::fail(std::string message) {
@@ -77,132 +71,142 @@ void LogHandshake::fail(std::string message) {
   enter(Step::kFailed);
 }
 
+void LogHandshake::hear_source(std::span<const std::uint8_t> packet) {
+  const std::string_view text(reinterpret_cast<const char*>(packet.data()) + 1, packet.size() - 1);
+  if (!text.starts_with(kSourceText))
+    return fail("the vehicle is not a Crazyflie, or older than CRTP protocol 1");
+  enter(Step::kVersion);
+}
+
 void LogHandshake::hear_version(std::span<const std::uint8_t> packet) {
-  if (packet.size() < 3 || packet[1] != 0) return;
-  const int version = packet[2];
-  if (version < kOldestProtocol)
-    return fail("the vehicle's firmware speaks CRTP protocol " + std::to_string(version) +
+  if (packet.size() < 3 || packet[1] != static_cast<std::uint8_t>(VersionQuery::kProtocol)) return;
+  protocol_ = packet[2];
+  if (protocol_ < kOldestProtocol)
+    return fail("the vehicle's firmware speaks CRTP protocol " + std::to_string(protocol_) +
                 ", swiftlet needs 4 or newer: update it to 2018.10 or newer");
-  if (version > kNewestProtocol)
-    notes_.push_back("the vehicle's firmware speaks CRTP protocol " + std::to_string(version) +
-                     ", newer than 12, the newest known");
   enter(Step::kReset);
 }
 
-void LogHandshake::hear_toc(std::span<const std::uint8_t> packet) {
-  if (packet.size() < 2) return;
-  const auto command = static_cast<LogTocCommand>(packet[1]);
-  if (step_ == Step::kTocInfo && command == LogTocCommand::kInfo && session_.toc().info()) {
-    enter(Step::kTocItems);
-    item_ = 0;
-    ask_next_item();
-  } else if (step_ == Step::kTocItems && command == LogTocCommand::kItem) {
-    // A reply of two bytes says that there is no such item, although the table counts it.
-    if (packet.size() == 2)
-      return fail("the vehicle's table of contents ends at item " + std::to_string(item_) + " of " +
-                  std::to_string(session_.toc().info()->count) + ": restart the vehicle");
-    ask_next_item();
-  }
+void LogHandshake::hear_reset(std::span<const std::uint8_t> packet) {
+  // The id in the reply to a reset means nothing.
+  if (static_cast<LogError>(packet[3]) != LogError::kNone)
+    return fail("the vehicle refuses to reset its log, error " + std::to_string(packet[3]));
+  enter(Step::kToc);
 }
 
-void LogHandshake::ask_next_item() {
-  while (item_ < session_.toc().info()->count && session_.toc().has(item_)) ++item_;
-  if (item_ >= session_.toc().info()->count) return plan_blocks();
-  const CrtpPacket wanted = toc_item_request(item_);
-  // A reply to an earlier, repeated request changes nothing: the timer runs on.
-  if (!request_ || !std::equal(wanted.begin(), wanted.end(), request_->begin(), request_->end()))
-    request(wanted);
+void LogHandshake::hear_toc(std::span<const std::uint8_t> packet) {
+  toc_->hear(packet);
+  if (toc_->failure()) return fail(toc_->failure()->message);
+  if (!toc_->finished()) return;
+  if (toc_->came_from_cache()) restate_cached_toc();
+  plan_blocks();
+}
+
+/// Only where somebody still has to hear them.
+void LogHandshake::restate_cached_toc() {
+  for (const TocItem& item : toc_->items()) {
+    const std::optional<CrtpPacket> reply = toc_item_reply(kLogTocTopic, item);
+    if (reply && !session_->toc().has(item.id)) cached_replies_.push_back(*reply);
+  }
 }
 
 void LogHandshake::plan_blocks() {
   plan_.clear();
-  if (!plan_block(1, kOneBlock, {})) {
+  if (!plan_block(1, kFast10ms, kOneBlock, {})) {
     plan_.clear();
-    if (!plan_block(1, kPositionBlock, kPositionBlockExtras) ||
-        !plan_block(2, kRangeBlock, kRangeBlockExtras)) {
+    if (!plan_block(1, kFast10ms, kPositionBlock, kPositionBlockExtras) ||
+        !plan_block(2, kFast10ms, kRangeBlock, kRangeBlockExtras)) {
       std::string missing;
       for (const std::string_view name : kPositionBlock)
-        if (!session_.toc().find(name)) missing += ' ' + std::string(name);
+        if (toc_->find(name) == nullptr) missing += ' ' + std::string(name);
       for (const std::string_view name : kRangeBlock)
-        if (!session_.toc().find(name)) missing += ' ' + std::string(name);
-      return fail("the vehicle's firmware does not offer the log variables" + missing);
+        if (toc_->find(name) == nullptr) missing += ' ' + std::string(name);
+      return fail("the vehicle's firmware does not offer the log variables" + missing +
+                  ": update it to 2022.09 or newer");
     }
   }
+  if (plan_block(kSlowBlockId, kSlow10ms, {}, kSlowBlock)) plan_.back().optional = true;
   step_ = Step::kBlocks;
   block_ = 0;
   block_request_ = 0;
   send_block_request();
 }
 
-bool LogHandshake::plan_block(std::uint8_t id, std::span<const std::string_view> required,
+bool LogHandshake::plan_block(std::uint8_t id, std::uint8_t period_10ms,
+                              std::span<const std::string_view> required,
                               std::span<const std::string_view> optional) {
   PlannedBlock planned;
   planned.id = id;
   planned.requests.push_back(log_block_request(LogCommand::kCreate, id));
+  bool holds_anything = false;
   for (const std::span<const std::string_view> names : {required, optional}) {
     for (const std::string_view name : names) {
-      const std::optional<std::uint16_t> variable = session_.toc().find(name);
-      if (!variable && names.data() == required.data()) return false;
-      if (!variable) continue;
-      const auto type = static_cast<std::uint8_t>(session_.toc().type_of(*variable));
-      if (add_log_entry(planned.requests.back(), type, *variable)) continue;
+      const TocItem* const variable = toc_->find(name);
+      if (variable == nullptr && names.data() == required.data()) return false;
+      if (variable == nullptr) continue;
+      holds_anything = true;
+      if (add_log_entry(planned.requests.back(), variable->type, variable->id)) continue;
       planned.requests.push_back(log_block_request(LogCommand::kAppend, id));
-      static_cast<void>(add_log_entry(planned.requests.back(), type, *variable));
+      static_cast<void>(add_log_entry(planned.requests.back(), variable->type, variable->id));
     }
   }
-  planned.requests.push_back(log_start_request(id, kPeriod10ms));
-  plan_.push_back(std::move(planned));
-  return true;
+  planned.requests.push_back(log_start_request(id, period_10ms));
+  if (holds_anything) plan_.push_back(std::move(planned));
+  return holds_anything;
 }
 
-void LogHandshake::hear_control(std::span<const std::uint8_t> packet) {
-  if (packet.size() < 4 || !request_ || packet[1] != (*request_)[1]) return;
+void LogHandshake::hear_block_reply(std::span<const std::uint8_t> packet) {
+  if (packet[2] != plan_[block_].id) return;
   const auto command = static_cast<LogCommand>(packet[1]);
   const auto error = static_cast<LogError>(packet[3]);
-  if (step_ == Step::kReset) {
-    // The id in the reply to a reset means nothing.
-    if (error != LogError::kNone)
-      return fail("the vehicle refuses to reset its log, error " + std::to_string(packet[3]));
-    return enter(Step::kTocInfo);
-  }
-  if (packet[2] == plan_[block_].id) hear_block_reply(command, error);
-}
-
-void LogHandshake::hear_block_reply(LogCommand command, LogError error) {
-  const bool done = error == LogError::kNone;
-  if (command == LogCommand::kDelete && (done || error == LogError::kUnknown)) {
+  if (command == LogCommand::kDelete && (error == LogError::kNone || error == LogError::kUnknown)) {
     deleting_ = false;
     block_request_ = 0;
     return send_block_request();
   }
+  if (error != LogError::kNone) return answer_refusal(command, error);
+  next_block_request();
+}
+
+void LogHandshake::answer_refusal(LogCommand command, LogError error) {
   // It exists from a request whose reply was lost, or is gone with a reboot: make it anew.
-  if ((command == LogCommand::kCreate && error == LogError::kExists) ||
-      (command == LogCommand::kStart && error == LogError::kUnknown))
-    return remake_block();
-  if (!done)
-    return fail("the vehicle refuses log block " + std::to_string(plan_[block_].id) + ", command " +
-                std::to_string(static_cast<int>(command)) + ", error " +
-                std::to_string(static_cast<int>(error)) +
-                (error == LogError::kNoRoom ? ": its log is full; stop other clients" : ""));
-  ++block_request_;
-  if (block_request_ == plan_[block_].requests.size()) {
-    ++block_;
-    block_request_ = 0;
+  const bool is_gone = error == LogError::kUnknown && command != LogCommand::kCreate;
+  if (is_gone || (command == LogCommand::kCreate && error == LogError::kExists)) return remake_block();
+  if (error == LogError::kUnknown && toc_->came_from_cache()) {
+    cache_->forget(kLogTocTopic.port, toc_->info());  // its numbers are not the vehicle's: fetch them
+    return enter(Step::kReset);
   }
+  if (plan_[block_].optional) return next_block();
+  const char* remedy = "";
+  if (error == LogError::kNoRoom) remedy = ": its log is full; stop other clients";
+  if (error == LogError::kUnknown) remedy = ": it does not know its own variables; restart it";
+  if (error == LogError::kUnknownCommand) remedy = ": its firmware is too old; update it";
+  fail("the vehicle refuses log block " + std::to_string(plan_[block_].id) + ", command " +
+       std::to_string(static_cast<int>(command)) + ", error " + std::to_string(static_cast<int>(error)) +
+       remedy);
+}
+
+void LogHandshake::next_block_request() {
+  ++block_request_;
+  if (block_request_ == plan_[block_].requests.size()) return next_block();
   send_block_request();
 }
 
-void LogHandshake::send_block_request() {
+void LogHandshake::next_block() {
+  ++block_;
+  block_request_ = 0;
   if (block_ == plan_.size()) return enter(Step::kFinished);
-  request(plan_[block_].requests[block_request_]);
+  send_block_request();
 }
+
+void LogHandshake::send_block_request() { request_.ask(plan_[block_].requests[block_request_]); }
 
 void LogHandshake::remake_block() {
   if (++remakes_ > kMostRemakes)
     return fail("log block " + std::to_string(plan_[block_].id) + " cannot be made in " +
                 std::to_string(kMostRemakes) + " attempts: too many packets are lost");
   deleting_ = true;
-  request(log_block_request(LogCommand::kDelete, plan_[block_].id));
+  request_.ask(log_block_request(LogCommand::kDelete, plan_[block_].id));
 }
 
 }  // namespace swiftlet

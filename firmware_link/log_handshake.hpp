@@ -8,12 +8,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
 #include "firmware_link/crtp_packet.hpp"
 #include "firmware_link/log_session.hpp"
+#include "firmware_link/pending_request.hpp"
+#include "firmware_link/toc_cache.hpp"
+#include "firmware_link/toc_download.hpp"
 
 namespace swiftlet {
 
@@ -23,56 +27,66 @@ inline constexpr int kNewestProtocol = 12;
 
 /// Brings a live vehicle to send what samples need: says which request to send next, one outstanding,
 /// repeated after 200 ms; learns from the replies. Source, protocol version, reset of the log, table of
-/// contents, then creates and starts the blocks at 10 Hz. No I/O, no clock: it is told the time. One thread
-/// at a time; allocates; `session` must outlive it and hear each packet first.
+/// contents, then creates and starts the blocks: pose and ranges at 10 Hz, the vehicle's health at 1 Hz. No
+/// link, no clock: it is told the time. One thread at a time; allocates; `session` must outlive it and hear
+/// each packet first, `cache` must outlive it.
 class LogHandshake {
  public:
-  explicit LogHandshake(const LogSession& session);
+  LogHandshake(const LogSession& session, TocCache& cache);
 
   /// The packet to send now, if any.
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   /// A packet from the vehicle.
   void hear(std::span<const std::uint8_t> packet);
+  /// Where the table of contents came from the cache: the replies that the vehicle would have given, for
+  /// whoever learns from replies. Empty afterwards.
+  [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return std::exchange(cached_replies_, {}); }
 
   /// All blocks are started: log data flows.
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
   /// Why this vehicle cannot be used; final.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// CRTP protocol version; 0 until heard. kNewestProtocol is the newest that swiftlet was tried with.
+  [[nodiscard]] int protocol() const { return protocol_; }
 
  private:
-  enum class Step { kSource, kVersion, kReset, kTocInfo, kTocItems, kBlocks, kFinished, kFailed };
+  enum class Step { kSource, kVersion, kReset, kToc, kBlocks, kFinished, kFailed };
   struct PlannedBlock {
     std::uint8_t id = 0;
+    bool optional = false;             ///< nothing of a sample stands in it: refused, it is left out
     std::vector<CrtpPacket> requests;  ///< create, append as needed, start
   };
 
   void enter(Step step);
-  void request(const CrtpPacket& packet);
   void fail(std::string message);
+  void hear_source(std::span<const std::uint8_t> packet);
   void hear_version(std::span<const std::uint8_t> packet);
   void hear_toc(std::span<const std::uint8_t> packet);
-  void ask_next_item();
+  void hear_reset(std::span<const std::uint8_t> packet);
+  void hear_block_reply(std::span<const std::uint8_t> packet);
+  void restate_cached_toc();
   void plan_blocks();
-  bool plan_block(std::uint8_t id, std::span<const std::string_view> required,
+  bool plan_block(std::uint8_t id, std::uint8_t period_10ms, std::span<const std::string_view> required,
                   std::span<const std::string_view> optional);
-  void hear_control(std::span<const std::uint8_t> packet);
-  void hear_block_reply(LogCommand command, LogError error);
+  void answer_refusal(LogCommand command, LogError error);
+  void next_block_request();
+  void next_block();
   void send_block_request();
   void remake_block();
 
-  const LogSession& session_;
+  const LogSession* session_;
+  TocCache* cache_;
   Step step_ = Step::kSource;
-  std::optional<CrtpPacket> request_;
-  std::optional<HostTime> sent_at_;
-  std::uint16_t item_ = 0;
+  PendingRequest request_;
+  int protocol_ = 0;
+  std::optional<TocDownload> toc_;
+  std::vector<CrtpPacket> cached_replies_;
   std::vector<PlannedBlock> plan_;
   std::size_t block_ = 0;          ///< of the plan
   std::size_t block_request_ = 0;  ///< of the block
   bool deleting_ = false;          ///< the block is being deleted, to be made anew
   std::size_t remakes_ = 0;
   std::optional<Error> failure_;
-  std::vector<std::string> notes_;
 };
 
 }  // namespace swiftlet

@@ -3,12 +3,21 @@
 #include "firmware_link/log_session.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <utility>
 
 #include "core/base/check.hpp"
 #include "firmware_link/byte_order.hpp"
 #include "firmware_link/crtp_packet.hpp"
 
 namespace swiftlet {
+namespace {
+
+// Packets of less than a second wait in the vehicle while the link is silent; older ones are thrown away.
+constexpr Duration kClocksAgree = std::chrono::seconds(2);
+
+}  // namespace
 
 void LogSession::describe(const BlockDescription& description) {
   described_blocks_.assign(256, LogBlock{});
@@ -42,7 +51,26 @@ std::optional<LogRecord> LogSession::hear(const LinkFrame& frame) {
 }
 
 void LogSession::hear_request(std::span<const std::uint8_t> packet) {
-  if (is_on(packet, kLogControlTopic)) blocks_.hear_request(packet);
+  if (!is_on(packet, kLogControlTopic)) return;
+  blocks_.hear_request(packet);
+  if (packet.size() > 1 && packet[1] == static_cast<std::uint8_t>(LogCommand::kReset)) reset_heard_ = true;
+}
+
+/// A reset is how a session begins, also after the link was lost. If the vehicle's clock did not run on as
+/// long as ours did meanwhile, the vehicle has rebooted (or is another one).
+DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime heard) {
+  if (std::exchange(reset_heard_, false) && last_data_) {
+    using std::chrono::milliseconds;
+    const auto ours_ms = (heard - last_data_->heard) / milliseconds(1);
+    const auto theirs_ms = static_cast<std::int64_t>(counter_ms) - last_data_->counter_ms;
+    const auto apart_ms = std::abs(DeviceClockUnwrapper::shortest_step_ms(theirs_ms - ours_ms));
+    if (apart_ms > kClocksAgree / milliseconds(1)) {
+      ++boot_;
+      clock_ = {};
+    }
+  }
+  last_data_ = {counter_ms, heard};
+  return clock_.unwrap(counter_ms);
 }
 
 std::optional<LogRecord> LogSession::read(const LinkFrame& frame) {
@@ -53,7 +81,8 @@ std::optional<LogRecord> LogSession::read(const LinkFrame& frame) {
   }
   LogRecord record;
   record.block_id = packet[1];
-  record.at = clock_.unwrap(static_cast<std::uint32_t>(load_little_endian(packet, 2, 3)));
+  record.at = time_of(static_cast<std::uint32_t>(load_little_endian(packet, 2, 3)), frame.at);
+  record.boot = boot_;
   record.heard = frame.at;
   record.values = packet.subspan(kLogDataPrefix);
   record.entry_count = blocks_.entries_in(record.block_id, record.values.size());

@@ -27,6 +27,7 @@ struct LogRecord {
   const LogBlock* block = nullptr;
   bool described = false;       ///< the layout is the description's, not the capture's
   std::size_t entry_count = 0;  ///< entries of the block that this packet holds
+  std::uint32_t boot = 0;       ///< counts the vehicle's reboots: times of two boots are not comparable
   DeviceTime at{};
   HostTime heard{};
   std::span<const std::uint8_t> values;
@@ -67,7 +68,13 @@ class LogSession {
   [[nodiscard]] const UnreadableRecords& unreadable() const { return unreadable_; }
 
  private:
+  /// The last log data packet.
+  struct LastData {
+    std::uint32_t counter_ms = 0;
+    HostTime heard{};
+  };
   std::optional<LogRecord> read(const LinkFrame& frame);
+  DeviceTime time_of(std::uint32_t counter_ms, HostTime heard);
   /// Whether the first `entry_count` entries exist and have names.
   [[nodiscard]] bool is_named(const LogBlock& block, std::size_t entry_count) const;
 
@@ -77,6 +84,9 @@ class LogSession {
   std::vector<LogBlock> described_blocks_;  // by id, empty without a description
   std::uint32_t toc_revision_ = 0;
   DeviceClockUnwrapper clock_;
+  std::optional<LastData> last_data_;
+  bool reset_heard_ = false;
+  std::uint32_t boot_ = 0;
   bool used_description_ = false;
   UnreadableRecords unreadable_;
 };

@@ -6,36 +6,24 @@
 #include <utility>
 
 #include "core/base/check.hpp"
-#include "firmware_link/byte_order.hpp"
-#include "firmware_link/crtp_packet.hpp"
 
 namespace swiftlet {
 
 bool LogToc::hear_reply(std::span<const std::uint8_t> packet) {
-  if (packet.size() >= 8 && packet[1] == static_cast<std::uint8_t>(LogTocCommand::kInfo)) {
-    hear_info(packet);
+  if (const std::optional<TocInfo> info = read_toc_info(packet)) {
+    hear_info(*info);
     return true;
   }
-  return packet.size() >= 5 && packet[1] == static_cast<std::uint8_t>(LogTocCommand::kItem) &&
-         hear_item(packet);
-}
-
-void LogToc::hear_info(std::span<const std::uint8_t> packet) {
-  const Info heard{load_u16(packet, 2), load_u32(packet, 4)};
-  if (info_ && (info_->crc != heard.crc || info_->count != heard.count)) clear();
-  info_ = heard;
-}
-
-bool LogToc::hear_item(std::span<const std::uint8_t> packet) {
-  const std::optional<LogType> type = log_type_of(packet[4]);
-  const auto group_end = std::find(packet.begin() + 5, packet.end(), std::uint8_t{0});
-  if (!type || group_end == packet.end()) return false;
-  const auto name_end = std::find(group_end + 1, packet.end(), std::uint8_t{0});
-  std::string name(packet.begin() + 5, group_end);
-  name += '.';
-  name.append(group_end + 1, name_end);
-  add(load_u16(packet, 2), *type, std::move(name));
+  std::optional<TocItem> item = read_toc_item(packet);
+  const std::optional<LogType> type = item ? log_type_of(item->type) : std::nullopt;
+  if (!type) return false;
+  add(item->id, *type, std::move(item->name));
   return true;
+}
+
+void LogToc::hear_info(const TocInfo& heard) {
+  if (info_ && *info_ != heard) clear();
+  info_ = heard;
 }
 
 void LogToc::add(std::uint16_t id, LogType type, std::string name) {

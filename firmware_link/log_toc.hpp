@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware_link/log_value.hpp"
+#include "firmware_link/toc_item.hpp"
 
 namespace swiftlet {
 
@@ -19,18 +20,13 @@ namespace swiftlet {
 /// is filled.
 class LogToc {
  public:
-  struct Info {
-    std::uint16_t count = 0;
-    std::uint32_t crc = 0;  ///< an opaque key of the whole table
-  };
-
   /// Learns from a reply of the table-of-contents channel (5:0); false when it says nothing. A changed crc
   /// forgets all items: another firmware.
   bool hear_reply(std::span<const std::uint8_t> packet);
   void add(std::uint16_t id, LogType type, std::string name);
   void clear();
 
-  [[nodiscard]] const std::optional<Info>& info() const { return info_; }
+  [[nodiscard]] const std::optional<TocInfo>& info() const { return info_; }
   [[nodiscard]] bool has(std::uint16_t id) const { return !name_of(id).empty(); }
   /// "group.name"; empty when unknown. Valid until the table changes.
   [[nodiscard]] std::string_view name_of(std::uint16_t id) const;
@@ -45,10 +41,9 @@ class LogToc {
     LogType type = LogType::kUint8;
     std::string name;
   };
-  void hear_info(std::span<const std::uint8_t> packet);
-  bool hear_item(std::span<const std::uint8_t> packet);
+  void hear_info(const TocInfo& heard);
 
-  std::optional<Info> info_;
+  std::optional<TocInfo> info_;
   std::vector<Item> items_;  // by id
   std::size_t known_ = 0;
 };

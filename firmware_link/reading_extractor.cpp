@@ -16,6 +16,7 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
   Reading reading;
   reading.stream = record.block_id;
+  reading.boot = record.boot;
   reading.at = record.at;
   reading.heard = record.heard;
   if (slots.position != PositionKind::kNone && take_from(position_source_, record))

@@ -47,6 +47,11 @@ void SampleAssembler::add(const Reading& reading) {
 }
 
 bool SampleAssembler::accept_time(const Reading& reading) {
+  if (reading.boot != boot_) {
+    boot_ = reading.boot;
+    restart();
+    latest_ = reading.at;
+  }
   std::optional<DeviceTime>& last = last_by_stream_[reading.stream];
   if (last && reading.at == *last) {
     ++report_.duplicates;
@@ -74,21 +79,25 @@ void SampleAssembler::restart() {
 
 void SampleAssembler::hold_ranges(const Reading& reading) {
   ++report_.range_packets;
-  count_gap(reading.at);
+  count_gap(reading);
   if (pending_.full()) drop_oldest();
   static_cast<void>(
       pending_.try_push_back({reading.at - config_.sensor.range_age, reading.heard, reading.distance_m}));
 }
 
-void SampleAssembler::count_gap(DeviceTime at) {
-  if (last_ranges_at_ && config_.range_period > Duration::zero()) {
-    const double periods = to_seconds(at - *last_ranges_at_) / to_seconds(config_.range_period);
+/// By the vehicle's clock; by ours where the vehicle's began anew.
+void SampleAssembler::count_gap(const Reading& reading) {
+  if (last_ranges_heard_ && config_.range_period > Duration::zero()) {
+    const Duration since =
+        last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.heard - *last_ranges_heard_;
+    const double periods = to_seconds(since) / to_seconds(config_.range_period);
     if (periods > kLongestHoleInPeriods) {
       ++report_.gaps;
       report_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
     }
   }
-  last_ranges_at_ = at;
+  last_ranges_at_ = reading.at;
+  last_ranges_heard_ = reading.heard;
 }
 
 std::optional<RangeSample> SampleAssembler::take() {

@@ -19,6 +19,7 @@ namespace swiftlet {
 /// What one packet, or one line of a log, said, whatever its format.
 struct Reading {
   std::uint8_t stream = 0;  ///< log block, or kind of line: times ascend within one
+  std::uint32_t boot = 0;   ///< of the vehicle: its clock and its dead reckoning begin anew with each
   DeviceTime at{};
   HostTime heard{};
   std::optional<Point2> position_odom;
@@ -70,7 +71,7 @@ class SampleAssembler {
   /// False when the reading is a duplicate or late.
   bool accept_time(const Reading& reading);
   void restart();
-  void count_gap(DeviceTime at);
+  void count_gap(const Reading& reading);
   void hold_ranges(const Reading& reading);
   RangeSample finish(const PendingRanges& ranges, const Pose2& T_odom_body, const Motion& motion);
   void drop_oldest();
@@ -81,7 +82,9 @@ class SampleAssembler {
   OdometryTimeline<YawReading> yaws_;
   FixedVector<PendingRanges, 16> pending_;
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
-  std::optional<DeviceTime> last_ranges_at_;
+  std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart
+  std::optional<HostTime> last_ranges_heard_;
+  std::uint32_t boot_ = 0;
   DeviceTime latest_{};  ///< of all readings since the last restart
   std::optional<Motion> last_motion_;
   std::uint32_t next_sequence_ = 0;

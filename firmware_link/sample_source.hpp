@@ -13,6 +13,8 @@
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
 #include "firmware_link/frame_sink.hpp"
+#include "firmware_link/live_status.hpp"
+#include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
 
@@ -58,6 +60,12 @@ class SampleSource {
   [[nodiscard]] virtual const InputReport& report() const = 0;
   /// How far through a recording it is, 0 to 1; nullopt when the end is unknown.
   [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
+  /// A vehicle that cannot be asked to wait: samples come when they come, and there is no end.
+  [[nodiscard]] virtual bool is_live() const { return false; }
+  /// How the link and the vehicle stand; nullopt for recordings and laser logs.
+  [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
+  /// What happened to the vehicle or its link since the last call, in order.
+  [[nodiscard]] virtual std::optional<VehicleEvent> take_event() { return std::nullopt; }
   /// T_world_body at every sample delivered so far, stamped like the sample; empty where nobody knows the
   /// truth.
   [[nodiscard]] virtual std::vector<StampedPose> ground_truth() const { return {}; }

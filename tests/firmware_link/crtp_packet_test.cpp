@@ -16,9 +16,9 @@ using testing::ElementsAreArray;
 
 TEST(CrtpPacket, RequestsAreByteExact) {
   EXPECT_THAT(source_request(), ElementsAreArray(hex("fd 00")));
-  EXPECT_THAT(protocol_version_request(), ElementsAreArray(hex("dd 00")));
-  EXPECT_THAT(toc_info_request(), ElementsAreArray(hex("5c 03")));
-  EXPECT_THAT(toc_item_request(0x018B), ElementsAreArray(hex("5c 02 8b 01")));
+  EXPECT_THAT(version_request(VersionQuery::kProtocol), ElementsAreArray(hex("dd 00")));
+  EXPECT_THAT(toc_info_request(kLogTocTopic), ElementsAreArray(hex("5c 03")));
+  EXPECT_THAT(toc_item_request(kLogTocTopic, 0x018B), ElementsAreArray(hex("5c 02 8b 01")));
   EXPECT_THAT(log_reset_request(), ElementsAreArray(hex("5d 05")));
   EXPECT_THAT(log_start_request(1, 10), ElementsAreArray(hex("5d 03 01 0a")));
 }

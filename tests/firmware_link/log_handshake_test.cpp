@@ -36,6 +36,8 @@ class LogHandshakeTest : public testing::Test {
       if (!frame) continue;
       static_cast<void>(session.hear(*frame));
       if (frame->direction == LinkDirection::kFromVehicle) handshake.hear(frame->packet());
+      for (const CrtpPacket& reply : handshake.take_cached_replies())
+        static_cast<void>(session.hear(received({reply.begin(), reply.end()}, frame->at)));
     }
   }
   [[nodiscard]] std::vector<std::string> names_of(std::uint8_t block) const {
@@ -50,27 +52,29 @@ class LogHandshakeTest : public testing::Test {
 
   ScriptedLink link_;
   LogSession session_;
-  LogHandshake handshake_{session_};
+  TocCache cache_;
+  LogHandshake handshake_{session_, cache_};
 };
 
 TEST_F(LogHandshakeTest, AsksInTheOrderOfTheWireDocument) {
   run();
   ASSERT_TRUE(handshake_.finished());
-  ASSERT_EQ(link_.requests.size(), 4 + link_.vehicle.variables.size() + 3);
+  ASSERT_EQ(link_.requests.size(), 4 + link_.vehicle.variables.size() + 5);
   EXPECT_EQ(link_.requests[0], hex("fd 00"));
   EXPECT_EQ(link_.requests[1], hex("dd 00"));
   EXPECT_EQ(link_.requests[2], hex("5d 05"));
   EXPECT_EQ(link_.requests[3], hex("5c 03"));
   EXPECT_EQ(link_.requests[4], hex("5c 02 00 00"));
-  EXPECT_EQ(link_.requests.back(), hex("5d 03 01 0a"));
+  EXPECT_EQ(link_.requests[link_.requests.size() - 3], hex("5d 03 01 0a"));
+  EXPECT_EQ(link_.requests.back(), hex("5d 03 03 64"));
   EXPECT_FALSE(handshake_.next_request(host_ms(link_.now_ms + 10'000)).has_value());
-  EXPECT_TRUE(handshake_.notes().empty());
+  EXPECT_EQ(handshake_.protocol(), 12);
 }
 
 TEST_F(LogHandshakeTest, StartsOneBlockWithEverythingWhereTheFirmwareHasIt) {
   run();
   ASSERT_TRUE(handshake_.finished());
-  ASSERT_EQ(link_.vehicle.blocks.size(), 1U);
+  ASSERT_EQ(link_.vehicle.blocks.size(), 2U);
   EXPECT_THAT(names_of(1), ElementsAre("stateEstimate.x", "stateEstimate.y", "stateEstimate.yaw",
                                        "range.front", "range.back", "range.left", "range.right",
                                        "range.zrange", "supervisor.info", "pm.vbatMV"));
@@ -102,18 +106,19 @@ TEST_F(LogHandshakeTest, NamesWhatTheFirmwareLacks) {
   EXPECT_THAT(handshake_.failure()->message, HasSubstr("log variables stateEstimateZ.x range.left"));
 }
 
-TEST_F(LogHandshakeTest, RefusesFirmwareThatIsTooOldAndNotesOneThatIsNewer) {
+TEST_F(LogHandshakeTest, RefusesFirmwareThatIsTooOldAndGoesOnWithOneThatIsNewer) {
   link_.vehicle.protocol = 3;
   run();
   ASSERT_TRUE(handshake_.failure().has_value());
   EXPECT_THAT(handshake_.failure()->message, HasSubstr("CRTP protocol 3"));
 
   LogSession session;
-  LogHandshake newer(session);
+  TocCache cache;
+  LogHandshake newer(session, cache);
   newer.hear(hex("fd 42 69 74 63 72 61 7a 65 20 43 72 61 7a 79 66 6c 69 65 00"));
   newer.hear(hex("dd 00 0d 00 00 00"));
   EXPECT_FALSE(newer.failure().has_value());
-  EXPECT_THAT(newer.notes(), ElementsAre(HasSubstr("protocol 13, newer than 12")));
+  EXPECT_EQ(newer.protocol(), 13);
 }
 
 TEST_F(LogHandshakeTest, RefusesWhatIsNoCrazyflie) {
@@ -137,7 +142,8 @@ TEST_F(LogHandshakeTest, IgnoresRepliesToOtherItemsAndBlocks) {
   run();
   ASSERT_TRUE(handshake_.finished());
   LogSession session;
-  LogHandshake handshake(session);
+  TocCache cache;
+  LogHandshake handshake(session, cache);
   handshake.hear(hex("5d 03 01 00"));
   handshake.hear(hex("50 02"));
   handshake.hear(hex("52 01 00 00 00 00"));
@@ -166,6 +172,42 @@ TEST_F(LogHandshakeTest, MakesABlockAnewThatVanishedBeforeItsStart) {
   EXPECT_EQ(names_of(1).size(), 10U);
 }
 
+TEST_F(LogHandshakeTest, ASecondSessionTakesTheTableOfContentsFromTheCache) {
+  run();
+  const std::size_t requests = link_.requests.size();
+  LogSession session;
+  LogHandshake again(session, cache_);
+  run(link_, session, again);
+  ASSERT_TRUE(again.finished());
+  EXPECT_EQ(link_.requests.size(), 2 * requests - link_.vehicle.variables.size());
+  EXPECT_EQ(session.toc().size(), link_.vehicle.variables.size());
+  EXPECT_EQ(session.blocks()[1].entries.size(), 10U);
+}
+
+TEST_F(LogHandshakeTest, ACacheThatIsWrongIsForgotten) {
+  std::vector<TocItem> wrong;
+  for (std::uint16_t id = 0; id < link_.vehicle.variables.size(); ++id) {
+    const ScriptedVehicle::Variable& v = link_.vehicle.variables[id];
+    wrong.push_back(
+        {static_cast<std::uint16_t>(id + 500), static_cast<std::uint8_t>(v.type), v.group + "." + v.name});
+  }
+  cache_.store(kLogTocTopic.port, {static_cast<std::uint16_t>(wrong.size()), 0x04030201}, wrong);
+  run();
+  ASSERT_TRUE(handshake_.finished());
+  EXPECT_EQ(names_of(1).size(), 10U);
+}
+
+TEST_F(LogHandshakeTest, DoesWithoutTheSlowBlockWhereThereIsNoRoom) {
+  link_.fate = [this](std::span<const std::uint8_t> request) {
+    if (request[0] == 0x5D && request[1] == 6 && request[2] == 3) link_.vehicle.room = 0;
+    return Fate::kArrives;
+  };
+  run();
+  ASSERT_TRUE(handshake_.finished());
+  EXPECT_TRUE(link_.vehicle.blocks[1].running);
+  EXPECT_FALSE(link_.vehicle.blocks[3].running);
+}
+
 TEST_F(LogHandshakeTest, EveryRequestMayBeLostOnceOrItsAnswer) {
   run();
   const std::size_t requests = link_.requests.size();
@@ -176,7 +218,8 @@ TEST_F(LogHandshakeTest, EveryRequestMayBeLostOnceOrItsAnswer) {
       std::size_t count = 0;
       link.fate = [&](auto) { return count++ == lost ? fate : Fate::kArrives; };
       LogSession session;
-      LogHandshake handshake(session);
+      TocCache cache;
+      LogHandshake handshake(session, cache);
       run(link, session, handshake);
       ASSERT_TRUE(handshake.finished()) << "lost " << lost;
       ASSERT_EQ(link.vehicle.blocks.at(1).entries.size(), 10U) << "lost " << lost;

@@ -35,7 +35,14 @@ class ScriptedVehicle {
     bool running = false;
   };
 
+  struct Param {
+    std::string group;
+    std::string name;
+    std::uint8_t value = 0;
+  };
+
   std::vector<Variable> variables;
+  std::vector<Param> params{{"deck", "bcMultiranger", 1}, {"deck", "bcFlow2", 1}};
   std::uint8_t protocol = 12;
   std::string source = "Bitcraze Crazyflie";
   std::map<std::uint8_t, Block> blocks;
@@ -62,7 +69,10 @@ class ScriptedVehicle {
       reply.resize(31, 0);
       return reply;
     }
-    if (is_on(request, kPlatformVersionTopic)) return Bytes{0xDD, 0, protocol, 0, 0, 0};
+    if (is_on(request, kPlatformVersionTopic)) return answer_version(request);
+    if (is_on(request, kParamTocTopic)) return answer_param_toc(request);
+    if (is_on(request, kParamReadTopic)) return answer_param_read(request);
+    if (is_on(request, kLinkEchoTopic)) return Bytes(request.begin(), request.end());
     if (is_on(request, kLogTocTopic)) return answer_toc(request);
     if (is_on(request, kLogControlTopic)) return answer_control(request);
     return std::nullopt;
@@ -84,6 +94,30 @@ class ScriptedVehicle {
   }
 
  private:
+  [[nodiscard]] Bytes answer_version(std::span<const std::uint8_t> request) const {
+    if (request[1] == 0) return {0xDD, 0, protocol, 0, 0, 0};
+    const std::string text = request[1] == 1 ? "2026.08" : "Crazyflie 2.1";
+    Bytes reply{0xDD, request[1]};
+    reply.insert(reply.end(), text.begin(), text.end());
+    return reply;
+  }
+  [[nodiscard]] Bytes answer_param_toc(std::span<const std::uint8_t> request) const {
+    if (request[1] == 3) {
+      const auto count = static_cast<std::uint16_t>(params.size());
+      return {0x20, 3, low_byte(count), high_byte(count), 5, 6, 7, 8};
+    }
+    const std::uint16_t id = load_u16(request, 2);
+    if (id >= params.size()) return {0x20, 2};
+    Bytes reply = toc_item_reply(id, LogType::kHalf, params[id].group, params[id].name);
+    reply[0] = 0x20;
+    return reply;
+  }
+  [[nodiscard]] Bytes answer_param_read(std::span<const std::uint8_t> request) const {
+    const std::uint16_t id = load_u16(request, 1);
+    if (id >= params.size()) return {0x2D, request[1], request[2], 2};
+    return {0x2D, request[1], request[2], 0, params[id].value};
+  }
+
   Bytes answer_toc(std::span<const std::uint8_t> request) const {
     if (request[1] == 3) {
       const auto count = static_cast<std::uint16_t>(variables.size());
@@ -138,14 +172,17 @@ class ScriptedLink final : public Link {
 
   ScriptedVehicle vehicle;
   std::function<Fate(std::span<const std::uint8_t>)> fate = [](auto) { return Fate::kArrives; };
+  /// False: nothing passes, either way.
+  std::function<bool(std::int64_t)> reaches = [](std::int64_t) { return true; };
   std::vector<Bytes> requests;
+  std::int64_t booted_ms = 0;  ///< the vehicle's clock counts from then
   std::int64_t now_ms = 0;
   std::int64_t last_ms = 60'000;
 
   Status send(std::span<const std::uint8_t> packet) override {
     requests.emplace_back(packet.begin(), packet.end());
     frames_.push_back(sent(requests.back(), host_ms(now_ms)));
-    const Fate what = fate(packet);
+    const Fate what = reaches(now_ms) ? fate(packet) : Fate::kRequestLost;
     if (what == Fate::kRequestLost) return {};
     const std::optional<Bytes> reply = vehicle.answer(packet);
     if (reply && what == Fate::kArrives) frames_.push_back(received(*reply, host_ms(now_ms + 1)));
@@ -159,8 +196,8 @@ class ScriptedLink final : public Link {
       now_ms = heard ? next_ms : now_ms + patience_ms;
       if (now_ms > last_ms) return Error{ErrorCode::kEndOfRecording, "landed"};
       if (!heard) return Error{ErrorCode::kTimeout, "nothing heard"};
-      for (const Bytes& packet : vehicle.data(static_cast<std::uint32_t>(now_ms)))
-        frames_.push_back(received(packet, host_ms(now_ms)));
+      for (const Bytes& packet : vehicle.data(static_cast<std::uint32_t>(now_ms - booted_ms)))
+        if (reaches(now_ms)) frames_.push_back(received(packet, host_ms(now_ms)));
       if (frames_.empty()) return Error{ErrorCode::kTimeout, "nothing heard"};
     }
     const LinkFrame frame = frames_.front();

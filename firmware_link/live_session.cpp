@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/live_session.hpp"
+
+#include <chrono>
+
+namespace swiftlet {
+namespace {
+
+using Kind = VehicleEvent::Kind;
+
+// The firmware's own watchdog: after as long without a packet it deletes the log blocks.
+constexpr Duration kLongestSilence = std::chrono::seconds(1);
+constexpr Duration kTryAgainAfter = std::chrono::seconds(5);
+
+}  // namespace
+
+LiveSession::LiveSession(const LogSession& session, TocCache& cache)
+    : session_(session), cache_(cache), handshake_(session, cache), inventory_(cache), monitor_(session) {}
+
+std::optional<CrtpPacket> LiveSession::next_request(HostTime now) {
+  watch_for_silence(now);
+  if (refused_at_ && now - *refused_at_ >= kTryAgainAfter) restart();
+  if (!handshake_.finished()) return handshake_.next_request(now);
+  if (!inventory_.finished()) return inventory_.next_request(now);
+  return round_trip_.next_request(now);
+}
+
+void LiveSession::watch_for_silence(HostTime now) {
+  if (!handshake_.finished() || !data_at_ || now - *data_at_ <= kLongestSilence) return;
+  tell(Kind::kDataStopped);
+  restart();
+}
+
+void LiveSession::restart() {
+  handshake_ = LogHandshake(session_, cache_);
+  inventory_ = VehicleInventory(cache_);
+  inventory_told_ = false;
+  monitor_.restart();
+  data_at_.reset();
+  refused_at_.reset();
+}
+
+void LiveSession::hear(const LinkFrame& frame, const std::optional<LogRecord>& record) {
+  if (!handshake_.finished()) return hear_handshake(frame);
+  if (record) {
+    data_at_ = frame.at;
+    monitor_.hear(*record);
+    if (record->boot != boot_) tell(Kind::kRebooted);
+    boot_ = record->boot;
+  }
+  round_trip_.hear(frame.packet(), frame.at);
+  hear_inventory(frame);
+}
+
+void LiveSession::hear_handshake(const LinkFrame& frame) {
+  if (refused_at_) return;
+  handshake_.hear(frame.packet());
+  if (handshake_.failure()) {
+    refused_at_ = frame.at;
+    if (was_connected_) return tell(Kind::kRefused);
+    failure_ = handshake_.failure();
+  } else if (handshake_.finished()) {
+    was_connected_ = true;
+    data_at_ = frame.at;
+    tell(Kind::kConnected, handshake_.protocol());
+    if (handshake_.protocol() > kNewestProtocol) tell(Kind::kProtocolNewer, handshake_.protocol());
+  }
+}
+
+void LiveSession::hear_inventory(const LinkFrame& frame) {
+  inventory_.hear(frame.packet());
+  if (!inventory_.finished() || inventory_told_) return;
+  inventory_told_ = true;
+  if (inventory_.has_multiranger() == false) tell(Kind::kNoMultiranger);
+  if (inventory_.has_flow_deck() == false) tell(Kind::kNoFlowDeck);
+}
+
+void LiveSession::tell(Kind kind, std::int32_t value) {
+  static_cast<void>(events_.try_push_back({kind, value}));
+}
+
+std::optional<VehicleEvent> LiveSession::take_event() {
+  if (events_.empty()) return monitor_.take_event();
+  const VehicleEvent event = events_.front();
+  events_.erase(0);
+  return event;
+}
+
+std::string LiveSession::vehicle_text() const {
+  if (!inventory_.finished()) return {};
+  return inventory_.device_type() + ", firmware " + inventory_.firmware();
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "firmware_link/live_status.hpp"
+#include "firmware_link/log_session.hpp"
+#include "firmware_link/vehicle_event.hpp"
+
+namespace swiftlet {
+
+/// Reads the vehicle's health from the log records as they pass, and watches for the yaw trap: while the
+/// supervisor says "not flying" the firmware pulls the yaw estimate towards kalman.initialYaw with a time
+/// constant of ten seconds, so a vehicle that is carried turns the map. One thread at a time; allocates
+/// nothing; `session` must outlive it.
+class VehicleMonitor {
+ public:
+  explicit VehicleMonitor(const LogSession& session) : session_(session) {}
+
+  void hear(const LogRecord& record);
+  /// Dead reckoning, as samples come.
+  void see(const Pose2& T_odom_body);
+  [[nodiscard]] const VehicleHealth& health() const { return health_; }
+  /// At most one of each kind in a connection.
+  [[nodiscard]] std::optional<VehicleEvent> take_event();
+  /// A new connection: everything is to be said again.
+  void restart();
+
+ private:
+  static constexpr std::size_t kVariables = 4;
+  using Slots = std::array<std::optional<std::uint8_t>, kVariables>;
+  const Slots& slots_of(const LogRecord& record);
+
+  const LogSession& session_;
+  std::uint32_t revision_ = 0;
+  std::array<std::optional<Slots>, 256> slots_{};
+  VehicleHealth health_;
+  std::optional<Pose2> T_odom_standing_;  ///< since when it is not flying
+  bool yaw_trap_ = false;
+  bool told_yaw_trap_ = false;
+  bool told_battery_ = false;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/vehicle_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "tests/firmware_link/frames.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// Block 1: supervisor.info, pm.vbatMV; block 3: pm.state, radio.rssi.
+class VehicleMonitorTest : public testing::Test {
+ protected:
+  VehicleMonitorTest() {
+    for (const auto& reply : {toc_item_reply(0, LogType::kUint16, "supervisor", "info"),
+                              toc_item_reply(1, LogType::kUint16, "pm", "vbatMV"),
+                              toc_item_reply(2, LogType::kInt8, "pm", "state"),
+                              toc_item_reply(3, LogType::kUint8, "radio", "rssi")})
+      static_cast<void>(session_.hear(received(reply)));
+    for (const char* request : {"5d 06 01 02 00 00 02 01 00", "5d 06 03 04 02 00 01 03 00"}) {
+      static_cast<void>(session_.hear(sent(hex(request))));
+      Bytes reply = hex(request);
+      reply.resize(3);
+      reply.push_back(0);
+      static_cast<void>(session_.hear(received(reply)));
+    }
+  }
+  void hear(const Bytes& packet) {
+    const auto record = session_.hear(received(packet));
+    ASSERT_TRUE(record.has_value());
+    monitor_.hear(*record);
+  }
+  void hear_state(std::uint16_t supervisor, std::uint16_t millivolts) {
+    hear(LogPacket(1, 100).u16(supervisor).u16(millivolts).bytes());
+  }
+
+  LogSession session_;
+  VehicleMonitor monitor_{session_};
+};
+
+constexpr std::uint16_t kFlying = 1U << 4U;
+
+TEST_F(VehicleMonitorTest, ReadsWhatTheLogSays) {
+  EXPECT_FALSE(monitor_.health().is_flying.has_value());
+  hear_state(kFlying, 3870);
+  hear(LogPacket(3, 100).u16(0x2D01).bytes());
+  EXPECT_EQ(monitor_.health().is_flying, true);
+  EXPECT_EQ(monitor_.health().battery_mv, 3870);
+  EXPECT_EQ(monitor_.health().rssi_dbm, -45);
+  EXPECT_FALSE(monitor_.health().battery_is_low);
+}
+
+TEST_F(VehicleMonitorTest, WarnsOnceOfALowBattery) {
+  hear_state(kFlying, 3150);
+  hear(LogPacket(3, 100).u16(0x2D03).bytes());
+  const auto event = monitor_.take_event();
+  ASSERT_TRUE(event.has_value());
+  EXPECT_EQ(event->kind, VehicleEvent::Kind::kBatteryLow);
+  EXPECT_EQ(event->value, 3150);
+  hear(LogPacket(3, 200).u16(0x2D03).bytes());
+  EXPECT_FALSE(monitor_.take_event().has_value());
+}
+
+TEST_F(VehicleMonitorTest, WarnsOfTheYawTrapWhenCarriedNotWhenFlownOrStanding) {
+  hear_state(kFlying, 3800);
+  monitor_.see(Pose2(0.0, 0.0, 0.0));
+  monitor_.see(Pose2(5.0, 0.0, 2.0));
+  EXPECT_FALSE(monitor_.take_event().has_value());
+  hear_state(0, 3800);
+  monitor_.see(Pose2(5.0, 0.0, 2.0));
+  monitor_.see(Pose2(5.1, 0.0, 2.1));
+  EXPECT_FALSE(monitor_.take_event().has_value());
+  monitor_.see(Pose2(5.1, 0.0, 2.7));
+  const auto event = monitor_.take_event();
+  ASSERT_TRUE(event.has_value());
+  EXPECT_EQ(event->kind, VehicleEvent::Kind::kYawTrap);
+  monitor_.see(Pose2(6.1, 0.0, 2.7));
+  EXPECT_FALSE(monitor_.take_event().has_value());
+}
+
+}  // namespace
+}  // namespace swiftlet
