@@ -13,6 +13,7 @@
 #include "firmware_link/input_file.hpp"
 #include "firmware_link/input_uri.hpp"
 #include "firmware_link/link_sample_source.hpp"
+#include "firmware_link/live_link.hpp"
 #include "firmware_link/replay_link.hpp"
 #include "firmware_link/simulated_link.hpp"
 
@@ -86,6 +87,24 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   return CarmenSampleSource::open(path, options);
 }
 
+/// Whether the vehicle is there shows in time: a live link waits for it.
+Result<std::unique_ptr<SampleSource>> open_live(const std::string& uri, const InputUri& parsed,
+                                                const SampleSourceOptions& options) {
+  LinkInput input;
+  input.name = uri;
+  input.sensor = crazyflie_sensor(options);
+  input.recording = options.recording;
+  input.starts_logging = true;
+  input.cache_directory = TocCache::default_directory();
+  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
+  Result<LiveLink> live = open_live_link(parsed);
+  if (!live) return live.error();
+  input.clock = live->clock;
+  input.usb_bus = live->usb_bus;
+  input.link = std::move(live->link);
+  return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
+}
+
 Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, const InputUri& parsed,
                                                       const SampleSourceOptions& options) {
   Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed);
@@ -110,8 +129,14 @@ Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
   if (!checked) return checked.error();
   const Result<InputUri> parsed = parse_input_uri(uri);
   if (!parsed) return parsed.error();
-  if (parsed->kind == InputUri::Kind::kFile) return open_file(parsed->path, options);
-  return open_simulation(uri, *parsed, options);
+  switch (parsed->kind) {
+    case InputUri::Kind::kFile:
+      return open_file(parsed->path, options);
+    case InputUri::Kind::kSimulation:
+      return open_simulation(uri, *parsed, options);
+    default:
+      return open_live(uri, *parsed, options);
+  }
 }
 
 }  // namespace swiftlet

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/udp_link.hpp"
+
+#include <netdb.h>
+#include <poll.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr Duration kSilence = std::chrono::seconds(1);
+constexpr Duration kGreetingPeriod = std::chrono::milliseconds(200);
+constexpr Duration kLongestPause = std::chrono::milliseconds(100);
+// Datagrams read without a look at the time: a flood of useless ones must not hold receive() for ever.
+constexpr int kMostAtOnce = 64;
+constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
+constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
+constexpr CrtpTopic kNullTopic{15, 3};
+
+}  // namespace
+
+Result<std::unique_ptr<UdpLink>> UdpLink::open(const std::string& host, std::uint16_t port,
+                                               LinkClock& clock) {
+  const Result<Peer> peer = find(host, port);
+  if (!peer) return peer.error();
+  const int socket = ::socket(peer->address.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (socket < 0)
+    return Error{ErrorCode::kInvalidInput,
+                 "udp://" + host + ": the system gives no socket: " + std::strerror(errno)};
+  return std::unique_ptr<UdpLink>(new UdpLink(socket, *peer, clock));
+}
+
+Result<UdpLink::Peer> UdpLink::find(const std::string& host, std::uint16_t port) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_DGRAM;
+  hints.ai_flags = AI_NUMERICSERV;
+  addrinfo* list = nullptr;
+  const int failure = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &list);
+  if (failure != 0)
+    return Error{ErrorCode::kNotFound, "udp://" + host + ": no such host (" + ::gai_strerror(failure) +
+                                           "); check the name, or write its address"};
+  Peer peer;
+  for (const addrinfo* one = list; one != nullptr; one = one->ai_next) {
+    if (peer.size > 0 && one->ai_family != AF_INET) continue;
+    peer.size = one->ai_addrlen;
+    std::memcpy(&peer.address, one->ai_addr, peer.size);
+    if (one->ai_family == AF_INET) break;
+  }
+  ::freeaddrinfo(list);
+  return peer;
+}
+
+UdpLink::~UdpLink() { ::close(socket_); }
+
+Status UdpLink::send(std::span<const std::uint8_t> packet) {
+  SWIFTLET_CHECK(!packet.empty() && packet.size() <= kMaxCrtpPacket, "a CRTP packet has 1 to 31 bytes");
+  CrtpPacket copy;
+  for (const std::uint8_t byte : packet) static_cast<void>(copy.try_push_back(byte));
+  static_cast<void>(outbox_.try_push_back(copy));  // requests are repeated: one without room is dropped
+  return {};
+}
+
+Result<LinkFrame> UdpLink::receive(Duration timeout) {
+  HostTime now = clock_.now();
+  const HostTime deadline = now + timeout;
+  for (;;) {
+    note_silence(now);
+    keep_alive(now);
+    if (const std::optional<LinkFrame> frame = send_next(now)) return *frame;
+    if (const std::optional<LinkFrame> frame = take_datagrams()) return *frame;
+    now = clock_.now();
+    // A text this short needs no memory.
+    if (now >= deadline) return Error{ErrorCode::kTimeout, "nothing heard"};
+    const HostTime alive_at =
+        heard_at_ ? std::min(sent_at_ + kLongestPause, *heard_at_ + kSilence) : greets_at_;
+    wait_until(std::min(deadline, alive_at), now);
+    now = clock_.now();
+  }
+}
+
+void UdpLink::note_silence(HostTime now) {
+  if (!heard_at_ || now - *heard_at_ < kSilence) return;
+  heard_at_.reset();
+  greets_at_ = now;
+  statistics_.condition = LinkCondition::kSilent;
+  ++statistics_.silences;
+}
+
+void UdpLink::note_heard(HostTime now) {
+  heard_at_ = now;
+  statistics_.condition = LinkCondition::kConnected;
+}
+
+void UdpLink::keep_alive(HostTime now) {
+  if (heard_at_) {
+    if (now - sent_at_ >= kLongestPause) transmit(kNullPacket, now);
+  } else if (now >= greets_at_) {
+    transmit(kRegistration, now);
+    transmit(kNullPacket, now);
+    greets_at_ = now + kGreetingPeriod;
+  }
+}
+
+std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
+  while (!outbox_.empty()) {
+    LinkFrame frame;
+    frame.at = now;
+    frame.direction = LinkDirection::kToVehicle;
+    frame.size = static_cast<std::uint8_t>(outbox_.front().size());
+    std::copy(outbox_.front().begin(), outbox_.front().end(), frame.bytes.begin());
+    outbox_.erase_front(1);
+    if (transmit(frame.packet(), now)) return frame;
+  }
+  return std::nullopt;
+}
+
+/// Reads what has come, up to the first datagram to hand back.
+std::optional<LinkFrame> UdpLink::take_datagrams() {
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    LinkFrame frame;
+    const ssize_t size = ::recv(socket_, frame.bytes.data(), frame.bytes.size(), MSG_TRUNC);
+    if (size < 0) return std::nullopt;
+    frame.at = clock_.now();
+    note_heard(frame.at);
+    const bool is_packet = size > 0 && static_cast<std::size_t>(size) <= kMaxCrtpPacket;
+    if (is_packet) {
+      frame.size = static_cast<std::uint8_t>(size);
+      if (!is_on(frame.packet(), kNullTopic)) {
+        ++statistics_.packets_received;
+        return frame;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+void UdpLink::wait_until(HostTime wake_at, HostTime now) const {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::max(wake_at - now, Duration::zero()));
+  pollfd watched{.fd = socket_, .events = POLLIN, .revents = 0};
+  static_cast<void>(::poll(&watched, 1, static_cast<int>(left.count())));
+}
+
+/// Whether the system took it.
+bool UdpLink::transmit(std::span<const std::uint8_t> packet, HostTime now) {
+  sent_at_ = now;  // also when it fails: no hurry to fail again
+  if (!associated_ && !associate()) return false;
+  // The answer to an earlier datagram that nobody listens (ICMP) fails this call, not this datagram.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL) >= 0) {
+      ++statistics_.packets_sent;
+      ++statistics_.packets_acked;
+      return true;
+    }
+    if (errno != ECONNREFUSED) break;
+  }
+  // No room in the socket passes; all else may be a network that has changed.
+  associated_ = errno == EAGAIN || errno == ENOBUFS || errno == ECONNREFUSED;
+  return false;
+}
+
+bool UdpLink::associate() {
+  const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
+  static_cast<void>(::connect(socket_, &nobody, sizeof(nobody)));  // forget the way it went before
+  // The socket interface takes addresses of every family under this type.
+  const auto* address = reinterpret_cast<const sockaddr*>(&peer_.address);
+  associated_ = ::connect(socket_, address, peer_.size) == 0;
+  return associated_;
+}
+
+}  // namespace swiftlet
