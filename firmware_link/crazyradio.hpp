@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "core/base/fixed_vector.hpp"
+#include "firmware_link/radio_address.hpp"
+#include "firmware_link/usb_device.hpp"
+
+namespace swiftlet {
+
+inline constexpr std::uint16_t kCrazyradioVendor = 0x1915;
+inline constexpr std::uint16_t kCrazyradioProduct = 0x7777;
+inline constexpr std::size_t kMaxRadioPayload = 32;
+
+/// What became of one packet.
+struct RadioAnswer {
+  /// kDone: the dongle has answered. kTimeout, kStall: it has not; it was put right, go on. Others: open it
+  /// anew.
+  UsbOutcome outcome = UsbOutcome::kDone;
+  bool acknowledged = false;                            ///< false: all tries were lost
+  bool strong = false;                                  ///< received above about -64 dBm
+  std::uint8_t retries = 0;                             ///< retransmissions it took, where acknowledged
+  FixedVector<std::uint8_t, kMaxRadioPayload> payload;  ///< what the vehicle sent back, 0 to 32 bytes
+};
+
+/// A Crazyradio PA or 2.0: sends one packet, fetches one. One thread at a time; must not outlive the bus.
+class Crazyradio {
+ public:
+  /// Finds the dongle that `address` names, resets it and tunes it. Failures: kNoDevice, kAccessDenied (also
+  /// where the serial numbers may not be read), kBusy, kFault (also firmware before 0.40), kStall, kTimeout.
+  [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const RadioAddress& address);
+
+  /// One packet out, its answer in. Takes about 1 ms, 10 ms where nobody answers, 0.25 s where the dongle
+  /// does not. An answer that comes late is thrown away before the next packet. Allocates nothing.
+  /// Precondition: 1 to 32 bytes.
+  [[nodiscard]] RadioAnswer exchange(std::span<const std::uint8_t> packet);
+
+  // Settings. What is set already is not sent again.
+  [[nodiscard]] UsbOutcome set_rate(RadioRate rate);
+  /// Precondition: 0..125.
+  [[nodiscard]] UsbOutcome set_channel(std::uint8_t channel);
+  [[nodiscard]] UsbOutcome set_address(const std::array<std::uint8_t, 5>& address);
+  /// Retransmissions after the first try. Precondition: 0..15.
+  [[nodiscard]] UsbOutcome set_retries(std::uint8_t retries);
+
+ private:
+  explicit Crazyradio(std::unique_ptr<UsbDevice> device) : device_(std::move(device)) {}
+  [[nodiscard]] UsbOutcome initialise(const RadioAddress& address);
+  [[nodiscard]] UsbOutcome request(std::uint8_t request, std::uint16_t value,
+                                   std::span<const std::uint8_t> data = {});
+  /// After a failed transfer: brings the endpoint back where that can be done.
+  [[nodiscard]] UsbOutcome recover(std::uint8_t endpoint, UsbOutcome failure);
+  /// Throws away what the dongle still has to say about earlier packets.
+  [[nodiscard]] UsbOutcome drain();
+  [[nodiscard]] RadioAnswer decode(std::size_t size) const;
+
+  std::unique_ptr<UsbDevice> device_;
+  std::optional<RadioRate> rate_;
+  std::optional<std::uint8_t> channel_;
+  std::optional<std::array<std::uint8_t, 5>> address_;
+  std::optional<std::uint8_t> retries_;
+  bool answer_may_be_late_ = false;
+  /// A whole USB packet: a shorter one would be an overflow where the dongle says more than expected.
+  std::array<std::uint8_t, 64> buffer_{};
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,4 @@
+foreach(test safelink crazyradio radio_link)
+  swiftlet_add_test(${test}_test LINK swiftlet_radio)
+endforeach()
+target_sources(radio_link_test PRIVATE counting_new.cpp)
