@@ -70,6 +70,46 @@ void fill_input(const InputStatus& input, status_t& message) {
   message.input_problems = i64(input.problems);
 }
 
+std::int8_t condition_code(LinkCondition condition) {
+  switch (condition) {
+    case LinkCondition::kNone:
+      return link_status_t::CONDITION_NONE;
+    case LinkCondition::kConnected:
+      return link_status_t::CONDITION_CONNECTED;
+    case LinkCondition::kSilent:
+      return link_status_t::CONDITION_SILENT;
+    case LinkCondition::kDeviceMissing:
+      return link_status_t::CONDITION_DEVICE_MISSING;
+    case LinkCondition::kAccessDenied:
+      return link_status_t::CONDITION_ACCESS_DENIED;
+    case LinkCondition::kDeviceBusy:
+      return link_status_t::CONDITION_DEVICE_BUSY;
+    case LinkCondition::kDeviceFault:
+      return link_status_t::CONDITION_DEVICE_FAULT;
+  }
+  return link_status_t::CONDITION_NONE;
+}
+
+void fill_link(const LiveStatus& live, const LinkRates& rates, link_status_t& message) {
+  message.condition = condition_code(live.link.condition);
+  message.safelink = live.link.safelink ? 1 : 0;
+  message.ack_rate = rates.ack_rate;
+  message.retries_per_packet = rates.retries_per_packet;
+  message.sent_rate = rates.sent_hz;
+  message.received_rate = rates.received_hz;
+  message.round_trip_ms = live.round_trip > Duration::zero() ? to_seconds(live.round_trip) * 1e3 : -1.0;
+  message.rssi_dbm = live.vehicle.rssi_dbm.value_or(0);
+  message.battery_v = live.vehicle.battery_mv.value_or(0) * 1e-3;
+  message.flying = static_cast<std::int8_t>(live.vehicle.is_flying ? (*live.vehicle.is_flying ? 1 : 0) : -1);
+  message.packets_sent = i64(live.link.packets_sent);
+  message.packets_acked = i64(live.link.packets_acked);
+  message.packets_received = i64(live.link.packets_received);
+  message.duplicates = i64(live.link.duplicates);
+  message.silences = i64(live.link.silences);
+  message.device_losses = i64(live.link.device_losses);
+  message.usb_timeouts = i64(live.link.usb_timeouts);
+}
+
 void fill_counters(const DaemonStatus& status, status_t& message) {
   message.keyframes = i64(status.frontend.keyframes);
   message.batches_rolled_back = i64(status.frontend.batches_rolled_back);
@@ -287,6 +327,7 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
   message.state = state_code(status.state);
   message.sample_rate = status.sample_rate_hz;
   fill_input(status.input, message);
+  fill_link(status.input.live, status.link_rates, message.link);
   fill_counters(status, message);
   fill_queues(status.queues, message);
   fill_stages(status.stages, message);

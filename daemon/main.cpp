@@ -36,8 +36,10 @@ struct Options {
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys");
-  app.add_option("--input", options.input_uri,
-                 "replay:FILE.pcap, sim://WORLD?seed=N, or a .pcap or .clf[.gz] file");
+  app.add_option(
+      "--input", options.input_uri,
+      "radio://0/80/2M/E7E7E7E7E7, usb://0, udp://HOST:PORT, replay:FILE.pcap, sim://WORLD?seed=N, or a "
+      ".pcap or .clf[.gz] file");
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();
@@ -69,6 +71,17 @@ Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const C
   source.max_range_m = config.sensor.max_range_m;
   source.min_range_m = config.sensor.min_range_m;
   return open_sample_source(options.input_uri, source);
+}
+
+/// A live link keeps its own pace and cannot be asked to wait.
+InputPolicy input_policy(const Options& options, const SampleSource& source) {
+  if (source.is_live()) return {.rate = {}, .refuses_when_full = true};
+  return {.rate = options.rate};
+}
+
+std::string input_text(const Options& options, const SampleSource& source) {
+  if (source.is_live()) return options.input_uri + " (until stopped by a signal)";
+  return fmt::format("{} at {} times its pace", options.input_uri, options.rate);
 }
 
 /// Names the run for consumers: the time it began, in microseconds since 1970.
@@ -118,8 +131,8 @@ int run(const Options& options) {
 
   const SignalWatcher signals;  // before the threads
   SteadyClock clock;
-  Daemon daemon(*config, **source, clock, {.rate = options.rate}, **publisher);
-  spdlog::info("{} at {} times its pace, publishing on {}", options.input_uri, options.rate, options.lcm_url);
+  Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
+  spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
   const Status outcome = daemon.run(signals.token());
   if (signals.token().stop_requested()) spdlog::info("stopped by a signal");
   const BackendCounters& counters = daemon.pipeline().backend().counters();

@@ -28,13 +28,16 @@ struct Pipeline::State {
         frontend(config.frontend, sensor, source.beams()),
         backend(config.backend, sensor, source.beams()),
         map(config.map, sensor),
-        radio_worker(source, clock, policy, queues.samples.producer(),
-                     publishes ? &queues.to_publisher.input : nullptr, times.input),
+        radio_worker(source, clock, policy, queues.samples.producer(), input_outlet(publishes), times.input),
         frontend_worker(frontend, clock, queues.samples.consumer(), queues.steps.producer(),
                         queues.correction, frontend_outlet(publishes), times.frontend),
         backend_worker(backend, map, clock, queues.steps.consumer(), queues.correction,
                        backend_outlet(publishes), times) {}
 
+  std::optional<InputOutlet> input_outlet(bool publishes) {
+    if (!publishes) return std::nullopt;
+    return queues.to_publisher.input_outlet();
+  }
   std::optional<FrontendOutlet> frontend_outlet(bool publishes) {
     if (!publishes) return std::nullopt;
     return queues.to_publisher.frontend_outlet();

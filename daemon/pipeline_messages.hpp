@@ -9,6 +9,7 @@
 #include "core/base/ids.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
+#include "firmware_link/live_status.hpp"
 
 namespace swiftlet {
 
@@ -37,6 +38,7 @@ struct InputStatus {
   std::uint64_t problems = 0;
   double progress = -1.0;  ///< 0 to 1 through a recording; negative when the end is unknown
   bool ended = false;      ///< no further sample will come
+  LiveStatus live{};       ///< condition kNone without a live link
 };
 
 /// A wall at its present place in the map.

@@ -16,6 +16,7 @@
 #include "core/sensing/range_sample.hpp"
 #include "daemon/pipeline_messages.hpp"
 #include "daemon/stage_queue.hpp"
+#include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
 
@@ -49,6 +50,14 @@ using WallQueue = SpscQueue<WallInMap, 1024>;
 /// backend -> publisher. Full: as for tiles.
 using ClosureQueue = SpscQueue<ClosureUpdate, 256>;
 
+/// radio -> publisher, which puts them into words. Full: the newest is refused and counted.
+using EventQueue = SpscQueue<VehicleEvent, 64>;
+
+/// The radio worker's end of what goes to the publisher.
+struct InputOutlet {
+  LatestValue<InputStatus>& status;
+  EventQueue::Producer events;
+};
 /// The frontend worker's end of what goes to the publisher.
 struct FrontendOutlet {
   PoseQueue::Producer poses;
@@ -67,6 +76,7 @@ struct PublisherInlet {
   TileQueue::Consumer tiles;
   WallQueue::Consumer walls;
   ClosureQueue::Consumer closures;
+  EventQueue::Consumer events;
   LatestValue<InputStatus>& input;
   LatestValue<FrontendCounters>& frontend;
   LatestValue<BackendCounters>& backend;
@@ -78,17 +88,20 @@ struct PublisherQueues {
   TileQueue tiles;
   WallQueue walls;
   ClosureQueue closures;
+  EventQueue events;
   LatestValue<InputStatus> input;          ///< radio -> publisher: newest wins
   LatestValue<FrontendCounters> frontend;  ///< frontend -> publisher: newest wins
   LatestValue<BackendCounters> backend;    ///< backend -> publisher: newest wins
 
+  InputOutlet input_outlet() { return {input, events.producer()}; }
   FrontendOutlet frontend_outlet() { return {poses.producer(), frontend}; }
   BackendOutlet backend_outlet() {
     return {tiles.producer(), walls.producer(), closures.producer(), backend};
   }
   PublisherInlet inlet() {
-    return {poses.consumer(), tiles.consumer(), walls.consumer(), closures.consumer(), input,
-            frontend,         backend};
+    return {
+        poses.consumer(), tiles.consumer(), walls.consumer(), closures.consumer(), events.consumer(), input,
+        frontend,         backend};
   }
 };
 
@@ -100,13 +113,14 @@ struct PipelineQueues {
   PublisherQueues to_publisher;
 
   /// Any thread.
-  [[nodiscard]] std::array<QueueStatistics, 6> statistics() const {
+  [[nodiscard]] std::array<QueueStatistics, 7> statistics() const {
     const auto of = [](std::string_view name, const auto& queue) {
       return QueueStatistics{name, queue.capacity(), queue.high_water(), queue.rejected_count()};
     };
-    return {of("samples", samples),          of("steps", steps),
-            of("poses", to_publisher.poses), of("tiles", to_publisher.tiles),
-            of("walls", to_publisher.walls), of("closures", to_publisher.closures)};
+    return {of("samples", samples),           of("steps", steps),
+            of("poses", to_publisher.poses),  of("tiles", to_publisher.tiles),
+            of("walls", to_publisher.walls),  of("closures", to_publisher.closures),
+            of("events", to_publisher.events)};
   }
 };
 

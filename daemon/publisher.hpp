@@ -31,14 +31,23 @@ enum class DaemonState : std::uint8_t {
   kFinished,   ///< every tile has been sent again; nothing more will come
 };
 
+/// A live link's traffic since the status before.
+struct LinkRates {
+  double ack_rate = -1.0;           ///< of the packets sent; negative: none was
+  double retries_per_packet = 0.0;  ///< retransmissions by the dongle
+  double sent_hz = 0.0;
+  double received_hz = 0.0;  ///< packets with content
+};
+
 /// What a status message says.
 struct DaemonStatus {
   DaemonState state = DaemonState::kRunning;
   double sample_rate_hz = 0.0;  ///< samples published per second of the machine's time since the last status
   InputStatus input;
+  LinkRates link_rates;
   FrontendCounters frontend;
   BackendCounters backend;
-  std::array<QueueStatistics, 6> queues;
+  std::array<QueueStatistics, 7> queues;
   std::vector<StageSummary> stages;
   MapSummary map;
 };

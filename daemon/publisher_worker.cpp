@@ -8,6 +8,23 @@
 #include "daemon/status_log.hpp"
 
 namespace swiftlet {
+namespace {
+
+LinkRates link_rates(const LinkStatistics& before, const LinkStatistics& now, double elapsed_s) {
+  LinkRates rates;
+  const auto sent = static_cast<double>(now.packets_sent - before.packets_sent);
+  if (sent > 0.0) {
+    rates.ack_rate = static_cast<double>(now.packets_acked - before.packets_acked) / sent;
+    rates.retries_per_packet = static_cast<double>(now.radio_retries - before.radio_retries) / sent;
+  }
+  if (elapsed_s > 0.0) {
+    rates.sent_hz = sent / elapsed_s;
+    rates.received_hz = static_cast<double>(now.packets_received - before.packets_received) / elapsed_s;
+  }
+  return rates;
+}
+
+}  // namespace
 
 PublisherWorker::PublisherWorker(const PublishConfig& config, double resolution_m,
                                  const PublisherInlet& inlet, Gauges gauges, Publisher& publisher,
@@ -25,6 +42,7 @@ StepResult PublisherWorker::step() {
   const MonotonicTime now = clock_.now();
   if (is_closing_) return close(now);
   const bool is_last = inlet_.tiles.closed();  // before the look: what came before closing is seen
+  take_events();
   take_poses();
   take_closures();
   take_walls();
@@ -47,6 +65,11 @@ void PublisherWorker::take_poses() {
     ++poses_since_summary_;
     publisher_.publish_pose(pose);
   }
+}
+
+void PublisherWorker::take_events() {
+  VehicleEvent event;
+  while (inlet_.events.try_pop(event)) log_event(event);
 }
 
 void PublisherWorker::take_walls() {
@@ -110,6 +133,7 @@ void PublisherWorker::publish_summary(MonotonicTime now) {
   take_counters();
   if (status_.state != DaemonState::kFinished && status_.input.ended) status_.state = DaemonState::kFinishing;
   const double elapsed_s = to_seconds(now - last_summary_);
+  status_.link_rates = link_rates(before.input.live.link, status_.input.live.link, elapsed_s);
   if (elapsed_s > 0.0) status_.sample_rate_hz = static_cast<double>(poses_since_summary_) / elapsed_s;
   status_.map = map_summary();
   std::vector<WallInMap> walls;

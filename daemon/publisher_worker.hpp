@@ -31,7 +31,7 @@ class PublisherWorker {
 
   /// What the status takes from elsewhere; called in the publisher's thread.
   struct Gauges {
-    std::function<std::array<QueueStatistics, 6>()> queues;
+    std::function<std::array<QueueStatistics, 7>()> queues;
     std::function<std::vector<StageSummary>()> stages;
   };
 
@@ -75,6 +75,7 @@ class PublisherWorker {
   void take_poses();
   void take_walls();
   void take_closures();
+  void take_events();
   void take_counters();
   /// How many were taken and published.
   [[nodiscard]] std::size_t take_tiles();

@@ -5,13 +5,13 @@
 namespace swiftlet {
 
 RadioWorker::RadioWorker(SampleSource& source, const Clock& clock, const InputPolicy& policy,
-                         SampleQueue::Producer samples, LatestValue<InputStatus>* status,
+                         SampleQueue::Producer samples, const std::optional<InputOutlet>& outlet,
                          StageHistogram& times)
     : source_(source),
       clock_(clock),
       policy_(policy),
       samples_(samples),
-      status_(status),
+      outlet_(outlet),
       times_(times),
       due_(clock.now()) {
   if (policy_.rate) pacer_.emplace(*policy_.rate);
@@ -42,7 +42,10 @@ bool RadioWorker::fetch() {
     if (pacer_) due_ = pacer_->due(held_->stamp, clock_.now());
     return true;
   }
-  if (next.error().code == ErrorCode::kTimeout) return false;
+  if (next.error().code == ErrorCode::kTimeout) {
+    report_input();
+    return false;
+  }
   if (next.error().code != ErrorCode::kEndOfRecording) outcome_ = next.error();
   end_input();
   return false;
@@ -55,19 +58,23 @@ void RadioWorker::hand_on(RangeSample sample) {
 }
 
 void RadioWorker::report_input() {
-  if (status_ == nullptr) return;
+  // Taken in any case: the source notes them for its report as they are taken.
+  while (const std::optional<VehicleEvent> event = source_.take_event())
+    if (outlet_) static_cast<void>(outlet_->events.try_push(*event));
+  if (!outlet_) return;
   const InputReport& report = source_.report();
-  status_->store({.frames = report.frames,
-                  .samples = report.samples,
-                  .gaps = report.gaps,
-                  .missing_packets = report.missing_packets,
-                  .duplicates = report.duplicates,
-                  .out_of_order = report.out_of_order,
-                  .unpaired = report.unpaired,
-                  .segments = report.segments,
-                  .problems = report.problems.size(),
-                  .progress = source_.progress().value_or(-1.0),
-                  .ended = ended_});
+  outlet_->status.store({.frames = report.frames,
+                         .samples = report.samples,
+                         .gaps = report.gaps,
+                         .missing_packets = report.missing_packets,
+                         .duplicates = report.duplicates,
+                         .out_of_order = report.out_of_order,
+                         .unpaired = report.unpaired,
+                         .segments = report.segments,
+                         .problems = report.problems.size(),
+                         .progress = source_.progress().value_or(-1.0),
+                         .ended = ended_,
+                         .live = source_.live_status().value_or(LiveStatus{})});
 }
 
 }  // namespace swiftlet

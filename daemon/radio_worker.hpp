@@ -27,9 +27,9 @@ struct InputPolicy {
 /// @note A step allocates nothing (beyond what the source's own next() does), takes no lock and logs nothing.
 class RadioWorker {
  public:
-  /// References must outlive the worker. `status` may be null: nobody is told then.
+  /// References must outlive the worker. Without an outlet nobody is told.
   RadioWorker(SampleSource& source, const Clock& clock, const InputPolicy& policy,
-              SampleQueue::Producer samples, LatestValue<InputStatus>* status, StageHistogram& times);
+              SampleQueue::Producer samples, const std::optional<InputOutlet>& outlet, StageHistogram& times);
 
   /// kProgress: one sample handed on (or refused). kIdle: none due before due(), or the link was silent.
   StepResult step();
@@ -45,7 +45,7 @@ class RadioWorker {
   const Clock& clock_;
   InputPolicy policy_;
   SampleQueue::Producer samples_;
-  LatestValue<InputStatus>* status_;
+  std::optional<InputOutlet> outlet_;
   StageHistogram& times_;
   std::optional<Pacer> pacer_;
   std::optional<RangeSample> held_;  // read, not yet due

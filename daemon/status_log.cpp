@@ -4,7 +4,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "firmware_link/link_condition.hpp"
 
 namespace swiftlet {
 namespace {
@@ -13,9 +17,25 @@ void warn_if_grown(const char* what, std::uint64_t before, std::uint64_t now) {
   if (now > before) spdlog::warn("{}: {} more, {} in all", what, now - before, now);
 }
 
+void log_link(const LinkStatistics& before, const LinkStatistics& now) {
+  if (now.condition == before.condition) return;
+  const bool is_well = now.condition == LinkCondition::kConnected;
+  spdlog::log(is_well ? spdlog::level::info : spdlog::level::warn, "link: {}", describe(now.condition));
+}
+
+std::string link_text(const DaemonStatus& status) {
+  const LiveStatus& live = status.input.live;
+  if (live.link.condition == LinkCondition::kNone) return {};
+  const double round_trip_ms = to_seconds(live.round_trip) * 1e3;
+  return fmt::format("; link {:.0f} % acknowledged, {:.0f} packets/s, round trip {:.1f} ms, {} mV",
+                     std::max(0.0, status.link_rates.ack_rate) * 100.0, status.link_rates.received_hz,
+                     round_trip_ms, live.vehicle.battery_mv.value_or(0));
+}
+
 }  // namespace
 
 void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
+  log_link(before.input.live.link, now.input.live.link);
   warn_if_grown("input: holes in the ranges", before.input.gaps, now.input.gaps);
   warn_if_grown("input: problems", before.input.problems, now.input.problems);
   if (before.input.segments > 0)
@@ -28,9 +48,13 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
     if (now.queues[i].refused > before.queues[i].refused)
       spdlog::warn("queue of {}: full, {} refused in all", now.queues[i].name, now.queues[i].refused);
   }
-  spdlog::debug("{} samples ({:.1f} Hz), {} keyframes, {} submaps, {} closures, {} tiles", now.input.samples,
-                now.sample_rate_hz, now.frontend.keyframes, now.backend.submaps,
-                now.backend.closures_accepted, now.map.tiles);
+  spdlog::debug("{} samples ({:.1f} Hz), {} keyframes, {} submaps, {} closures, {} tiles{}",
+                now.input.samples, now.sample_rate_hz, now.frontend.keyframes, now.backend.submaps,
+                now.backend.closures_accepted, now.map.tiles, link_text(now));
+}
+
+void log_event(const VehicleEvent& event) {
+  spdlog::log(is_warning(event) ? spdlog::level::warn : spdlog::level::info, "{}", describe(event));
 }
 
 void log_closure(const ClosureUpdate& update) {

@@ -12,6 +12,8 @@ namespace swiftlet {
 /// One line for whatever deserves attention between two statuses: refusals, roll-backs, a new beginning of
 /// the dead reckoning, solver failures. Allocates.
 void log_changes(const DaemonStatus& before, const DaemonStatus& now);
+/// One line for what happened to the vehicle or its link. Allocates.
+void log_event(const VehicleEvent& event);
 /// One line for a loop closure found or dropped. Allocates.
 void log_closure(const ClosureUpdate& update);
 

@@ -167,6 +167,11 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   status.state = DaemonState::kFinished;
   status.input.gaps = 4;
   status.input.progress = 0.5;
+  status.input.live.link.condition = LinkCondition::kDeviceBusy;
+  status.input.live.link.silences = 2;
+  status.input.live.round_trip = std::chrono::microseconds(7500);
+  status.input.live.vehicle.battery_mv = 3870;
+  status.link_rates.ack_rate = 0.75;
   status.frontend.keyframes = 12;
   status.backend.closures_accepted = 3;
   status.map = {.tiles = 5, .version_sum = 50};
@@ -175,13 +180,20 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   publish([&](LcmPublisher& publisher) { publisher.publish_status(kNow, status); });
   const status_t message = received<status_t>("T_STATUS").at(0);
   EXPECT_EQ(message.state, status_t::STATE_FINISHED);
+  EXPECT_EQ(message.link.condition, link_status_t::CONDITION_DEVICE_BUSY);
+  EXPECT_EQ(message.link.silences, 2);
+  EXPECT_DOUBLE_EQ(message.link.round_trip_ms, 7.5);
+  EXPECT_DOUBLE_EQ(message.link.battery_v, 3.87);
+  EXPECT_DOUBLE_EQ(message.link.ack_rate, 0.75);
+  EXPECT_EQ(message.link.flying, -1);
+  EXPECT_EQ(message.link.rssi_dbm, 0);
   EXPECT_EQ(message.gaps, 4);
   EXPECT_EQ(message.progress, 0.5);
   EXPECT_EQ(message.keyframes, 12);
   EXPECT_EQ(message.closures_accepted, 3);
   EXPECT_EQ(message.tile_count, 5);
   EXPECT_EQ(message.version_sum, 50);
-  ASSERT_EQ(message.queue_count, 6);
+  ASSERT_EQ(message.queue_count, 7);
   EXPECT_EQ(message.queues[0].name, "samples");
   EXPECT_EQ(message.queues[0].high_water, 17);
   ASSERT_EQ(message.stage_count, 1);
@@ -230,7 +242,7 @@ TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<map_tile_t>(), 0xfdf7a3453106bfbaU);
   EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x256ce7175baea2abU);
-  EXPECT_EQ(fingerprint<status_t>(), 0xebbdb272ae12dce1U);
+  EXPECT_EQ(fingerprint<status_t>(), 0xc1d8c517d9ed9805U);
 }
 
 }  // namespace

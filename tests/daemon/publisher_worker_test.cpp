@@ -99,6 +99,26 @@ TEST(PublisherWorker, SaysHowItIsGoingOnceAPeriodWithMapAndWalls) {
   EXPECT_EQ(status.stages[0].count, 3U);
 }
 
+TEST(PublisherWorker, MakesRatesOfTheLinksCounts) {
+  Bench bench;
+  InputStatus input;
+  input.live.link.packets_sent = 1000;
+  bench.queues->to_publisher.input.store(input);
+  bench.ticks(1);
+  input.live.link.packets_sent = 1200;
+  input.live.link.packets_acked = 150;
+  input.live.link.radio_retries = 100;
+  input.live.link.packets_received = 11;
+  bench.queues->to_publisher.input.store(input);
+  bench.ticks(250);
+  ASSERT_EQ(bench.published.statuses.size(), 2U);
+  const LinkRates& rates = bench.published.statuses.back().link_rates;
+  EXPECT_DOUBLE_EQ(rates.ack_rate, 0.75);
+  EXPECT_DOUBLE_EQ(rates.retries_per_packet, 0.5);
+  EXPECT_NEAR(rates.sent_hz, 200.0, 2.0);
+  EXPECT_NEAR(rates.received_hz, 11.0, 0.2);
+}
+
 TEST(PublisherWorker, MeasuresTheRateByTheMachinesClock) {
   Bench bench;
   bench.ticks(1);

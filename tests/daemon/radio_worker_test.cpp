@@ -19,7 +19,7 @@ struct Bench {
   explicit Bench(std::vector<RangeSample> samples, const InputPolicy& policy = {},
                  Error end = {ErrorCode::kEndOfRecording, ""})
       : source(std::move(samples), std::move(end)),
-        worker(source, clock, policy, queue->producer(), &status, times) {}
+        worker(source, clock, policy, queue->producer(), InputOutlet{status, events->producer()}, times) {}
 
   std::optional<RangeSample> pop() {
     RangeSample sample;
@@ -36,6 +36,7 @@ struct Bench {
   ScriptedSampleSource source;
   std::unique_ptr<SampleQueue> queue = std::make_unique<SampleQueue>();
   LatestValue<InputStatus> status;
+  std::unique_ptr<EventQueue> events = std::make_unique<EventQueue>();
   StageHistogram times;
   RadioWorker worker;
 };
@@ -114,6 +115,18 @@ TEST(RadioWorker, GoesOnListeningToASilentLink) {
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   EXPECT_FALSE(bench.queue->consumer().closed());
+}
+
+TEST(RadioWorker, SaysHowTheLinkStandsAlsoWhileNothingIsHeard) {
+  Bench bench({}, {}, {ErrorCode::kTimeout, ""});
+  bench.source.live.link.condition = LinkCondition::kSilent;
+  bench.source.event = VehicleEvent{VehicleEvent::Kind::kDataStopped, 0};
+  EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
+  EXPECT_EQ(bench.newest_status().live.link.condition, LinkCondition::kSilent);
+  VehicleEvent event;
+  ASSERT_TRUE(bench.events->consumer().try_pop(event));
+  EXPECT_EQ(event.kind, VehicleEvent::Kind::kDataStopped);
+  EXPECT_FALSE(bench.events->consumer().try_pop(event));
 }
 
 TEST(RadioWorker, EndsTheInputWhenTold) {

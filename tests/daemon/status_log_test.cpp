@@ -49,6 +49,22 @@ TEST_F(StatusLog, NamesWhatWasRefusedAndWhereAndHowOften) {
   EXPECT_THAT(logged(), HasSubstr("batches rolled back: 2 more"));
 }
 
+TEST_F(StatusLog, SaysHowTheLinkStandsWhenThatChanges) {
+  DaemonStatus before;
+  before.input.live.link.condition = LinkCondition::kConnected;
+  DaemonStatus now = before;
+  log_changes(before, now);
+  EXPECT_THAT(logged(), IsEmpty());
+  now.input.live.link.condition = LinkCondition::kDeviceBusy;
+  log_changes(before, now);
+  EXPECT_THAT(logged(), HasSubstr("another program"));
+}
+
+TEST_F(StatusLog, PutsEventsIntoWords) {
+  log_event({VehicleEvent::Kind::kNoMultiranger, 0});
+  EXPECT_THAT(logged(), HasSubstr("no Multiranger deck"));
+}
+
 TEST_F(StatusLog, SaysEachThingOnce) {
   DaemonStatus now;
   now.backend.solver_failures = 2;

@@ -22,7 +22,7 @@ TEST(WorkerAllocation, RadioAndFrontendTakeNothingFromTheHeapOverAWholeFlight) {
   const auto queues = std::make_unique<PipelineQueues>();
   StageTimes times;
   RadioWorker radio(source, clock, {.rate = 1.0, .refuses_when_full = true}, queues->samples.producer(),
-                    &queues->to_publisher.input, times.input);
+                    queues->to_publisher.input_outlet(), times.input);
   FrontendWorker worker(frontend, clock, queues->samples.consumer(), queues->steps.producer(),
                         queues->correction, queues->to_publisher.frontend_outlet(), times.frontend);
   std::size_t allocations = 0;

@@ -26,9 +26,16 @@ class ScriptedSampleSource final : public SampleSource {
   [[nodiscard]] const BeamLayout& beams() const override { return beams_; }
   [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
   [[nodiscard]] const InputReport& report() const override { return report_; }
+  [[nodiscard]] std::optional<LiveStatus> live_status() const override { return live; }
+  [[nodiscard]] std::optional<VehicleEvent> take_event() override {
+    return std::exchange(event, std::nullopt);
+  }
   [[nodiscard]] std::optional<double> progress() const override {
     return static_cast<double>(next_) / static_cast<double>(samples_.size());
   }
+
+  LiveStatus live;
+  std::optional<VehicleEvent> event;
 
  private:
   std::vector<RangeSample> samples_;
