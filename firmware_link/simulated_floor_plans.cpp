@@ -78,7 +78,8 @@ std::vector<WallSegment> office_walls() {
 }
 
 /// Round the ring to the left with a look into four rooms; on to the left through its right half and the
-/// passage, then to the right round its left half, with a look into the other four; once round the ring to the right.
+/// passage, then to the right round its left half, with a look into the other four; once round the ring to
+/// the right.
 std::vector<Waypoint> office_flight() {
   return {{{10.1, 5.0}},       {{13.0, 5.0}},       {{13.0, 1.8}, kTravel, 2.0 * kPi},
           {{13.0, 5.0}},       {{19.0, 5.0}},       {{19.0, 10.0}},
