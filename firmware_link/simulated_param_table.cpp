@@ -3,10 +3,10 @@
 #include "firmware_link/simulated_param_table.hpp"
 
 #include <boost/crc.hpp>
-#include <cstdlib>
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "firmware_link/simulated_members.hpp"
 
 namespace swiftlet {
 namespace {
@@ -131,21 +131,11 @@ constexpr ParamFamily kFamilies[] = {
 
 std::vector<ParamDescription> make_table() {
   std::vector<ParamDescription> table;
-  for (const ParamFamily& family : kFamilies) {
-    for (std::string_view rest = family.members; !rest.empty();) {
-      const std::size_t end = std::min(rest.find(' '), rest.size());
-      const std::string_view member = rest.substr(0, end);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-      const std::size_t name_end = std::min(member.find('='), member.size());
-      ParamDescription param{.group = std::string(family.group),
-                             .name = std::string(member.substr(0, name_end)),
-                             .type = family.type,
-                             .flags = static_cast<std::uint8_t>(family.flags)};
-      if (name_end < member.size())
-        param.default_value = std::strtod(std::string(member.substr(name_end + 1)).c_str(), nullptr);
-      table.push_back(std::move(param));
-    }
-  }
+  for (const ParamFamily& family : kFamilies)
+    for_each_member(family.members, [&](std::string_view name, double default_value) {
+      table.push_back(
+          {family.group, name, family.type, static_cast<std::uint8_t>(family.flags), default_value});
+    });
   return table;
 }
 
@@ -188,8 +178,10 @@ std::uint32_t simulated_param_table_crc() {
   boost::crc_32_type crc;
   for (const ParamDescription& param : simulated_param_table()) {
     crc.process_byte(static_cast<unsigned char>(static_cast<unsigned>(param.type) | param.flags));
-    crc.process_bytes(param.group.c_str(), param.group.size() + 1);
-    crc.process_bytes(param.name.c_str(), param.name.size() + 1);
+    crc.process_bytes(param.group.data(), param.group.size());
+    crc.process_byte(0);
+    crc.process_bytes(param.name.data(), param.name.size());
+    crc.process_byte(0);
   }
   return crc.checksum();
 }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace swiftlet {
@@ -31,8 +30,8 @@ inline constexpr std::uint8_t kParamReadOnly = 0x40;
 [[nodiscard]] std::size_t param_type_size(ParamType type);
 
 struct ParamDescription {
-  std::string group;
-  std::string name;
+  std::string_view group;
+  std::string_view name;
   ParamType type = ParamType::kUint8;
   std::uint8_t flags = 0;  ///< kParamPersistent, kParamCore, kParamReadOnly
   double default_value = 0.0;
