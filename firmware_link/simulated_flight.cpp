@@ -37,10 +37,24 @@ class Wander {
   double value_ = 0.0;
 };
 
+/// The script over and over: from its end on, or back along it where it does not end where it began.
+std::vector<Waypoint> repeated(const std::vector<Waypoint>& script, int laps) {
+  std::vector<Waypoint> flight = script;
+  const Point2 start = script.front().position;
+  const Point2 end = script.back().position;
+  const bool is_closed = start.x_m == end.x_m && start.y_m == end.y_m;
+  for (int lap = 1; lap < laps; ++lap) {
+    if (!is_closed)
+      for (std::size_t i = script.size() - 1; i-- > 0;) flight.push_back({script[i].position});
+    flight.insert(flight.end(), script.begin() + 1, script.end());
+  }
+  return flight;
+}
+
 class Pilot {
  public:
   Pilot(const SimulatedWorld& world, const PilotModel& model, std::uint64_t seed)
-      : flight_(world.flight),
+      : flight_(repeated(world.flight, model.laps)),
         model_(model),
         noise_(seed, "pilot"),
         wander_speed_(model.wander_speed_share, 5.0) {
@@ -141,7 +155,7 @@ class Pilot {
     state_.ay_body_m_s2 = -s * ax + c * ay;
   }
 
-  const std::vector<Waypoint>& flight_;
+  std::vector<Waypoint> flight_;
   PilotModel model_;
   NoiseSource noise_;
   Wander wander_x_{model_.wander_m, 4.0};

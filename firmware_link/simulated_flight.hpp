@@ -20,6 +20,7 @@ struct PilotModel {
   double wander_m = 0.04;
   double wander_yaw_rad = radians(3.0);
   double wander_speed_share = 0.06;  ///< of the speed
+  int laps = 1;                      ///< how often the script is flown before landing
 };
 
 /// The true motion at one instant.

@@ -3,6 +3,7 @@
 #include "firmware_link/simulated_link.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,12 @@ namespace {
 
 constexpr HostTime kOpened{std::chrono::seconds(1'767'225'600)};  // 2026-01-01 00:00:00 UTC
 constexpr std::chrono::milliseconds kStep{1};
+constexpr std::chrono::milliseconds kPollEvery{20};
+
+VehicleModel on_air(VehicleModel model) {
+  model.link_timeout = kRadioLinkTimeout;
+  return model;
+}
 
 }  // namespace
 
@@ -22,10 +29,11 @@ Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view worl
 
 SimulatedLink::SimulatedLink(SimulatedWorld world, const VehicleModel& model, double packet_loss,
                              std::uint64_t seed)
-    : vehicle_(std::move(world), model, seed),
+    : vehicle_(std::move(world), on_air(model), seed),
       loss_noise_(seed, "packet_loss"),
       packet_loss_(packet_loss),
-      opened_at_(vehicle_.now()) {}
+      opened_at_(vehicle_.now()),
+      polled_at_(opened_at_) {}
 
 Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
   const DeviceTime asked_at = vehicle_.now();
@@ -34,9 +42,11 @@ Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
     if (vehicle_.now() - asked_at + kStep > timeout)
       return Error{ErrorCode::kTimeout, "nothing heard from the simulated vehicle"};
     for (const SentPacket& sent : vehicle_.advance(vehicle_.now() + kStep)) {
-      if (loss_noise_.chance(packet_loss_)) continue;
-      queue(LinkDirection::kFromVehicle, sent.at, {sent.bytes.data(), sent.bytes.size()});
+      const bool is_log_data = is_on(bytes_of(sent.bytes), kLogDataTopic);
+      if (is_log_data && loss_noise_.chance(packet_loss_)) continue;
+      queue(LinkDirection::kFromVehicle, sent.at, bytes_of(sent.bytes));
     }
+    poll();
   }
   const LinkFrame frame = heard_.front();
   heard_.pop_front();
@@ -51,6 +61,14 @@ Status SimulatedLink::send(std::span<const std::uint8_t> packet) {
   for (const PacketBytes& answer : vehicle_.handle(packet))
     queue(LinkDirection::kFromVehicle, vehicle_.now(), {answer.data(), answer.size()});
   return {};
+}
+
+/// Null packets are not handed back: there is no end of them.
+void SimulatedLink::poll() {
+  if (vehicle_.now() - polled_at_ < kPollEvery) return;
+  constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
+  static_cast<void>(vehicle_.handle(kNullPacket));  // it has no answer
+  polled_at_ = vehicle_.now();
 }
 
 void SimulatedLink::queue(LinkDirection direction, DeviceTime at, std::span<const std::uint8_t> packet) {

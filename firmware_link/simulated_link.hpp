@@ -16,9 +16,10 @@
 
 namespace swiftlet {
 
-/// A simulated vehicle in a simulated world behind a link that answers every request but loses some log
-/// packets. Time is simulated too: receive() moves it on to the next frame and never waits, host time is a
-/// fixed date plus simulated time, so a run is repeatable byte for byte. One thread at a time; allocates.
+/// A simulated vehicle in a simulated world behind a link that answers every request, loses some log packets
+/// and keeps the vehicle listening as a radio does that polls it. Time is simulated too: receive() moves it
+/// on to the next frame and never waits, host time is a fixed date plus simulated time, so a run is
+/// repeatable byte for byte. One thread at a time; allocates.
 class SimulatedLink final : public Link {
  public:
   /// `world`: one of simulated_world_names(). Error: kNotFound, the message lists the worlds.
@@ -40,6 +41,7 @@ class SimulatedLink final : public Link {
   [[nodiscard]] double progress() const { return vehicle_.progress(); }
 
  private:
+  void poll();
   void queue(LinkDirection direction, DeviceTime at, std::span<const std::uint8_t> packet);
   [[nodiscard]] HostTime host_time(DeviceTime at) const;
 
@@ -47,6 +49,7 @@ class SimulatedLink final : public Link {
   NoiseSource loss_noise_;
   double packet_loss_;
   DeviceTime opened_at_;
+  DeviceTime polled_at_;
   std::deque<LinkFrame> heard_;
 };
 

@@ -6,9 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <string>
-#include <string_view>
 
-#include "core/base/check.hpp"
+#include "firmware_link/byte_order.hpp"
 
 namespace swiftlet {
 namespace {
@@ -39,20 +38,6 @@ enum Errno : std::uint8_t {
   kNoMemory = 12,
   kExists = 17
 };
-
-void put(PacketBytes& packet, std::uint8_t byte) {
-  SWIFTLET_CHECK(packet.try_push_back(byte), "a packet of the log service fits into 31 bytes");
-}
-void put_little_endian(PacketBytes& packet, std::uint64_t value, std::size_t bytes) {
-  for (std::size_t i = 0; i < bytes; ++i) put(packet, static_cast<std::uint8_t>(value >> (8U * i)));
-}
-void put_text(PacketBytes& packet, std::string_view text) {
-  for (const char c : text) put(packet, static_cast<std::uint8_t>(c));
-  put(packet, 0);
-}
-std::uint16_t little_endian_16(std::span<const std::uint8_t> bytes) {
-  return static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8U);
-}
 
 /// IEEE 754 half precision, rounded to nearest, ties to even.
 std::uint16_t half_bits(float value) {
@@ -113,7 +98,7 @@ PacketBytes table_item(std::uint16_t id) {
 
 std::optional<PacketBytes> answer_table(std::span<const std::uint8_t> packet) {
   if (packet.size() >= 2 && packet[1] == kInfo) return table_info();
-  if (packet.size() >= 4 && packet[1] == kItem) return table_item(little_endian_16(packet.subspan(2)));
+  if (packet.size() >= 4 && packet[1] == kItem) return table_item(load_u16(packet, 2));
   return std::nullopt;  // the 8-bit commands left the firmware with protocol version 12
 }
 
@@ -140,7 +125,7 @@ std::optional<PacketBytes> SimulatedLog::handle(std::span<const std::uint8_t> pa
 std::uint8_t SimulatedLog::control(std::span<const std::uint8_t> packet, Milliseconds now) {
   const std::uint8_t command = packet[1];
   if (command == kReset) {
-    blocks_.clear();
+    clear();
     return kOk;
   }
   const bool is_known = command >= kDelete && command <= kStartMilliseconds;
@@ -159,7 +144,7 @@ std::uint8_t SimulatedLog::control(std::span<const std::uint8_t> packet, Millise
     case kAppend:
       return append(id, packet.subspan(3));
     default:
-      return start(id, Milliseconds(little_endian_16(packet.subspan(3))), now);
+      return start(id, Milliseconds(load_u16(packet, 3)), now);
   }
 }
 
@@ -176,7 +161,7 @@ std::uint8_t SimulatedLog::append(std::uint8_t id, std::span<const std::uint8_t>
   if (found == blocks_.end()) return kNoEntry;
   std::vector<Entry>& present = found->second.entries;
   for (; entries.size() >= kEntryBytes; entries = entries.subspan(kEntryBytes)) {
-    const Entry entry{static_cast<LogType>(entries[0] & 0x0FU), little_endian_16(entries.subspan(1))};
+    const Entry entry{static_cast<LogType>(entries[0] & 0x0FU), load_u16(entries, 1)};
     std::size_t bytes = log_type_size(entry.fetch_type);
     for (const Entry& other : present) bytes += log_type_size(other.fetch_type);
     if (bytes > kMaxBlockBytes) return kTooBig;

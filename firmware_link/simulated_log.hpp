@@ -10,15 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "core/base/fixed_vector.hpp"
 #include "core/base/time.hpp"
 #include "firmware_link/simulated_log_table.hpp"
+#include "firmware_link/simulated_packet.hpp"
 #include "firmware_link/simulated_random.hpp"
 
 namespace swiftlet {
-
-/// A CRTP packet: header byte and up to 30 data bytes.
-using PacketBytes = FixedVector<std::uint8_t, 31>;
 
 /// The log service of the vehicle's firmware (CRTP port 5, protocol version 12): table of contents, log
 /// blocks with the firmware's limits and error codes, and their packets. One thread at a time; allocates.
@@ -30,6 +27,8 @@ class SimulatedLog {
   explicit SimulatedLog(std::uint64_t seed) : seed_(seed) {}
 
   [[nodiscard]] bool has_running_block() const;
+  /// Deletes all blocks, as the firmware does when the radio has gone silent.
+  void clear() { blocks_.clear(); }
   /// The answer to a packet of port 5, received at `now` (since boot); nullopt where the firmware keeps
   /// silent.
   [[nodiscard]] std::optional<PacketBytes> handle(std::span<const std::uint8_t> packet, Milliseconds now);

@@ -47,7 +47,13 @@ struct LogVariable {
   std::string_view group;
   std::string_view name;
   LogType type;
-  double (*read)(const VehicleState&);  ///< in the variable's own unit, before conversion to its type
+  double (*live)(const VehicleState&) = nullptr;  ///< unset: what it shows never changes
+  double constant = 0.0;
+
+  /// In the variable's own unit, before conversion to its type.
+  [[nodiscard]] double read(const VehicleState& state) const {
+    return live != nullptr ? live(state) : constant;
+  }
 };
 
 /// The log variables of the simulated vehicle; the id of each is its place here.

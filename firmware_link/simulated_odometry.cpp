@@ -8,6 +8,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
+constexpr double kYawPull = 0.001;  // of the way, each step
 
 }  // namespace
 
@@ -31,7 +32,7 @@ double FlowOdometry::seen_share() {
   return slip_share_;
 }
 
-void FlowOdometry::step(const FlightState& truth) {
+void FlowOdometry::step(const FlightState& truth, bool has_flow) {
   if (truth.height_m <= 0.0) {
     vx_body_m_s_ = vy_body_m_s_ = yaw_rate_rad_s_ = 0.0;
     return;
@@ -42,6 +43,7 @@ void FlowOdometry::step(const FlightState& truth) {
   const double share = seen_share() * (scale_ + scale_error_);
   vx_body_m_s_ = share * truth.vx_body_m_s + flow_noise_.gaussian(model_.velocity_noise_m_s);
   vy_body_m_s_ = share * truth.vy_body_m_s + flow_noise_.gaussian(model_.velocity_noise_m_s);
+  if (!has_flow) vx_body_m_s_ = vy_body_m_s_ = 0.0;
   yaw_rate_rad_s_ = turn_scale_ * truth.yaw_rate_rad_s + yaw_bias_rad_s_;
   const double turned_rad =
       yaw_rate_rad_s_ * kStepS + gyro_noise_.gaussian(model_.yaw_walk_rad_sqrt_s * std::sqrt(kStepS));
@@ -49,6 +51,18 @@ void FlowOdometry::step(const FlightState& truth) {
   const double step_sigma_m = model_.velocity_noise_m_s * kStepS;
   position_variance_m2_ += step_sigma_m * step_sigma_m;
   yaw_variance_rad2_ += model_.yaw_walk_rad_sqrt_s * model_.yaw_walk_rad_sqrt_s * kStepS;
+}
+
+void FlowOdometry::pull_yaw(double initial_yaw_rad) {
+  const Pose2& was = T_odom_body_;
+  const double pull = kYawPull * wrap_angle(initial_yaw_rad - was.yaw_rad());
+  T_odom_body_ = Pose2(was.x_m(), was.y_m(), was.yaw_rad() + pull);
+}
+
+void FlowOdometry::reset(const Pose2& T_odom_body) {
+  T_odom_body_ = T_odom_body;
+  vx_body_m_s_ = vy_body_m_s_ = yaw_rate_rad_s_ = 0.0;
+  position_variance_m2_ = yaw_variance_rad2_ = 0.0;
 }
 
 }  // namespace swiftlet

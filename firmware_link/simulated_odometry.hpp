@@ -49,8 +49,14 @@ class FlowOdometry {
   [[nodiscard]] double position_variance_m2() const { return position_variance_m2_; }
   [[nodiscard]] double yaw_variance_rad2() const { return yaw_variance_rad2_; }
 
-  /// The vehicle moved like `truth` for one kFlightStep. On the ground (height 0) the estimate holds.
-  void step(const FlightState& truth);
+  /// The vehicle moved like `truth` for one kFlightStep. On the ground (height 0) the estimate holds; without
+  /// flow the position does, and only the heading is followed.
+  void step(const FlightState& truth, bool has_flow = true);
+  /// One kFlightStep of what the filter does while it takes the vehicle for standing: the heading is drawn
+  /// towards the initial one, with a time constant of 10 s.
+  void pull_yaw(double initial_yaw_rad);
+  /// The filter begins anew from there.
+  void reset(const Pose2& T_odom_body);
 
  private:
   [[nodiscard]] double seen_share();

@@ -10,6 +10,7 @@
 
 #include "core/sensing/range_sample.hpp"
 #include "tools/map_command.hpp"
+#include "tools/sim_command.hpp"
 
 namespace {
 
@@ -42,6 +43,28 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   return map;
 }
 
+CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
+  CLI::App* sim = app.add_subcommand("sim", "Put a simulated vehicle on UDP, to practise on");
+  sim->add_option("--world", command.world, "office, maze, loop or corridors")->capture_default_str();
+  sim->add_option("--seed", command.seed, "Of all noise")->capture_default_str();
+  sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();
+  sim->add_option("--laps", command.laps, "How often to fly the world's script before landing")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  sim->add_option("--battery", command.battery_minutes, "Minutes in the air until it is empty")
+      ->check(CLI::Range(0.1, 1000.0));
+  sim->add_option("--clock-start", command.clock_start_s, "Seconds on the vehicle's clock at first")
+      ->check(CLI::Range(0.0, 1e6));
+  sim->add_option("--loss", command.loss_percent, "Percent of packets lost, each way")
+      ->check(CLI::Range(0.0, 100.0));
+  sim->add_option("--delay", command.delay_ms, "Milliseconds that packets from the vehicle take")
+      ->check(CLI::Range(0.0, 60'000.0));
+  sim->add_option("--duplicates", command.duplicates_percent, "Percent of packets from the vehicle doubled")
+      ->check(CLI::Range(0.0, 100.0));
+  sim->add_option("--missing-deck", command.missing_decks, "flow or multiranger; may be given twice");
+  return sim;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("2D SLAM for four range beams");
   app.name("swiftlet");
@@ -49,14 +72,17 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   swiftlet::MapCommand map_command;
   const CLI::App* map = add_map_command(app, map_command);
+  swiftlet::SimCommand sim_command;
+  const CLI::App* sim = add_sim_command(app, sim_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return refuse(std::string(error.what()) + "; see swiftlet --help");
   }
-  if (!map->parsed()) return refuse("no command given; see swiftlet --help");
-  const swiftlet::Status status = swiftlet::run_map_command(map_command);
+  if (!map->parsed() && !sim->parsed()) return refuse("no command given; see swiftlet --help");
+  const swiftlet::Status status =
+      sim->parsed() ? swiftlet::run_sim_command(sim_command) : swiftlet::run_map_command(map_command);
   return status ? 0 : refuse(status.error().message);
 }
 

@@ -74,7 +74,7 @@ TEST_F(LogService, TellsSizeKeyAndLimitsOfItsTable) {
   const Bytes expected{0x50,
                        0x03,
                        static_cast<std::uint8_t>(simulated_log_table().size()),
-                       0x00,
+                       static_cast<std::uint8_t>(simulated_log_table().size() >> 8U),
                        static_cast<std::uint8_t>(crc),
                        static_cast<std::uint8_t>(crc >> 8U),
                        static_cast<std::uint8_t>(crc >> 16U),
@@ -93,7 +93,7 @@ TEST_F(LogService, NamesAnItemOfItsTable) {
 }
 
 TEST_F(LogService, AnswersWithTwoBytesBeyondItsTable) {
-  EXPECT_EQ(ask({0x5C, 0x02, 0x8B, 0x01}), (Bytes{0x50, 0x02}));
+  EXPECT_EQ(ask({0x5C, 0x02, 0xFF, 0x7F}), (Bytes{0x50, 0x02}));
 }
 
 TEST_F(LogService, KeepsSilentOnThe8BitTableCommands) {
