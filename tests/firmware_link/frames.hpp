@@ -59,6 +59,7 @@ class LogPacket {
  public:
   LogPacket(std::uint8_t block, std::uint32_t time_ms)
       : bytes_{0x52, block, low_byte(time_ms), high_byte(time_ms), low_byte(time_ms >> 16)} {}
+  LogPacket& u8(std::uint8_t value) { return put(value, 1); }
   LogPacket& u16(std::uint16_t value) { return put(value, 2); }
   LogPacket& i16(std::int16_t value) { return put(static_cast<std::uint16_t>(value), 2); }
   LogPacket& u32(std::uint32_t value) { return put(value, 4); }

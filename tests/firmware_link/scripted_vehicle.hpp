@@ -85,6 +85,7 @@ class ScriptedVehicle {
       if (!block.running) continue;
       LogPacket packet(id, time_ms);
       for (const auto& [type, variable] : block.entries) {
+        if (size_of(type) == 1) packet.u8(0);
         if (size_of(type) == 2) packet.u16(variable == 0 ? 0 : 1000);
         if (size_of(type) == 4) packet.f32(variables[variable].name == "qw" ? 1.0F : 0.0F);
       }

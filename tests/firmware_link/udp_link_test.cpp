@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <ctime>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/udp_peer.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/thread_cpu_time.hpp"
 
 namespace swiftlet {
 namespace {
@@ -182,12 +182,6 @@ TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndComesBack) {
   pair.clock.sleep_for(std::chrono::seconds(1));
   EXPECT_FALSE(pair.look().has_value());
   EXPECT_EQ(pair.link->statistics().silences, 2U);
-}
-
-Duration thread_cpu_time() {
-  timespec time{};
-  EXPECT_EQ(::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time), 0);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
 TEST(UdpLink, WaitsPatientlyWhereNobodyListensUntilSomebodyDoes) {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+// How much of a core the radio thread takes while the vehicle is there and has nothing to say.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "daemon/radio_worker.hpp"
+#include "firmware_link/link_sample_source.hpp"
+#include "firmware_link/udp_link.hpp"
+#include "tests/firmware_link/udp_peer.hpp"
+#include "tests/support/thread_cpu_time.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr Duration kWatched = std::chrono::seconds(10);
+
+/// Answers every datagram with a null packet.
+class QuietVehicle {
+ public:
+  ~QuietVehicle() {
+    stop_ = true;
+    thread_.join();
+  }
+  [[nodiscard]] std::uint16_t port() const { return peer_.port(); }
+
+ private:
+  void run() {
+    constexpr std::array<std::uint8_t, 1> kNullPacket{0xF3};
+    while (!stop_)
+      if (peer_.hear(50)) peer_.say(kNullPacket);
+  }
+
+  UdpPeer peer_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_{&QuietVehicle::run, this};
+};
+
+/// The radio thread's work on that link, on this thread, for a while.
+void watch_radio_thread(benchmark::State& state, std::unique_ptr<Link> owned_link) {
+  const Link& link = *owned_link;
+  LinkInput input;
+  input.name = "benchmark";
+  input.link = std::move(owned_link);
+  LinkSampleSource source(std::move(input));
+  const auto queue = std::make_unique<SampleQueue>();
+  LatestValue<InputStatus> status;
+  StageHistogram stage_times;
+  const SteadyClock clock;
+  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(), &status, stage_times);
+  for (auto _ : state) {  // NOLINT(readability-identifier-naming): as Google Benchmark has it
+    const MonotonicTime start = clock.now();
+    const Duration cpu_start = thread_cpu_time();
+    while (clock.now() - start < kWatched) static_cast<void>(worker.step());
+    const Duration cpu = thread_cpu_time() - cpu_start;
+    const Duration wall = clock.now() - start;
+    state.counters["cpu_percent"] = 100.0 * to_seconds(cpu) / to_seconds(wall);
+    state.counters["packets_per_s"] = static_cast<double>(link.statistics().packets_sent) / to_seconds(wall);
+  }
+  SWIFTLET_CHECK(link.statistics().condition == LinkCondition::kConnected, "the vehicle is heard");
+}
+
+void idle_udp(benchmark::State& state) {
+  const QuietVehicle vehicle;
+  SystemLinkClock clock;
+  Result<std::unique_ptr<UdpLink>> link = UdpLink::open("127.0.0.1", vehicle.port(), clock);
+  SWIFTLET_CHECK(link.ok(), "a loopback address needs no looking up");
+  watch_radio_thread(state, std::move(link).value());
+}
+BENCHMARK(idle_udp)->Iterations(1)->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace swiftlet
+
+BENCHMARK_MAIN();

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+// Writes the seeds of the fuzz targets: make_seeds FOLDER.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "firmware_link/capture_writer.hpp"
+#include "firmware_link/frame_sink.hpp"
+#include "firmware_link/link_sample_source.hpp"
+#include "tests/firmware_link/scripted_vehicle.hpp"
+#include "tests/fuzz/fuzz_bytes.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// Keeps what it takes.
+class FrameKeeper final : public FrameSink {
+ public:
+  std::vector<LinkFrame> frames;
+  void take(const LinkFrame& frame) noexcept override { frames.push_back(frame); }
+};
+
+/// A handshake and a second of flight; without `left_out`, if there is such a variable.
+std::vector<LinkFrame> session(std::string_view left_out) {
+  FrameKeeper keeper;
+  auto link = std::make_unique<ScriptedLink>();
+  for (const ScriptedVehicle::Variable& variable : ScriptedVehicle::modern_variables())
+    if (variable.group + '.' + variable.name != left_out) link->vehicle.variables.push_back(variable);
+  link->last_ms = 1000;
+  LinkInput input;
+  input.name = "seed";
+  input.starts_logging = true;
+  input.recording = &keeper;
+  input.link = std::move(link);
+  LinkSampleSource source(std::move(input));
+  for (;;) {
+    const Result<RangeSample> sample = source.next();
+    if (!sample && sample.error().code != ErrorCode::kTimeout) return keeper.frames;
+  }
+}
+
+bool write(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return file.good();
+}
+bool write(const std::filesystem::path& path, std::string_view text) {
+  return write(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+bool write(const std::filesystem::path& path, const std::vector<LinkFrame>& frames, CaptureLinkKind kind) {
+  std::filesystem::create_directories(path.parent_path());
+  CaptureVehicle vehicle;
+  vehicle.kind = kind;
+  vehicle.address.fill(0xE7);
+  Result<CaptureWriter> writer = CaptureWriter::create(path.string(), vehicle);
+  if (!writer) return false;
+  for (const LinkFrame& frame : frames)
+    if (!writer->write(frame)) return false;
+  return writer->flush().ok();
+}
+
+bool write_uris(const std::filesystem::path& folder) {
+  int number = 0;
+  for (const std::string_view uri :
+       {"radio://0/80/2M/E7E7E7E7E7?safelink=0&rate_limit=100", "radio://E7E7E7E7E7/125/250k/1", "radio://*",
+        "usb://0", "udp://127.0.0.1:19850", "udp://[::1]:1", "sim://office?seed=7", "replay:flight.pcap"})
+    if (!write(folder / std::to_string(number++), uri)) return false;
+  return true;
+}
+
+/// See MoodyLink: which variable is left out, right answers, then log data of the blocks in turn.
+bool write_handshakes(const std::filesystem::path& folder) {
+  std::vector<std::uint8_t> two_blocks(80, 0x00);
+  for (std::uint8_t i = 0; i < 40; ++i) two_blocks.insert(two_blocks.end(), {0x90, i});
+  std::vector<std::uint8_t> one_block = two_blocks;
+  one_block[0] = 0xFF;
+  std::vector<std::uint8_t> half_deaf = one_block;
+  for (std::size_t i = 1; i < 80; i += 3) half_deaf[i] = 0xE0;
+  return write(folder / "one_block", one_block) && write(folder / "two_blocks", two_blocks) &&
+         write(folder / "half_deaf", half_deaf);
+}
+
+constexpr std::string_view kDescription = R"([[block]]
+id = 1
+period_ms = 100
+variables = [
+  { name = "stateEstimate.x", type = "float" },
+  { name = "stateEstimate.y", type = "float" },
+  { name = "stateEstimate.yaw", type = "half" },
+  { name = "range.front", type = "uint16" },
+]
+)";
+/// Two scans of the smallest known width.
+std::string laser_log() {
+  std::string log = "PARAM robot_frontlaser_offset 0.0\n";
+  for (const std::string_view pose : {"0.0 0.0 0.0", "0.1 0.0 0.1"}) {
+    log += "FLASER 180";
+    for (int i = 0; i < 180; ++i) log += i % 9 == 0 ? " 81.9" : " 2.5";
+    for (int i = 0; i < 2; ++i) log.append(" ").append(pose);
+    log += " 1.0 host 1.0\n";
+  }
+  return log;
+}
+
+bool write_all(const std::filesystem::path& folder) {
+  const std::vector<LinkFrame> one_block = session("");
+  const std::vector<LinkFrame> two_blocks = session("stateEstimate.x");
+  return write_uris(folder / "input_uri") && write_handshakes(folder / "log_handshake") &&
+         write(folder / "log_session/one_block", as_fuzz_bytes(one_block)) &&
+         write(folder / "log_session/two_blocks", as_fuzz_bytes(two_blocks)) &&
+         write(folder / "recording/radio.pcap", one_block, CaptureLinkKind::kRadio) &&
+         write(folder / "recording/usb.pcap", two_blocks, CaptureLinkKind::kUsb) &&
+         write(folder / "recording/laser.clf", laser_log()) &&
+         write(folder / "block_description/one.toml", kDescription);
+}
+
+}  // namespace
+}  // namespace swiftlet
+
+int main(int argc, char** argv) {
+  if (argc == 2 && swiftlet::write_all(argv[1])) return 0;
+  std::fprintf(stderr, "make_seeds FOLDER: writes the seeds there; is it writable?\n");
+  return 2;
+}
