@@ -30,6 +30,10 @@ struct RadioAnswer {
   bool strong = false;                                  ///< received above about -64 dBm
   std::uint8_t retries = 0;                             ///< retransmissions it took, where acknowledged
   FixedVector<std::uint8_t, kMaxRadioPayload> payload;  ///< what the vehicle sent back, 0 to 32 bytes
+
+  [[nodiscard]] bool may_go_on() const {
+    return outcome == UsbOutcome::kDone || outcome == UsbOutcome::kTimeout || outcome == UsbOutcome::kStall;
+  }
 };
 
 /// A Crazyradio PA or 2.0: sends one packet, fetches one. One thread at a time; must not outlive the bus.

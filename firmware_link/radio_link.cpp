@@ -10,6 +10,7 @@
 
 #include "core/base/check.hpp"
 #include "firmware_link/link_condition.hpp"
+#include "firmware_link/link_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -30,12 +31,6 @@ constexpr int kMostUnansweredAsks = 10;
 constexpr int kMostRepeats = 5;
 constexpr Duration kRepeatWindow = std::chrono::seconds(1);
 constexpr int kMostFailuresInARow = 10;
-
-CrtpPacket copy_of(std::span<const std::uint8_t> bytes) {
-  CrtpPacket packet;
-  for (const std::uint8_t byte : bytes) static_cast<void>(packet.try_push_back(byte));
-  return packet;
-}
 
 Duration pause_between(std::optional<int> rate_limit_hz) {
   if (!rate_limit_hz) return Duration::zero();
@@ -74,8 +69,7 @@ Result<LinkFrame> RadioLink::receive(Duration timeout) {
 }
 
 Status RadioLink::send(std::span<const std::uint8_t> packet) {
-  if (unacknowledged_ && is_same_packet(bytes_of(*unacknowledged_), packet) && !is_null_packet(packet))
-    return {};
+  if (unacknowledged_ && has_content(packet) && is_same_packet(bytes_of(*unacknowledged_), packet)) return {};
   return requests_.push(packet);
 }
 
@@ -120,13 +114,11 @@ void RadioLink::exchange() {
   const RadioAnswer answer = radio_->exchange(bytes_of(packet));
   was_acknowledged_ = answer.acknowledged;
   has_more_ = false;
-  const bool is_going_on = answer.outcome == UsbOutcome::kDone || answer.outcome == UsbOutcome::kTimeout ||
-                           answer.outcome == UsbOutcome::kStall;
   failures_in_a_row_ = answer.outcome == UsbOutcome::kDone ? 0 : failures_in_a_row_ + 1;
-  if (!is_going_on || failures_in_a_row_ >= kMostFailuresInARow) return lose_dongle(answer.outcome);
+  if (!answer.may_go_on() || failures_in_a_row_ >= kMostFailuresInARow) return lose_dongle(answer.outcome);
   ++statistics_.packets_sent;
   if (answer.outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
-  if (sent_ == Sent::kRequest) hand_back(LinkDirection::kToVehicle, now, bytes_of(packet));
+  if (sent_ == Sent::kRequest) hand_back(frame_of(LinkDirection::kToVehicle, now, bytes_of(packet)));
   if (answer.acknowledged) hear(answer, clock_.now());
 }
 
@@ -152,7 +144,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
     const bool asks = silent_ ? now - kAskPeriodInSilence >= asked_at_ : sent_ != Sent::kAsk;
     sent_ = asks ? Sent::kAsk : Sent::kPoll;
     if (asks) asked_at_ = now;
-    return asks ? copy_of(kSafelinkRequest) : copy_of(kPollPacket);
+    return asks ? packet_of(kSafelinkRequest) : packet_of(kPollPacket);
   }
   if (unacknowledged_) {
     sent_ = Sent::kPoll;  // a request among them was handed back already
@@ -160,7 +152,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
   }
   sent_ = requests_.empty() || silent_ ? Sent::kPoll : Sent::kRequest;
   if (sent_ == Sent::kRequest) active_at_ = now;
-  CrtpPacket packet = sent_ == Sent::kRequest ? requests_.pop() : copy_of(kPollPacket);
+  CrtpPacket packet = sent_ == Sent::kRequest ? requests_.pop() : packet_of(kPollPacket);
   if (mode_ == Mode::kSafelink) {
     packet[0] = safelink_.header(packet[0]);
     unacknowledged_ = packet;
@@ -168,12 +160,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
   return packet;
 }
 
-void RadioLink::hand_back(LinkDirection direction, HostTime at, std::span<const std::uint8_t> packet) {
-  LinkFrame frame;
-  frame.at = at;
-  frame.direction = direction;
-  frame.size = static_cast<std::uint8_t>(packet.size());
-  std::ranges::copy(packet, frame.bytes.begin());
+void RadioLink::hand_back(const LinkFrame& frame) {
   SWIFTLET_CHECK(to_hand_back_.try_push_back(frame), "an exchange yields two frames at most");
 }
 
@@ -206,7 +193,7 @@ void RadioLink::hear_while_asking(std::span<const std::uint8_t> payload, HostTim
     if (++unanswered_asks_ >= kMostUnansweredAsks) mode_ = Mode::kPlain;
   }
   // Its counters unknown, the vehicle may say again what it said last.
-  if (last_heard_ && is_same_packet(bytes_of(*last_heard_), payload) && !is_null_packet(payload)) {
+  if (last_heard_ && is_same_packet(bytes_of(*last_heard_), payload)) {
     ++statistics_.duplicates;
     return;
   }
@@ -226,12 +213,12 @@ void RadioLink::hear_by_safelink(std::span<const std::uint8_t> payload, HostTime
 }
 
 void RadioLink::hear_content(std::span<const std::uint8_t> payload, HostTime now) {
-  if (payload.empty() || payload.size() > kMaxCrtpPacket || is_null_packet(payload)) return;
+  if (!has_content(payload)) return;
   ++statistics_.packets_received;
   active_at_ = now;
   has_more_ = true;
-  last_heard_ = copy_of(payload);
-  hand_back(LinkDirection::kFromVehicle, now, payload);
+  last_heard_ = packet_of(payload);
+  hand_back(frame_of(LinkDirection::kFromVehicle, now, payload));
 }
 
 }  // namespace swiftlet

@@ -55,7 +55,7 @@ class RadioLink final : public Link {
   void fall_silent();
   void ask_for_safelink();
   [[nodiscard]] CrtpPacket next_packet(HostTime now);
-  void hand_back(LinkDirection direction, HostTime at, std::span<const std::uint8_t> packet);
+  void hand_back(const LinkFrame& frame);
   void hear(const RadioAnswer& answer, HostTime now);
   void hear_while_asking(std::span<const std::uint8_t> payload, HostTime now);
   void hear_by_safelink(std::span<const std::uint8_t> payload, HostTime now);

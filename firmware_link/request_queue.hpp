@@ -11,19 +11,9 @@
 #include "core/base/fixed_vector.hpp"
 #include "core/base/result.hpp"
 #include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/link_packet.hpp"
 
 namespace swiftlet {
-
-/// The packet that says nothing: polls, and what a vehicle answers that has nothing to say.
-constexpr bool is_null_packet(std::span<const std::uint8_t> packet) {
-  return !packet.empty() && (packet[0] & 0xF3) == 0xF3;
-}
-
-/// The same packet but for the link bits.
-constexpr bool is_same_packet(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  return !a.empty() && a.size() == b.size() && ((a[0] ^ b[0]) & 0xF3) == 0 &&
-         std::ranges::equal(a.subspan(1), b.subspan(1));
-}
 
 /// Requests that wait to be sent over a live link. Fixed storage; a request that waits already is not queued
 /// twice, and what it has no room for is dropped: requests without an answer are repeated anyway.
@@ -42,9 +32,7 @@ class RequestQueue {
       return is_same_packet(bytes_of(waiting), packet);
     };
     if (std::ranges::any_of(waiting_, is_packet)) return {};
-    CrtpPacket copy;
-    for (const std::uint8_t byte : packet) static_cast<void>(copy.try_push_back(byte));
-    static_cast<void>(waiting_.try_push_back(copy));
+    static_cast<void>(waiting_.try_push_back(packet_of(packet)));
     return {};
   }
   [[nodiscard]] bool empty() const { return waiting_.empty(); }
