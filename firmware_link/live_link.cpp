@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "firmware_link/libusb_bus.hpp"
+#include "firmware_link/radio_link.hpp"
 #include "firmware_link/udp_link.hpp"
+#include "firmware_link/usb_cable_link.hpp"
 
 namespace swiftlet {
 namespace {
@@ -17,13 +20,27 @@ Status open_udp(const InputUri& uri, LiveLink& live) {
   return {};
 }
 
+Status open_usb(const InputUri& uri, LiveLink& live) {
+  Result<std::unique_ptr<UsbBus>> bus = LibusbBus::open();
+  if (!bus) return bus.error();
+  live.usb_bus = std::move(bus).value();
+  if (uri.kind == InputUri::Kind::kRadio) {
+    live.link = std::make_unique<RadioLink>(*live.usb_bus, *live.clock, uri.radio);
+  } else {
+    live.link = std::make_unique<UsbCableLink>(*live.usb_bus, *live.clock, uri.usb_index);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<LiveLink> open_live_link(const InputUri& uri) {
+  using Kind = InputUri::Kind;
+  SWIFTLET_CHECK(uri.kind == Kind::kRadio || uri.kind == Kind::kUsbCable || uri.kind == Kind::kUdp,
+                 "the URI names a live link");
   LiveLink live;
   live.clock = std::make_shared<SystemLinkClock>();
-  SWIFTLET_CHECK(uri.kind == InputUri::Kind::kUdp, "the URI names a live link");
-  const Status opened = open_udp(uri, live);
+  const Status opened = uri.kind == Kind::kUdp ? open_udp(uri, live) : open_usb(uri, live);
   if (!opened) return opened.error();
   return live;
 }
