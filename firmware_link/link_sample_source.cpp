@@ -12,8 +12,10 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
-// The vehicle's estimate runs on while the link is silent: as long as the step across a hole is one that it
-// can have flown, it is motion. After this long it may have landed and been carried.
+// After a second without the radio the vehicle gives the link up, and so do we: what it did meanwhile is a
+// guess. Its estimate runs on all the same, so that the guess is a good one as long as the step across the
+// hole is one that it can have flown; after half a minute it may have landed and been carried.
+constexpr Duration kUnwatched = std::chrono::seconds(1);
 constexpr Duration kLinkLost = std::chrono::seconds(30);
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
 
@@ -22,6 +24,7 @@ AssemblyConfig assembly_config(const SensorModel& sensor) {
   config.beams = BeamLayout::multiranger();
   config.sensor = sensor;
   config.continuity.longest_silence = kLinkLost;
+  config.unwatched_after = kUnwatched;
   return config;
 }
 

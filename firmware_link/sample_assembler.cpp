@@ -118,7 +118,7 @@ std::optional<RangeSample> SampleAssembler::take() {
       continue;
     }
     const Pose2 T_odom_body(position.value.x_m, position.value.y_m, yaw.value.yaw_rad);
-    const RangeSample sample = finish(pending_.front(), T_odom_body, {position.run, yaw.run});
+    const RangeSample sample = finish(pending_.front(), T_odom_body, {position.run, yaw.run, at});
     pending_.erase(0);
     return sample;
   }
@@ -132,7 +132,11 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
   sample.measured_at = ranges.measured_at;
   sample.stamp = ranges.heard;
   sample.T_odom_body = T_odom_body;
-  sample.starts_segment = !last_motion_ || *last_motion_ != motion;
+  const bool runs_on = last_motion_ && last_motion_->position_run == motion.position_run &&
+                       last_motion_->yaw_run == motion.yaw_run;
+  const bool was_watched = runs_on && motion.at - last_motion_->at < config_.unwatched_after;
+  sample.starts_segment = !was_watched;
+  sample.odometry_ran_on = runs_on && !was_watched;
   last_motion_ = motion;
   sample.beam_count = config_.beams.count;
   for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {

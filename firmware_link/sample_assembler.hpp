@@ -34,6 +34,8 @@ struct AssemblyConfig {
   SensorModel sensor;
   Duration range_period{};  ///< nominal, to count gaps by; 0: irregular, gaps are not counted
   ContinuityLimits continuity;
+  /// Dead reckoning that nobody heard for so long is a guess: RangeSample::odometry_ran_on.
+  Duration unwatched_after = Duration::max();
 };
 
 /// Makes range samples of readings: pairs ranges with dead reckoning of the same instant (the packet's time
@@ -62,10 +64,11 @@ class SampleAssembler {
     HostTime heard{};
     FixedVector<float, kMaxBeams> distance_m;
   };
+  /// Where a sample stands in the dead reckoning: how often that began anew, and when it was measured.
   struct Motion {
     std::uint32_t position_run = 0;
     std::uint32_t yaw_run = 0;
-    bool operator==(const Motion&) const = default;
+    DeviceTime at{};
   };
 
   /// False when the reading is a duplicate or late.

@@ -84,7 +84,7 @@ void Backend::State::add_motion(const Keyframe& made) {
   step.from = static_cast<KeyframeId>(index_of(made.id) - 1);
   step.to = made.id;
   step.T_from_to = between(T_local_keyframe[index_of(step.from)], T_local_keyframe[index_of(step.to)]);
-  step.information = made.starts_segment
+  step.information = made.starts_segment && !made.odometry_ran_on
                          ? kUnknownMotionInformation
                          : residual_information(step.T_from_to, made.motion_covariance.matrix());
   motion_constraint.push_back(graph.constraints.size());

@@ -8,6 +8,7 @@
 
 #include "core/backend/pose_system.hpp"
 #include "core/backend/wall_map.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
 namespace {
@@ -86,7 +87,13 @@ std::vector<PoseConstraint> motions_of(const ScanStore& scans, const OdometryNoi
     c.to = static_cast<KeyframeId>(i);
     double sigma_m = kUnknownMotionSigma;
     double sigma_rad = kUnknownMotionSigma;
-    if (!scans[i].starts_segment) {
+    if (scans[i].starts_segment && scans[i].odometry_ran_on) {
+      c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
+      const Duration silence = scans[i].stamp - scans[i - 1].stamp;
+      const UncertainMotion guess = unwatched_step(noise, c.T_from_to, silence);
+      sigma_m = std::sqrt(guess.covariance(0, 0));
+      sigma_rad = std::sqrt(guess.covariance(2, 2));
+    } else if (!scans[i].starts_segment) {
       c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
       const double distance_m = std::hypot(c.T_from_to.x_m(), c.T_from_to.y_m());
       const double turn_rad = std::abs(c.T_from_to.yaw_rad());

@@ -23,10 +23,11 @@ ScanIndex ScanStore::add(const FrontendStep& step) {
                   .path_m = 0.0,
                   .first_return = static_cast<std::uint32_t>(returns_.size()),
                   .return_count = 0,
-                  .starts_segment = sample.starts_segment};
+                  .starts_segment = sample.starts_segment,
+                  .odometry_ran_on = sample.odometry_ran_on};
   if (!scans_.empty()) {
     scan.path_m = scans_.back().path_m;
-    if (!sample.starts_segment) {
+    if (!sample.starts_segment || sample.odometry_ran_on) {
       const Pose2 motion = between(scans_.back().T_odom_body, sample.T_odom_body);
       scan.path_m += std::hypot(motion.x_m(), motion.y_m());
     }

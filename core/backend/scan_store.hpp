@@ -34,6 +34,7 @@ struct StoredScan {
   std::uint32_t first_return = 0;
   std::uint16_t return_count = 0;
   bool starts_segment = false;
+  bool odometry_ran_on = false;  ///< as RangeSample's
 };
 
 /// Every scan of a run, in order, append only. Allocates as it grows. One thread at a time.

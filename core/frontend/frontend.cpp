@@ -51,7 +51,7 @@ struct Frontend::State {
   void add_line_constraints();
   void insert(const LineSegment& segment);
   void optimize_or_roll_back();
-  void report_keyframe(bool starts_segment);
+  void report_keyframe(const RangeSample& sample);
   void report_walls(Keyframe& keyframe) const;
 
   FrontendConfig config;
@@ -67,6 +67,7 @@ struct Frontend::State {
   LineSegments segments;
 
   std::optional<Pose2> T_odom_previous;
+  DeviceTime previous_at{};
   UncertainMotion since_keyframe;
   double yaw_correction_rad = 0.0;                                          // of since_keyframe
   std::array<double, kMaxKeyframeWindow> yaw_correction_of_keyframe_rad{};  // by id, modulo the capacity
@@ -102,7 +103,7 @@ const FrontendStep& Frontend::process(const RangeSample& sample) noexcept {
       s.add_line_constraints();                                            // lines 4-6
       s.optimize_or_roll_back();                                           // lines 8-14
     }
-    s.report_keyframe(sample.starts_segment);
+    s.report_keyframe(sample);
   }
   s.step.sample = sample;
   s.step.keyframe = s.newest;
@@ -113,19 +114,22 @@ const FrontendStep& Frontend::process(const RangeSample& sample) noexcept {
 
 void Frontend::State::track_motion(const RangeSample& sample) {
   UncertainMotion motion;
-  if (sample.starts_segment || !T_odom_previous) {
-    multiscan.restart();
-  } else {
+  if (sample.starts_segment) multiscan.restart();
+  if (T_odom_previous && (!sample.starts_segment || sample.odometry_ran_on)) {
     const Pose2 T_previous_body = between(*T_odom_previous, sample.T_odom_body);
     const double correction_rad = drift.yaw_correction_rad(T_previous_body.x_m(), T_previous_body.yaw_rad());
     yaw_correction_rad += correction_rad;
-    motion = uncertain_step(odometry_noise, Pose2(T_previous_body.x_m(), T_previous_body.y_m(),
-                                                  T_previous_body.yaw_rad() + correction_rad));
+    const Pose2 T_corrected(T_previous_body.x_m(), T_previous_body.y_m(),
+                            T_previous_body.yaw_rad() + correction_rad);
+    motion = sample.starts_segment
+                 ? unwatched_step(odometry_noise, T_corrected, sample.measured_at - previous_at)
+                 : uncertain_step(odometry_noise, T_corrected);
     since_keyframe = since_keyframe * motion;
     step.T_dead_body = step.T_dead_body * motion.T_from_to;
   }
   T_odom_previous = sample.T_odom_body;
-  multiscan.add(sample, motion);
+  previous_at = sample.measured_at;
+  multiscan.add(sample, sample.starts_segment ? UncertainMotion() : motion);
 }
 
 bool Frontend::State::keyframe_due(const RangeSample& sample) const {
@@ -145,12 +149,12 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
     keyframe_motion = since_keyframe;
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
     viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
-    if (sample.starts_segment) {
-      // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate, and
-      // walls seen before say nothing about walls seen from here.
+    // Walls seen before say little about walls seen from here.
+    if (sample.starts_segment) first_of_segment = newest;
+    if (sample.starts_segment && !sample.odometry_ran_on) {
+      // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate.
       keyframe_motion.covariance = unknown_motion().covariance;
       viewpoint_covariance.setZero();
-      first_of_segment = newest;
     }
     learn_drift();
     if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) {
@@ -219,11 +223,12 @@ void Frontend::State::optimize_or_roll_back() {
   graph.update_end_points();
 }
 
-void Frontend::State::report_keyframe(bool starts_segment) {
+void Frontend::State::report_keyframe(const RangeSample& sample) {
   Keyframe& made = step.made;
   made.id = newest;
   made.motion_covariance = Covariance3::from_matrix(keyframe_motion.covariance);
-  made.starts_segment = starts_segment || counters.keyframes == 1;
+  made.starts_segment = sample.starts_segment || counters.keyframes == 1;
+  made.odometry_ran_on = sample.odometry_ran_on && counters.keyframes > 1;
   made.T_local_keyframe.clear();
   for (const PoseVertex& pose : graph.poses()) {
     const bool has_room = made.T_local_keyframe.try_push_back(pose.T_local_body);

@@ -30,7 +30,8 @@ struct WallUpdate {
 struct Keyframe {
   KeyframeId id{};
   Covariance3 motion_covariance;  ///< of T_previous_this, in the frame of the previous keyframe
-  bool starts_segment = false;    ///< the motion from the previous keyframe is unknown
+  bool starts_segment = false;    ///< the motion from the previous keyframe was not watched
+  bool odometry_ran_on = false;   ///< with starts_segment: dead reckoning guesses it; else it is unknown
   /// The present estimates of the last keyframes, oldest first, this one last (eq. 20 takes the steps between
   /// consecutive ones). Ids are consecutive.
   FixedVector<Pose2, kMaxKeyframeWindow> T_local_keyframe;
@@ -42,7 +43,7 @@ struct FrontendStep {
   RangeSample sample;
   Pose2 T_local_body;     ///< estimate at once, in the frontend's continuous frame
   Pose2 T_dead_body;      ///< dead reckoning less its learnt drift: runs on through keyframes, stands still
-                          ///< where a segment starts
+                          ///< where a segment starts without it
   KeyframeId keyframe{};  ///< the newest keyframe, this sample's own if it made one
   Pose2 T_keyframe_body;  ///< by dead reckoning from that keyframe
   bool has_keyframe = false;  ///< `made` below is filled: this sample is the keyframe

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/sensing/sensor_model.hpp"
 
@@ -18,6 +19,10 @@ struct UncertainMotion {
 
 /// One step of dead reckoning with its error; a step of exactly no motion has none (the vehicle stood still).
 UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this);
+
+/// A step of dead reckoning over a silence: the vehicle went from one end to the other, but nobody knows how.
+/// The error of an assumed detour, which grows with the silence, comes on top.
+UncertainMotion unwatched_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration silence);
 
 /// T_a_b then T_b_c, their errors independent of one another.
 UncertainMotion operator*(const UncertainMotion& T_a_b, const UncertainMotion& T_b_c);

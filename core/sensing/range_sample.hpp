@@ -31,7 +31,10 @@ struct RangeSample {
   Pose2 T_odom_body;  ///< dead reckoning, interpolated to measured_at
   bool starts_segment =
       false;  ///< the dead reckoning does not continue from the sample before (first sample, reboot,
-              ///< silence of half a minute, estimator reset): the step between the two is not a motion
+              ///< silence, estimator reset): the step between the two is not a motion that was watched
+  bool odometry_ran_on =
+      false;  ///< with starts_segment: the link was silent, but the vehicle's dead reckoning ran on: the step
+              ///< is the best guess there is, over a path that nobody saw
   std::uint8_t beam_count = 0;                ///< beams in use; bearings are in the BeamLayout of the input
   std::array<float, kMaxBeams> distance_m{};  ///< from body to the hit, along the beam
   std::array<RangeStatus, kMaxBeams> status{};

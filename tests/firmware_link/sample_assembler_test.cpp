@@ -197,6 +197,58 @@ TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) 
   EXPECT_NEAR(samples_[starts[1]].T_odom_body.x_m(), 20.0, 0.05);
 }
 
+TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningOutlivesBeginsASegmentWithAGuess) {
+  AssemblyConfig watched = config();
+  watched.continuity.longest_silence = std::chrono::seconds(30);
+  watched.unwatched_after = std::chrono::seconds(1);
+  SampleAssembler assembler(watched, report_);
+  const auto fly = [&](std::int64_t ms, double x_m) {
+    Reading reading;
+    reading.at = device_ms(ms);
+    reading.heard = host_ms(ms);
+    reading.position_odom = Point2{x_m, 0.0};
+    reading.yaw_odom_rad = 0.0;
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    while (const auto sample = assembler.take()) samples_.push_back(*sample);
+  };
+  std::int64_t ms = 0;
+  const auto fly_for = [&](int packets) {
+    for (int i = 0; i < packets; ++i, ms += 100) fly(ms, 0.0005 * static_cast<double>(ms));
+  };
+  fly_for(10);
+  ms += 700;  // shorter: motion
+  fly_for(10);
+  ms += 3000;
+  fly_for(10);
+  ms += 40'000;
+  fly_for(10);
+  std::vector<std::pair<bool, bool>> starts;
+  for (const RangeSample& sample : samples_)
+    if (sample.starts_segment) starts.emplace_back(sample.starts_segment, sample.odometry_ran_on);
+  EXPECT_EQ(starts, (std::vector<std::pair<bool, bool>>{{true, false}, {true, true}, {true, false}}));
+  EXPECT_EQ(report_.gaps, 3U);
+  EXPECT_EQ(report_.segments, 3U);
+}
+
+TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByOurClock) {
+  Reading reading;
+  reading.stream = 2;
+  for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+  const auto hear = [&](std::uint32_t boot, std::int64_t device, std::int64_t host) {
+    reading.boot = boot;
+    reading.at = device_ms(device);
+    reading.heard = host_ms(host);
+    feed(reading);
+  };
+  hear(0, 10'000'000, 0);
+  hear(0, 10'000'100, 100);
+  hear(1, 4000, 5100);  // forward or back: another boot's time says nothing
+  hear(1, 4100, 5200);
+  EXPECT_EQ(report_.gaps, 1U);
+  EXPECT_EQ(report_.missing_packets, 49U);
+}
+
 TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
   for (int i = 0; i < 3; ++i) {
     position(100L * i, 0.0);

@@ -201,6 +201,26 @@ TEST(Frontend, TakesNoMotionFromAJumpOfTheDeadReckoning) {
   EXPECT_LT(relative_error(rest, later, 100).position_m, 0.3);
 }
 
+TEST(Frontend, GuessesTheWayAcrossASilenceThatTheDeadReckoningOutlived) {
+  RoomDrive drive = usual_drive(10);
+  constexpr std::size_t kSilence = 400;
+  constexpr std::size_t kSamplesLost = 30;
+  drive.samples.erase(drive.samples.begin() + kSilence, drive.samples.begin() + kSilence + kSamplesLost);
+  drive.samples[kSilence].starts_segment = true;
+  drive.samples[kSilence].odometry_ran_on = true;
+  const RunOutcome out = run(drive);
+  const FrontendStep& before = out.steps[kSilence - 1];
+  const FrontendStep& after = out.steps[kSilence];
+  EXPECT_TRUE(after.made.starts_segment);
+  EXPECT_TRUE(after.made.odometry_ran_on);
+  const Pose2 step = between(before.T_local_body, after.T_local_body);
+  const Pose2 flown = between(before.sample.T_odom_body, after.sample.T_odom_body);
+  EXPECT_NEAR(step.x_m(), flown.x_m(), 1e-6);
+  EXPECT_NEAR(step.y_m(), flown.y_m(), 1e-6);
+  EXPECT_LT(after.made.motion_covariance.xx, 1.0);
+  EXPECT_GT(after.made.motion_covariance.xx, 4.0 * before.made.motion_covariance.xx);
+}
+
 TEST(Frontend, TakesNoWallsAcrossAJump) {
   RoomDrive drive = usual_drive(11, {0.2, 0.0});
   constexpr std::size_t kJump = 120;

@@ -26,6 +26,21 @@ TEST(UncertainStep, GrowsWithDistanceAndTurnAsTheModelSays) {
   EXPECT_EQ(step.covariance(0, 2), 0.0);
 }
 
+TEST(UnwatchedStep, IsMoreUncertainTheLongerNobodyWatched) {
+  const OdometryNoise noise = SensorModel::crazyflie().odometry;
+  const Pose2 T(0.3, 0.1, 0.2);
+  const UncertainMotion watched = uncertain_step(noise, T);
+  const UncertainMotion brief = unwatched_step(noise, T, std::chrono::seconds(1));
+  const UncertainMotion longer = unwatched_step(noise, T, std::chrono::seconds(10));
+  EXPECT_EQ(brief.T_from_to.x_m(), T.x_m());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GT(brief.covariance(i, i), watched.covariance(i, i));
+    EXPECT_GT(longer.covariance(i, i), brief.covariance(i, i));
+  }
+  // Standing still for ten seconds unseen is possible; having been somewhere meanwhile, too.
+  EXPECT_GT(unwatched_step(noise, Pose2(), std::chrono::seconds(10)).covariance(0, 0), 0.0);
+}
+
 TEST(UncertainMotion, ComposesInAnyGrouping) {
   test::RandomGeometry random(1);
   for (int i = 0; i < 100; ++i) {
