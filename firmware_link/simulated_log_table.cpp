@@ -307,8 +307,8 @@ std::size_t log_type_size(LogType type) {
 }
 
 std::span<const LogVariable> simulated_log_table() {
-  static const std::vector<LogVariable> table = make_table();
-  return table;
+  static const std::vector<LogVariable> kTable = make_table();
+  return kTable;
 }
 
 std::uint32_t simulated_log_table_crc() {

@@ -162,8 +162,8 @@ std::size_t param_type_size(ParamType type) {
 }
 
 std::span<const ParamDescription> simulated_param_table() {
-  static const std::vector<ParamDescription> table = make_table();
-  return table;
+  static const std::vector<ParamDescription> kTable = make_table();
+  return kTable;
 }
 
 std::uint16_t simulated_param_id(std::string_view group, std::string_view name) {

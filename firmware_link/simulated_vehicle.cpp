@@ -45,8 +45,8 @@ struct ParamIds {
   std::uint16_t echo_delay = simulated_param_id("crtpsrv", "echoDelay");
 };
 const ParamIds& ids() {
-  static const ParamIds found;
-  return found;
+  static const ParamIds kIds;
+  return kIds;
 }
 
 std::chrono::milliseconds whole_milliseconds(Duration duration) {

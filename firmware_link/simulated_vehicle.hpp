@@ -67,7 +67,7 @@ class SimulatedVehicle {
   [[nodiscard]] double progress() const { return flight_.progress(now_); }
   /// It has landed again.
   [[nodiscard]] bool is_finished() const { return flight_.is_over(now_); }
-  [[nodiscard]] bool is_flying() const { return state_.is_flying; }
+  [[nodiscard]] bool is_flying() const { return is_on_air() && state_.is_flying; }
   /// The truth. Before take-off the starting place, after landing the last. A time still ahead is answered
   /// once the flight has begun; until then it is taken for the ground.
   [[nodiscard]] Pose2 T_world_body(DeviceTime at) const {

@@ -71,7 +71,8 @@ class Observer {
     if (client != client_) say(client ? "client " + *client + " connected" : "client " + *client_ + " gone");
     client_ = client;
     tell(was_on_air_, vehicle_.is_on_air(), "vehicle on air", "vehicle silent");
-    tell(was_flying_, vehicle_.is_flying(), "took off", "on the ground");
+    tell(was_flying_, vehicle_.is_flying(), "took off",
+         vehicle_.is_finished() ? "landed" : "flight interrupted");
   }
 
  private:

@@ -90,5 +90,27 @@ TEST(Fly, IsTheSameForTheSameSeedOnly) {
   EXPECT_NE(flight[5000].T_world_body.vector(), other[5000].T_world_body.vector());
 }
 
+TEST(Fly, FliesAClosedScriptAsOftenAsTold) {
+  const SimulatedWorld square{{}, {{{0.0, 0.0}}, {{2.0, 0.0}}, {{2.0, 2.0}}, {{0.0, 2.0}}, {{0.0, 0.0}}}};
+  PilotModel pilot = steady_pilot();
+  const std::size_t once = fly(square, pilot, 1).size();
+  pilot.laps = 3;
+  const std::vector<FlightState> flight = fly(square, pilot, 1);
+  EXPECT_GT(flight.size(), 5 * once / 2);
+  EXPECT_EQ(std::ranges::count(flight, 0.0, &FlightState::height_m), 2) << "it lands once";
+  EXPECT_NEAR(flight.back().T_world_body.x_m(), 0.0, 0.15);
+}
+
+TEST(Fly, ReturnsAlongAnOpenScriptBetweenTwoLaps) {
+  const SimulatedWorld corner{{}, {{{0.0, 0.0}}, {{3.0, 0.0}}, {{3.0, 3.0}}}};
+  PilotModel pilot = steady_pilot();
+  pilot.laps = 2;
+  for (const FlightState& state : fly(corner, pilot, 1)) {
+    const Point2 at = state.T_world_body.position();
+    EXPECT_LT(std::min(std::abs(at.y_m), std::abs(at.x_m - 3.0)), 0.4) << "on one of the two lines";
+  }
+  EXPECT_NEAR(fly(corner, pilot, 1).back().T_world_body.y_m(), 3.0, 0.15);
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -53,7 +53,16 @@ TEST(LogTable, HasDistinctNamesThatFitTheWire) {
     EXPECT_LE(variable.group.size() + variable.name.size(), 24U);
     EXPECT_GT(log_type_size(variable.type), 0U);
   }
-  EXPECT_GE(names.size(), 60U);
+  EXPECT_GE(names.size(), 390U);
+}
+
+TEST(LogTable, ShowsConstantsForWhatTheSimulationDoesNotKnow) {
+  VehicleState flying;
+  flying.is_flying = true;
+  for (const VehicleState& state : {VehicleState{}, flying}) {
+    EXPECT_EQ(read("motion.squal", state), 60.0);
+    EXPECT_EQ(read("ext_pos.X", state), 0.0);
+  }
 }
 
 TEST(LogTable, OffersWhatSlamNeedsInTheFirmwaresTypes) {

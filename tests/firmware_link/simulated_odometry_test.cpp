@@ -170,5 +170,42 @@ TEST(FlowOdometry, GetsTheOfficeClearlyWrong) {
   }
 }
 
+TEST(FlowOdometry, FollowsOnlyTheHeadingWithoutFlow) {
+  FlowOdometry odometry(perfect(), 1);
+  FlightState turning;
+  turning.vx_body_m_s = 0.5;
+  turning.yaw_rate_rad_s = 0.5;
+  turning.height_m = 0.5;
+  for (int i = 0; i < 100; ++i) odometry.step(turning, false);
+  EXPECT_EQ(odometry.T_odom_body().x_m(), 0.0);
+  EXPECT_EQ(odometry.vx_body_m_s(), 0.0);
+  EXPECT_NEAR(odometry.T_odom_body().yaw_rad(), 0.5, 1e-9);
+}
+
+TEST(FlowOdometry, IsDrawnTowardsTheInitialYawInAboutTenSeconds) {
+  FlowOdometry odometry(perfect(), 1);
+  odometry.reset(Pose2(1.0, 2.0, 1.0));
+  for (int i = 0; i < 1000; ++i) odometry.pull_yaw(0.0);
+  EXPECT_NEAR(odometry.T_odom_body().yaw_rad(), std::exp(-1.0), 1e-3);
+  EXPECT_EQ(odometry.T_odom_body().x_m(), 1.0);
+}
+
+TEST(FlowOdometry, TakesTheShortWayToTheInitialYaw) {
+  FlowOdometry odometry(perfect(), 1);
+  odometry.reset(Pose2(0.0, 0.0, 3.0));
+  odometry.pull_yaw(-3.0);
+  EXPECT_GT(odometry.T_odom_body().yaw_rad(), 3.0);
+}
+
+TEST(FlowOdometry, BeginsAnewWhereItIsReset) {
+  FlowOdometry odometry({}, 1);
+  for (const FlightState& state : straight_flight(10.0)) odometry.step(state);
+  EXPECT_GT(odometry.position_variance_m2(), 0.0);
+  odometry.reset(Pose2(0.5, -0.5, 0.1));
+  EXPECT_EQ(odometry.T_odom_body().y_m(), -0.5);
+  EXPECT_EQ(odometry.vx_body_m_s(), 0.0);
+  EXPECT_EQ(odometry.position_variance_m2(), 0.0);
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -207,5 +207,259 @@ TEST(SimulatedVehicle, IsTheSameInWhateverStepsTimeIsTold) {
   }
 }
 
+/// Polls every 20 ms, as a radio does; what was sent meanwhile, packets of log block 1 only.
+std::vector<SentPacket> polled(SimulatedVehicle& vehicle, double seconds) {
+  std::vector<SentPacket> data;
+  const DeviceTime end = after(vehicle, seconds);
+  while (vehicle.now() < end) {
+    EXPECT_TRUE(ask(vehicle, {0xFF}).empty());
+    for (const SentPacket& sent : vehicle.advance(vehicle.now() + std::chrono::milliseconds(20)))
+      if (sent.bytes[0] == 0x52) data.push_back(sent);
+  }
+  return data;
+}
+
+std::string console_text(const std::vector<SentPacket>& sent) {
+  std::string text;
+  for (const SentPacket& packet : sent)
+    if (packet.bytes[0] == 0x00) text.append(packet.bytes.begin() + 1, packet.bytes.end());
+  return text;
+}
+
+Bytes write_of(std::string_view group, std::string_view name, const Bytes& value) {
+  const std::uint16_t id = simulated_param_id(group, name);
+  Bytes packet;
+  for (const unsigned byte : {0x2EU, id & 0xFFU, unsigned{id} >> 8U})
+    packet.push_back(static_cast<std::uint8_t>(byte));
+  for (const std::uint8_t byte : value) packet.push_back(byte);
+  return packet;
+}
+std::uint8_t param_value(SimulatedVehicle& vehicle, std::string_view group, std::string_view name) {
+  const std::uint16_t id = simulated_param_id(group, name);
+  return ask(vehicle, {0x2D, static_cast<std::uint8_t>(id), static_cast<std::uint8_t>(id >> 8U)}).at(0).at(4);
+}
+
+VehicleModel on_air() {
+  VehicleModel model = exact();
+  model.link_timeout = kRadioLinkTimeout;
+  return model;
+}
+
+const Bytes kStart{0x5D, 0x03, 0x01, 0x0A};
+const Bytes kNoSuchBlock{0x5D, 0x03, 0x01, 0x02};
+
+TEST(SimulatedVehicle, TakesWhatItHasNoServiceForSilently) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  for (const unsigned port : {3U, 6U, 7U, 8U, 10U})
+    EXPECT_TRUE(ask(vehicle, {static_cast<std::uint8_t>(port << 4U | 0x0CU), 0, 0, 0}).empty()) << port;
+}
+
+TEST(SimulatedVehicle, DeletesItsBlocksAfterMoreThanASecondOfSilence) {
+  SimulatedVehicle vehicle(hop(), on_air(), 1);
+  log_as_int16(vehicle, "range", "left");
+  EXPECT_GE(vehicle.advance(after(vehicle, 1.0)).size(), 9U);
+  EXPECT_TRUE(vehicle.is_linked());
+  EXPECT_EQ(vehicle.flushes(), 0U);
+  static_cast<void>(vehicle.advance(after(vehicle, 0.001)));
+  EXPECT_FALSE(vehicle.is_linked());
+  EXPECT_EQ(vehicle.flushes(), 1U);
+  EXPECT_TRUE(vehicle.advance(after(vehicle, 1.0)).empty());
+  EXPECT_EQ(ask(vehicle, kStart).at(0), kNoSuchBlock);
+  EXPECT_TRUE(vehicle.is_linked());
+}
+
+TEST(SimulatedVehicle, KeepsItsBlocksWhileItHearsNullPackets) {
+  SimulatedVehicle vehicle(hop(), on_air(), 1);
+  log_as_int16(vehicle, "range", "left");
+  EXPECT_NEAR(static_cast<double>(polled(vehicle, 5.0).size()), 50.0, 1.0);
+}
+
+TEST(SimulatedVehicle, TellsOfItsBootOnceSomebodyListens) {
+  VehicleModel model = exact();
+  model.tells_of_boot = true;
+  SimulatedVehicle vehicle(hop(), model, 1);
+  EXPECT_TRUE(vehicle.advance(after(vehicle, 1.0)).empty());
+  static_cast<void>(vehicle.handle(Bytes{0xFF}));
+  EXPECT_NE(console_text(vehicle.advance(after(vehicle, 1.0))).find("2 deck(s) found\n"), std::string::npos);
+}
+
+TEST(SimulatedVehicle, ForgetsBlocksParametersAndTimeWhenRebooted) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  static_cast<void>(ask(vehicle, write_of("multiranger", "filterMask", {3, 0})));
+  static_cast<void>(vehicle.advance(after(vehicle, 6.0)));
+  const Bytes table = ask(vehicle, {0x5C, 0x03}).at(0);
+
+  vehicle.reboot();
+  EXPECT_FALSE(vehicle.is_on_air());
+  EXPECT_TRUE(ask(vehicle, {0xFC, 0x01}).empty());
+  EXPECT_TRUE(vehicle.advance(after(vehicle, 1.9)).empty());
+  EXPECT_FALSE(vehicle.is_on_air());
+  static_cast<void>(vehicle.advance(after(vehicle, 2.2)));
+  EXPECT_TRUE(vehicle.is_on_air());
+
+  EXPECT_EQ(ask(vehicle, kStart).at(0), kNoSuchBlock);
+  EXPECT_EQ(ask(vehicle, {0x5C, 0x03}).at(0), table) << "the same key: the same ids";
+  EXPECT_EQ(param_value(vehicle, "multiranger", "filterMask"), 1);
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  const std::vector<SentPacket> sent = polled(vehicle, 0.2);
+  const unsigned stamp_ms = sent.at(0).bytes[2] | unsigned{sent.at(0).bytes[3]} << 8U;
+  EXPECT_GT(stamp_ms, 2000U);
+  EXPECT_LT(stamp_ms, 4500U);
+  EXPECT_EQ(sent.at(0).bytes[4], 0);
+}
+
+TEST(SimulatedVehicle, FliesOnFromWhereTheRebootInterruptedIt) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  static_cast<void>(vehicle.advance(after(vehicle, 6.0)));
+  const double interrupted_at_m = vehicle.T_world_body(vehicle.now()).x_m();
+  EXPECT_TRUE(vehicle.is_flying());
+  vehicle.reboot();
+  static_cast<void>(vehicle.advance(after(vehicle, 10.0)));
+  EXPECT_EQ(vehicle.T_world_body(vehicle.now()).x_m(), interrupted_at_m);
+  EXPECT_FALSE(vehicle.is_flying());
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  const std::vector<SentPacket> sent = polled(vehicle, 2.0);
+  const double flown_on_m = vehicle.T_world_body(sent.back().at).x_m() - interrupted_at_m;
+  EXPECT_GT(flown_on_m, 0.5);
+  EXPECT_NEAR(value_of(sent.back()) / 1000.0, flown_on_m, 0.012) << "the estimate began anew";
+  static_cast<void>(vehicle.advance(after(vehicle, 30.0)));
+  EXPECT_TRUE(vehicle.is_finished());
+}
+
+TEST(SimulatedVehicle, ShowsNothingOfDecksThatAreAbsent) {
+  VehicleModel model = exact();
+  model.has_flow_deck = false;
+  model.has_multiranger = false;
+  SimulatedVehicle vehicle(hop(), model, 1);
+  EXPECT_EQ(param_value(vehicle, "deck", "bcFlow2"), 0);
+  EXPECT_EQ(param_value(vehicle, "deck", "bcMultiranger"), 0);
+  EXPECT_EQ(param_value(vehicle, "stabilizer", "estimator"), 1);
+  for (const auto& [group, name] : {std::pair("range", "left"), std::pair("range", "zrange"),
+                                    std::pair("stateEstimateZ", "x"), std::pair("stateEstimateZ", "vx")}) {
+    log_as_int16(vehicle, group, name);
+    for (const SentPacket& sent : vehicle.advance(after(vehicle, 1.0)))
+      EXPECT_EQ(value_of(sent), 0.0) << name;
+    static_cast<void>(ask(vehicle, {0x5D, 0x05}));
+  }
+}
+
+TEST(SimulatedVehicle, KeepsTheLastRangesOfAnUnpluggedDeckUntilTheReboot) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  log_as_int16(vehicle, "range", "left");
+  static_cast<void>(vehicle.advance(after(vehicle, 4.0)));
+  vehicle.unplug(SimulatedDeck::kMultiranger);
+  const double last_mm = value_of(vehicle.advance(after(vehicle, 0.1)).back());
+  EXPECT_NEAR(last_mm, 1000.0, 50.0);
+  for (const SentPacket& sent : vehicle.advance(after(vehicle, 2.0))) EXPECT_EQ(value_of(sent), last_mm);
+  EXPECT_EQ(param_value(vehicle, "deck", "bcMultiranger"), 1);
+  vehicle.reboot();
+  static_cast<void>(vehicle.advance(after(vehicle, 5.0)));
+  EXPECT_EQ(param_value(vehicle, "deck", "bcMultiranger"), 0);
+  log_as_int16(vehicle, "range", "left");
+  EXPECT_EQ(value_of(polled(vehicle, 1.0).back()), 0.0);
+}
+
+TEST(SimulatedVehicle, FreezesAllRangesForATime) {
+  const SimulatedWorld world{{{{6.0, -50.0}, {6.0, 50.0}}}, {{{0.0, 0.0}}, {{5.0, 0.0}}}};
+  VehicleModel model = exact();
+  model.ranger.half_lost_at_m = 100.0;
+  SimulatedVehicle vehicle(world, model, 1);
+  log_as_int16(vehicle, "range", "front");
+  static_cast<void>(vehicle.advance(after(vehicle, 9.0)));
+  vehicle.freeze_ranges(std::chrono::seconds(1));
+  const std::vector<SentPacket> frozen = vehicle.advance(after(vehicle, 1.0));
+  for (const SentPacket& sent : frozen) EXPECT_EQ(value_of(sent), value_of(frozen.front()));
+  const std::vector<SentPacket> thawed = vehicle.advance(after(vehicle, 0.5));
+  EXPECT_LT(value_of(thawed.back()), value_of(frozen.front()) - 400.0);
+}
+
+TEST(SimulatedVehicle, JumpsToTheInitialPositionWhenItsEstimatorIsReset) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  static_cast<void>(ask(vehicle, write_of("kalman", "initialX", {0x00, 0x00, 0x20, 0xC1})));  // -10 m
+  EXPECT_GT(value_of(vehicle.advance(after(vehicle, 6.0)).back()), 1000.0);
+  vehicle.reset_estimator();
+  const std::vector<SentPacket> sent = vehicle.advance(after(vehicle, 0.3));
+  EXPECT_NE(console_text(sent).find("State out of bounds, resetting\n"), std::string::npos);
+  EXPECT_NEAR(value_of(sent.back()), -9900.0, 150.0);
+}
+
+TEST(SimulatedVehicle, ResetsItsEstimatorByParameterAndSaysWhenThatIsDone) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  static_cast<void>(vehicle.advance(after(vehicle, 6.0)));
+  static_cast<void>(ask(vehicle, write_of("kalman", "resetEstimation", {1})));
+  const std::vector<SentPacket> sent = vehicle.advance(after(vehicle, 0.002));
+  ASSERT_FALSE(sent.empty());
+  const std::uint16_t id = simulated_param_id("kalman", "resetEstimation");
+  EXPECT_EQ(Bytes(sent[0].bytes.begin(), sent[0].bytes.end()),
+            (Bytes{0x23, 0x01, static_cast<std::uint8_t>(id), static_cast<std::uint8_t>(id >> 8U), 0}));
+  EXPECT_LT(std::abs(value_of(polled(vehicle, 0.2).back())), 150.0);
+}
+
+TEST(SimulatedVehicle, TurnsItsEstimateTowardsTheInitialYawWhileItStands) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  static_cast<void>(ask(vehicle, write_of("kalman", "initialYaw", {0x00, 0x00, 0x80, 0x3F})));  // 1 rad
+  static_cast<void>(vehicle.advance(after(vehicle, 10.0)));
+  log_as_int16(vehicle, "stateEstimate", "yaw");
+  EXPECT_NEAR(value_of(vehicle.advance(after(vehicle, 0.2)).at(0)), degrees(1.0 - std::exp(-1.0)), 2.0);
+}
+
+TEST(SimulatedVehicle, ShowsNoPositionWithTheComplementaryEstimator) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  EXPECT_EQ(param_value(vehicle, "stabilizer", "estimator"), 2) << "a Flow deck asks for the Kalman filter";
+  static_cast<void>(ask(vehicle, write_of("stabilizer", "estimator", {1})));
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  EXPECT_EQ(value_of(vehicle.advance(after(vehicle, 6.0)).back()), 0.0);
+}
+
+TEST(SimulatedVehicle, LetsBadRangesThroughWhenItsFilterIsOpened) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  log_as_int16(vehicle, "range", "right");
+  static_cast<void>(ask(vehicle, write_of("multiranger", "filterMask", {0x05, 0x00})));
+  EXPECT_LT(value_of(vehicle.advance(after(vehicle, 1.0)).back()), 1301.0);
+  static_cast<void>(ask(vehicle, write_of("multiranger", "filterMask", {0x00, 0x00})));
+  EXPECT_EQ(value_of(vehicle.advance(after(vehicle, 1.0)).back()), 32766.0);
+}
+
+TEST(SimulatedVehicle, EchoesLaterWhenAskedTo) {
+  SimulatedVehicle vehicle(hop(), exact(), 1);
+  static_cast<void>(ask(vehicle, write_of("crtpsrv", "echoDelay", {30, 0})));
+  EXPECT_TRUE(ask(vehicle, {0xFC, 0x07}).empty());
+  EXPECT_TRUE(vehicle.advance(after(vehicle, 0.029)).empty());
+  EXPECT_EQ(vehicle.advance(after(vehicle, 0.001)).size(), 1U);
+}
+
+TEST(SimulatedVehicle, BeginsItsClockWhereItIsTold) {
+  VehicleModel model = exact();
+  model.clock_start = std::chrono::milliseconds((1 << 24) - 50);
+  SimulatedVehicle vehicle(hop(), model, 1);
+  log_as_int16(vehicle, "stateEstimateZ", "x");
+  const PacketBytes first = vehicle.advance(after(vehicle, 0.2)).at(0).bytes;
+  EXPECT_NEAR(first[2], 50, 2) << "100 ms after the start the 24 bits have wrapped";
+  EXPECT_EQ(first[3], 0);
+  EXPECT_EQ(first[4], 0);
+}
+
+TEST(SimulatedVehicle, SwitchesItselfOffWithAnEmptyBatteryUntilThatIsReplaced) {
+  VehicleModel model;
+  model.battery_endurance = std::chrono::seconds(20);
+  SimulatedVehicle vehicle(make_simulated_world("loop").value(), model, 1);
+  log_as_int16(vehicle, "pm", "state");
+  std::vector<double> states;
+  for (const SentPacket& sent : vehicle.advance(after(vehicle, 40.0))) states.push_back(value_of(sent));
+  EXPECT_EQ(states.front(), 0.0);
+  EXPECT_EQ(states.back(), 3.0);
+  EXPECT_FALSE(vehicle.is_on_air());
+  EXPECT_TRUE(ask(vehicle, {0xFC, 0x01}).empty());
+  vehicle.reboot();
+  static_cast<void>(vehicle.advance(after(vehicle, 5.0)));
+  EXPECT_TRUE(vehicle.is_on_air());
+  log_as_int16(vehicle, "pm", "vbatMV");
+  EXPECT_GT(value_of(polled(vehicle, 1.0).back()), 3700.0);
+}
+
 }  // namespace
 }  // namespace swiftlet

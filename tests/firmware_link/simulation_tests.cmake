@@ -1,10 +1,5 @@
-swiftlet_add_test(simulated_random_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_world_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_floor_plans_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_flight_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_ranger_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_odometry_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_log_table_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_log_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_vehicle_test LINK swiftlet_simulation)
-swiftlet_add_test(simulated_link_test LINK swiftlet_simulation)
+foreach(test
+    battery console flight flight_schedule floor_plans link log log_table members memories odometry param_table
+    params platform random ranger udp_server vehicle world)
+  swiftlet_add_test(simulated_${test}_test LINK swiftlet_simulation)
+endforeach()

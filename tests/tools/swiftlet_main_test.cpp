@@ -96,6 +96,15 @@ TEST_F(SwiftletCommand, NamesTheInputThatCannotBeUsed) {
   EXPECT_THAT(run("map {}/file.docx -o {}/out"), refuses_with("file.docx"));
 }
 
+TEST_F(SwiftletCommand, NamesWhatTheSimulationCannotUse) {
+  EXPECT_THAT(run("sim --world nowhere"), refuses_with("office, maze, loop, corridors"));
+  EXPECT_THAT(run("sim --udp somewhere"), refuses_with("somewhere"));
+  EXPECT_THAT(run("sim --udp 127.0.0.1:99999"), refuses_with("127.0.0.1:99999"));
+  EXPECT_THAT(run("sim --udp 192.0.2.1:19850"), refuses_with("192.0.2.1:19850"));
+  EXPECT_THAT(run("sim --missing-deck lighthouse"), refuses_with("lighthouse"));
+  EXPECT_THAT(run("sim --loss 101"), refuses_with("--loss"));
+}
+
 TEST_F(SwiftletCommand, NamesTheConfigurationThatCannotBeUsed) {
   write("run.clf", small_log());
   EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/none.toml"), refuses_with("none.toml"));
