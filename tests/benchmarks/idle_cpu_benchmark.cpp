@@ -59,10 +59,12 @@ void watch_radio_thread(benchmark::State& state, std::unique_ptr<Link> owned_lin
   input.link = std::move(owned_link);
   LinkSampleSource source(std::move(input));
   const auto queue = std::make_unique<SampleQueue>();
+  const auto events = std::make_unique<EventQueue>();
   LatestValue<InputStatus> status;
   StageHistogram stage_times;
   const SteadyClock clock;
-  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(), &status, stage_times);
+  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(),
+                     InputOutlet{status, events->producer()}, stage_times);
   for (auto _ : state) {  // NOLINT(readability-identifier-naming): as Google Benchmark has it
     const MonotonicTime start = clock.now();
     const Duration cpu_start = thread_cpu_time();
