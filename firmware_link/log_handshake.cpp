@@ -32,6 +32,12 @@ constexpr std::array<std::string_view, 8> kSlowBlock{
     "stateEstimate.roll", "stateEstimate.pitch", "kalman.varX", "kalman.varY"};
 constexpr std::uint8_t kSlowBlockId = 3;
 
+/// A variable that can be asked for: one of an unknown type could not be read.
+const TocItem* find_readable(const TocDownload& toc, std::string_view name) {
+  const TocItem* const item = toc.find(name);
+  return item != nullptr && log_type_of(item->type) ? item : nullptr;
+}
+
 }  // namespace
 
 LogHandshake::LogHandshake(const LogSession& session, TocCache& cache) : session_(&session), cache_(&cache) {
@@ -118,9 +124,9 @@ void LogHandshake::plan_blocks() {
         !plan_block(2, kFast10ms, kRangeBlock, kRangeBlockExtras)) {
       std::string missing;
       for (const std::string_view name : kPositionBlock)
-        if (toc_->find(name) == nullptr) missing += ' ' + std::string(name);
+        if (find_readable(*toc_, name) == nullptr) missing += ' ' + std::string(name);
       for (const std::string_view name : kRangeBlock)
-        if (toc_->find(name) == nullptr) missing += ' ' + std::string(name);
+        if (find_readable(*toc_, name) == nullptr) missing += ' ' + std::string(name);
       return fail("the vehicle's firmware does not offer the log variables" + missing +
                   ": update it to 2022.09 or newer");
     }
@@ -141,13 +147,14 @@ bool LogHandshake::plan_block(std::uint8_t id, std::uint8_t period_10ms,
   bool holds_anything = false;
   for (const std::span<const std::string_view> names : {required, optional}) {
     for (const std::string_view name : names) {
-      const TocItem* const variable = toc_->find(name);
+      const TocItem* const variable = find_readable(*toc_, name);
       if (variable == nullptr && names.data() == required.data()) return false;
       if (variable == nullptr) continue;
       holds_anything = true;
-      if (add_log_entry(planned.requests.back(), variable->type, variable->id)) continue;
+      const auto type = static_cast<std::uint8_t>(*log_type_of(variable->type));  // without flags
+      if (add_log_entry(planned.requests.back(), type, variable->id)) continue;
       planned.requests.push_back(log_block_request(LogCommand::kAppend, id));
-      static_cast<void>(add_log_entry(planned.requests.back(), variable->type, variable->id));
+      static_cast<void>(add_log_entry(planned.requests.back(), type, variable->id));
     }
   }
   planned.requests.push_back(log_start_request(id, period_10ms));

@@ -152,8 +152,12 @@ double ReadingExtractor::read_yaw_rad(const LogRecord& record, const Slots& slot
     case YawKind::kQuaternion:
       return yaw_of({record.value(*slots.yaw_slots[0]), record.value(*slots.yaw_slots[1]),
                      record.value(*slots.yaw_slots[2]), record.value(*slots.yaw_slots[3])});
-    case YawKind::kPackedQuaternion:
-      return yaw_of(unpack_quaternion(static_cast<std::uint32_t>(record.value(*slots.yaw_slots[0]))));
+    case YawKind::kPackedQuaternion: {
+      const double packed = record.value(*slots.yaw_slots[0]);
+      const bool is_packed = packed >= 0.0 && packed <= std::numeric_limits<std::uint32_t>::max();
+      if (!is_packed) break;  // fetched in a type that cannot hold it
+      return yaw_of(unpack_quaternion(static_cast<std::uint32_t>(packed)));
+    }
     case YawKind::kNone:
       break;
   }

@@ -57,11 +57,11 @@ bool SampleAssembler::accept_time(const Reading& reading) {
     ++report_.duplicates;
     return false;
   }
-  if (last && reading.at < *last) {
-    if (*last - reading.at <= kReboot) {
-      ++report_.out_of_order;
-      return false;
-    }
+  if (last && reading.at < *last && *last - reading.at <= kReboot) {
+    ++report_.out_of_order;
+    return false;
+  }
+  if (latest_ - reading.at > kReboot) {
     restart();
     latest_ = reading.at;
   }
@@ -78,6 +78,11 @@ void SampleAssembler::restart() {
 }
 
 void SampleAssembler::hold_ranges(const Reading& reading) {
+  // The block that ranges come in can change: then they may come crosswise.
+  if (last_ranges_at_ && reading.at <= *last_ranges_at_) {
+    ++report_.out_of_order;
+    return;
+  }
   ++report_.range_packets;
   count_gap(reading);
   if (pending_.full()) drop_oldest();

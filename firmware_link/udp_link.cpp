@@ -11,7 +11,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "core/base/check.hpp"
+#include "firmware_link/crtp_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -23,7 +23,6 @@ constexpr Duration kLongestPause = std::chrono::milliseconds(100);
 constexpr int kMostAtOnce = 64;
 constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
 constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
-constexpr CrtpTopic kNullTopic{15, 3};
 
 }  // namespace
 
@@ -61,13 +60,7 @@ Result<UdpLink::Peer> UdpLink::find(const std::string& host, std::uint16_t port)
 
 UdpLink::~UdpLink() { ::close(socket_); }
 
-Status UdpLink::send(std::span<const std::uint8_t> packet) {
-  SWIFTLET_CHECK(!packet.empty() && packet.size() <= kMaxCrtpPacket, "a CRTP packet has 1 to 31 bytes");
-  CrtpPacket copy;
-  for (const std::uint8_t byte : packet) static_cast<void>(copy.try_push_back(byte));
-  static_cast<void>(outbox_.try_push_back(copy));  // requests are repeated: one without room is dropped
-  return {};
-}
+Status UdpLink::send(std::span<const std::uint8_t> packet) { return requests_.push(packet); }
 
 Result<LinkFrame> UdpLink::receive(Duration timeout) {
   HostTime now = clock_.now();
@@ -111,13 +104,13 @@ void UdpLink::keep_alive(HostTime now) {
 }
 
 std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
-  while (!outbox_.empty()) {
+  while (!requests_.empty()) {
+    const CrtpPacket request = requests_.pop();
     LinkFrame frame;
     frame.at = now;
     frame.direction = LinkDirection::kToVehicle;
-    frame.size = static_cast<std::uint8_t>(outbox_.front().size());
-    std::copy(outbox_.front().begin(), outbox_.front().end(), frame.bytes.begin());
-    outbox_.erase_front(1);
+    frame.size = static_cast<std::uint8_t>(request.size());
+    std::copy(request.begin(), request.end(), frame.bytes.begin());
     if (transmit(frame.packet(), now)) return frame;
   }
   return std::nullopt;
@@ -134,7 +127,7 @@ std::optional<LinkFrame> UdpLink::take_datagrams() {
     const bool is_packet = size > 0 && static_cast<std::size_t>(size) <= kMaxCrtpPacket;
     if (is_packet) {
       frame.size = static_cast<std::uint8_t>(size);
-      if (!is_on(frame.packet(), kNullTopic)) {
+      if (!is_null_packet(frame.packet())) {
         ++statistics_.packets_received;
         return frame;
       }

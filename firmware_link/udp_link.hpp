@@ -10,10 +10,9 @@
 #include <span>
 #include <string>
 
-#include "core/base/fixed_vector.hpp"
-#include "firmware_link/crtp_packet.hpp"
 #include "firmware_link/link.hpp"
 #include "firmware_link/link_clock.hpp"
+#include "firmware_link/request_queue.hpp"
 
 namespace swiftlet {
 
@@ -35,7 +34,7 @@ class UdpLink final : public Link {
   ~UdpLink() override;
 
   [[nodiscard]] Result<LinkFrame> receive(Duration timeout) override;
-  /// Room for 8 packets. Precondition: 1 to 31 bytes.
+  /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet.
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
   /// As of the last receive().
   [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
@@ -61,7 +60,7 @@ class UdpLink final : public Link {
   Peer peer_;
   LinkClock& clock_;
   bool associated_ = false;  // with the peer: a route to it is known
-  FixedVector<CrtpPacket, 8> outbox_;
+  RequestQueue requests_;
   std::optional<HostTime> heard_at_;  // since when it is not silent
   HostTime greets_at_{};              // while silent
   HostTime sent_at_{};

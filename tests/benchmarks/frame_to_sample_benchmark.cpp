@@ -62,10 +62,12 @@ void frame_to_queued_sample(benchmark::State& state) {
   LinkSampleSource source(std::move(input));
   const auto queue = std::make_unique<SampleQueue>();
   SampleQueue::Consumer consumer = queue->consumer();
+  const auto events = std::make_unique<EventQueue>();
   LatestValue<InputStatus> status;
   StageHistogram stage_times;
   const SteadyClock clock;
-  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(), &status, stage_times);
+  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(),
+                     InputOutlet{status, events->producer()}, stage_times);
   RangeSample sample;
   while (!consumer.try_pop(sample)) static_cast<void>(worker.step());  // the handshake
 

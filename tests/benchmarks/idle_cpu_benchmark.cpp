@@ -3,18 +3,25 @@
 // How much of a core the radio thread takes while the vehicle is there and has nothing to say.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <thread>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/base/check.hpp"
 #include "daemon/radio_worker.hpp"
 #include "firmware_link/link_sample_source.hpp"
+#include "firmware_link/radio_link.hpp"
 #include "firmware_link/udp_link.hpp"
+#include "tests/firmware_link/fake_dongle.hpp"
 #include "tests/firmware_link/udp_peer.hpp"
 #include "tests/support/thread_cpu_time.hpp"
 
@@ -52,10 +59,12 @@ void watch_radio_thread(benchmark::State& state, std::unique_ptr<Link> owned_lin
   input.link = std::move(owned_link);
   LinkSampleSource source(std::move(input));
   const auto queue = std::make_unique<SampleQueue>();
+  const auto events = std::make_unique<EventQueue>();
   LatestValue<InputStatus> status;
   StageHistogram stage_times;
   const SteadyClock clock;
-  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(), &status, stage_times);
+  RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(),
+                     InputOutlet{status, events->producer()}, stage_times);
   for (auto _ : state) {  // NOLINT(readability-identifier-naming): as Google Benchmark has it
     const MonotonicTime start = clock.now();
     const Duration cpu_start = thread_cpu_time();
@@ -76,6 +85,59 @@ void idle_udp(benchmark::State& state) {
   watch_radio_thread(state, std::move(link).value());
 }
 BENCHMARK(idle_udp)->Iterations(1)->Unit(benchmark::kSecond);
+
+/// A dongle that takes a millisecond for each packet, and a vehicle in range that has nothing to say.
+class QuietDongle final : public UsbDevice {
+ public:
+  UsbTransfer control_out(std::uint8_t /*request*/, std::uint16_t /*value*/, std::uint16_t /*index*/,
+                          std::span<const std::uint8_t> data, Duration /*timeout*/) override {
+    return {UsbOutcome::kDone, data.size()};
+  }
+  UsbTransfer bulk_out(std::uint8_t /*endpoint*/, std::span<const std::uint8_t> bytes,
+                       Duration /*timeout*/) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    answer_ = vehicle_.hear({bytes.begin(), bytes.end()});
+    return {UsbOutcome::kDone, bytes.size()};
+  }
+  UsbTransfer bulk_in(std::uint8_t /*endpoint*/, std::span<std::uint8_t> buffer,
+                      Duration /*timeout*/) override {
+    if (!answer_) return {UsbOutcome::kTimeout, 0};
+    buffer[0] = 0x01;  // acknowledged
+    std::copy(answer_->begin(), answer_->end(), buffer.begin() + 1);
+    const std::size_t size = answer_->size() + 1;
+    answer_.reset();
+    return {UsbOutcome::kDone, size};
+  }
+  UsbOutcome clear_halt(std::uint8_t /*endpoint*/) override { return UsbOutcome::kDone; }
+  UsbOutcome reset() override { return UsbOutcome::kDone; }
+
+ private:
+  FakeRadioVehicle vehicle_;
+  std::optional<Bytes> answer_;
+};
+
+class QuietBus final : public UsbBus {
+ public:
+  std::vector<UsbIdentity> list(std::uint16_t vendor, std::uint16_t product) override {
+    UsbIdentity identity;
+    identity.vendor = vendor;
+    identity.product = product;
+    identity.release_bcd = 0x0053;
+    return {identity};
+  }
+  std::variant<std::unique_ptr<UsbDevice>, UsbOutcome> open(const UsbIdentity& /*identity*/,
+                                                            int /*interface*/) override {
+    return std::make_unique<QuietDongle>();
+  }
+  bool has_changed() override { return false; }
+};
+
+void idle_radio(benchmark::State& state) {
+  QuietBus bus;
+  SystemLinkClock clock;
+  watch_radio_thread(state, std::make_unique<RadioLink>(bus, clock, RadioAddress{}));
+}
+BENCHMARK(idle_radio)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace swiftlet

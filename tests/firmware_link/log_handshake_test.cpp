@@ -97,6 +97,15 @@ TEST_F(LogHandshakeTest, StartsTwoBlocksOnOlderFirmware) {
                           "range.front", "range.back", "range.left", "range.right", "range.zrange"));
 }
 
+TEST_F(LogHandshakeTest, AsksForNoVariableOfAnUnknownType) {
+  const auto x = std::ranges::find(link_.vehicle.variables, "x", &ScriptedVehicle::Variable::name);
+  x->type = LogType{};  // stateEstimate.x
+  run();
+  EXPECT_TRUE(handshake_.finished());
+  for (const auto& [id, block] : link_.vehicle.blocks)
+    for (const auto& [type, variable] : block.entries) EXPECT_NE(variable, 0) << int{id};
+}
+
 TEST_F(LogHandshakeTest, NamesWhatTheFirmwareLacks) {
   remove("stateEstimate.x");
   remove("stateEstimateZ.x");

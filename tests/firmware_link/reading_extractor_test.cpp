@@ -94,6 +94,13 @@ TEST_F(ReadingExtractorTest, KnowsTheOtherNamesOfPositionAndYaw) {
   EXPECT_DOUBLE_EQ(*extract(LogPacket(2, 10).u32(0xC0000000U))->yaw_odom_rad, 0.0);
 }
 
+TEST_F(ReadingExtractorTest, APackedQuaternionInATypeThatCannotHoldItIsNoYaw) {
+  describe(1, {{"stateEstimateZ.quat", LogType::kInt32}});
+  const std::optional<Reading> reading = extract(LogPacket(1, 10).u32(0xC0000000U));
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_TRUE(std::isnan(*reading->yaw_odom_rad));
+}
+
 TEST_F(ReadingExtractorTest, KeepsToTheFirstBlockThatOffersAPosition) {
   describe(1, {{"stateEstimate.x", LogType::kFloat}, {"stateEstimate.y", LogType::kFloat}});
   describe(2, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});

@@ -37,9 +37,9 @@ class SampleAssemblerTest : public testing::Test {
     feed(reading);
   }
   void ranges(std::int64_t ms, double yaw_rad = 0.0,
-              const std::vector<float>& distances = {1.F, 1.F, 1.F, 1.F}) {
+              const std::vector<float>& distances = {1.F, 1.F, 1.F, 1.F}, std::uint8_t stream = 2) {
     Reading reading;
-    reading.stream = 2;
+    reading.stream = stream;
     reading.at = device_ms(ms);
     reading.heard = host_ms(1'000'000 + ms);
     reading.yaw_odom_rad = yaw_rad;
@@ -173,6 +173,37 @@ TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
   EXPECT_FALSE(samples_[before + 1].starts_segment);
   EXPECT_EQ(report_.segments, 2U);
   EXPECT_EQ(report_.gaps, 0U);
+  EXPECT_EQ(report_.out_of_order, 0U);
+}
+
+TEST_F(SampleAssemblerTest, TimeGoesOnWhenTheRangesChangeTheirBlock) {
+  const std::vector<float> distances{1.F, 1.F, 1.F, 1.F};
+  for (int ms = 0; ms <= 500; ms += 100) position(ms, 0.0);
+  for (int ms = 200; ms <= 500; ms += 100) ranges(ms);
+  for (const int late_ms : {350, 500}) ranges(late_ms, 0.0, distances, 3);
+  position(600, 0.0);
+  ranges(600, 0.0, distances, 3);
+  end();
+  EXPECT_EQ(report_.out_of_order, 2U);
+  ASSERT_GE(samples_.size(), 2U);
+  for (std::size_t i = 1; i < samples_.size(); ++i)
+    EXPECT_GT(samples_[i].measured_at, samples_[i - 1].measured_at);
+}
+
+TEST_F(SampleAssemblerTest, AfterARebootIntoOtherBlocksTheDeadReckoningBeginsAnew) {
+  const std::vector<float> distances{1.F, 1.F, 1.F, 1.F};
+  for (int ms = 60'000; ms <= 60'500; ms += 100) {
+    position(ms, 0.0);
+    ranges(ms);
+  }
+  const std::size_t before = samples_.size();
+  for (int ms = 2'000; ms <= 2'500; ms += 100) {
+    ranges(ms, 0.0, distances, 3);
+    position(ms, 5.0);
+  }
+  end();
+  ASSERT_GT(samples_.size(), before);
+  EXPECT_TRUE(samples_[before].starts_segment);
   EXPECT_EQ(report_.out_of_order, 0U);
 }
 

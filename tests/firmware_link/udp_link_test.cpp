@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/manual_link_clock.hpp"
 #include "tests/firmware_link/udp_peer.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/thread_cpu_time.hpp"
@@ -28,16 +29,6 @@ constexpr int kPatienceMs = 5000;
 const Bytes kRegistration = hex("f3");
 const Bytes kNull = hex("ff");
 
-/// Moves when told to.
-class StoppedLinkClock final : public LinkClock {
- public:
-  [[nodiscard]] HostTime now() override { return now_; }
-  void sleep_for(Duration duration) override { now_ += duration; }
-
- private:
-  HostTime now_{std::chrono::seconds(1'700'000'000)};
-};
-
 std::unique_ptr<UdpLink> open_link(std::uint16_t port, LinkClock& clock) {
   Result<std::unique_ptr<UdpLink>> link = UdpLink::open("127.0.0.1", port, clock);
   SWIFTLET_CHECK(link.ok(), "a loopback address needs no looking up");
@@ -47,7 +38,7 @@ std::unique_ptr<UdpLink> open_link(std::uint16_t port, LinkClock& clock) {
 /// A link in stopped time, which therefore must never wait, and its peer.
 struct Pair {
   UdpPeer peer;
-  StoppedLinkClock clock;
+  ManualLinkClock clock;
   std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
 
   /// What the link hands back now.
@@ -130,6 +121,16 @@ TEST(UdpLink, HandsBackWhatItSentBeforeTheAnswer) {
   EXPECT_THAT(pair.heard(2), ElementsAre(hex("5d 05"), hex("5c 03")));
 }
 
+TEST(UdpLink, RefusesWhatIsNoRequest) {
+  Pair pair;
+  pair.connect();
+  for (const Bytes& packet : {Bytes{}, Bytes(32, 0x5C), hex("ff fe 01")}) {
+    const Status sent = pair.link->send(packet);
+    ASSERT_FALSE(sent.ok());
+    EXPECT_EQ(sent.error().code, ErrorCode::kInvalidInput);
+  }
+}
+
 TEST(UdpLink, DropsWhatItHasNoRoomFor) {
   Pair pair;
   pair.connect();
@@ -210,7 +211,7 @@ TEST(UdpLink, WaitsPatientlyWhereNobodyListensUntilSomebodyDoes) {
 }
 
 TEST(UdpLink, LosesNoRequestToARefusalOfWhatItSentBefore) {
-  StoppedLinkClock clock;
+  ManualLinkClock clock;
   auto peer = std::make_unique<UdpPeer>();
   const std::uint16_t port = peer->port();
   const std::unique_ptr<UdpLink> link = open_link(port, clock);
@@ -255,7 +256,7 @@ TEST(UdpLink, KeepsTheVehicleAwakeWithinOneLongReceive) {
 
 TEST(UdpLink, TakesTheIpv4AddressOfANameWithBoth) {
   UdpPeer peer;
-  StoppedLinkClock clock;
+  ManualLinkClock clock;
   const auto link = UdpLink::open("localhost", peer.port(), clock);
   ASSERT_TRUE(link.ok()) << link.error().message;
   EXPECT_FALSE((*link)->receive(Duration::zero()).ok());
@@ -263,7 +264,7 @@ TEST(UdpLink, TakesTheIpv4AddressOfANameWithBoth) {
 }
 
 TEST(UdpLink, SaysThatThereIsNoSuchHost) {
-  StoppedLinkClock clock;
+  ManualLinkClock clock;
   const std::string name(64, 'x');  // longer than a name may be: refused without asking anybody
   const auto link = UdpLink::open(name, 19850, clock);
   ASSERT_FALSE(link.ok());

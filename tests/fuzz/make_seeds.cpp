@@ -48,6 +48,29 @@ std::vector<LinkFrame> session(std::string_view left_out) {
   }
 }
 
+/// A session of the compressed variables, as other clients log them.
+std::vector<LinkFrame> compressed_session() {
+  std::vector<LinkFrame> frames;
+  std::int64_t at_ms = 0;
+  const auto exchange = [&](const Bytes& request, const Bytes& reply) {
+    frames.push_back(sent(request, host_ms(at_ms)));
+    frames.push_back(received(reply, host_ms(++at_ms)));
+  };
+  exchange(hex("5c 03"), hex("50 03 04 00 01 02 03 04 10 80"));
+  exchange(hex("5c 02 00 00"), toc_item_reply(0, LogType::kInt16, "stateEstimateZ", "x"));
+  exchange(hex("5c 02 01 00"), toc_item_reply(1, LogType::kInt16, "stateEstimateZ", "y"));
+  exchange(hex("5c 02 02 00"), toc_item_reply(2, LogType::kUint32, "stateEstimateZ", "quat"));
+  exchange(hex("5c 02 03 00"), toc_item_reply(3, LogType::kUint16, "range", "front"));
+  exchange(hex("5d 06 01 55 00 00 55 01 00 33 02 00 22 03 00"), hex("5d 06 01 00"));
+  exchange(hex("5d 03 01 0a"), hex("5d 03 01 00"));
+  for (std::uint32_t i = 1; i <= 8; ++i) {
+    at_ms += 100;
+    const LogPacket packet = LogPacket(1, 100 * i).i16(32760).i16(-5).u32(0xC0000000U + i).u16(1000);
+    frames.push_back(received(packet.bytes(), host_ms(at_ms)));
+  }
+  return frames;
+}
+
 bool write(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream file(path, std::ios::binary);
@@ -118,6 +141,7 @@ bool write_all(const std::filesystem::path& folder) {
   return write_uris(folder / "input_uri") && write_handshakes(folder / "log_handshake") &&
          write(folder / "log_session/one_block", as_fuzz_bytes(one_block)) &&
          write(folder / "log_session/two_blocks", as_fuzz_bytes(two_blocks)) &&
+         write(folder / "log_session/compressed", as_fuzz_bytes(compressed_session())) &&
          write(folder / "recording/radio.pcap", one_block, CaptureLinkKind::kRadio) &&
          write(folder / "recording/usb.pcap", two_blocks, CaptureLinkKind::kUsb) &&
          write(folder / "recording/laser.clf", laser_log()) &&
