@@ -3,9 +3,7 @@
 #include "firmware_link/capture_writer.hpp"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -13,6 +11,7 @@
 #include "firmware_link/capture_reader.hpp"
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
@@ -96,23 +95,6 @@ TEST(CaptureWriter, WritesMoreThanItsBufferHolds) {
   ASSERT_TRUE(writer->close().ok());
   EXPECT_EQ(frames_in(file.path()), 10'000U);
 }
-
-/// A file of this process may grow to so many bytes, as on a disk that is full then.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 TEST(CaptureWriter, CutsHalfARecordOffWhenTheDiskIsFull) {
   constexpr rlim_t kRecord = 16 + 9 + 5;
