@@ -84,8 +84,9 @@ Result<std::unique_ptr<Recorder>> open_recorder(const Options& options, const Co
   const Result<std::optional<RecordingPlan>> plan =
       plan_recording(*input, options.record, config.record, now);
   if (plan && !*plan) return std::unique_ptr<Recorder>();
-  const RecorderVoice voice{.note = [](const std::string& text) { spdlog::info("{}", text); },
-                            .problem = [](const std::string& text) { spdlog::error("{}", text); }};
+  const RecorderVoice voice{
+      .note = [](const std::string& text) { spdlog::info("{}", text); },
+      .problem = [](const std::string& text) { spdlog::error("{}; the flight goes on", text); }};
   Result<std::unique_ptr<Recorder>> recorder =
       plan ? Recorder::open(**plan, voice) : Result<std::unique_ptr<Recorder>>(plan.error());
   if (recorder || options.record.asked) return recorder;

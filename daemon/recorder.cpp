@@ -24,12 +24,6 @@ constexpr std::size_t kFramesPerStep = 1024;
 constexpr int kMostParts = 10'000;
 constexpr CrtpTopic kNullTopic{15, 3};
 
-std::string size_text(std::uint64_t bytes) {
-  if (bytes < 10'000) return std::to_string(bytes) + " bytes";
-  if (bytes < 10'000'000) return std::to_string(bytes / 1000) + " kB";
-  return std::to_string(bytes / 1'000'000) + " MB";
-}
-
 }  // namespace
 
 void RecordingSink::take(const LinkFrame& frame) noexcept {
@@ -150,8 +144,8 @@ void Recorder::tell_refused() {
 void Recorder::stop(const Error& error) {
   writer_.reset();
   failed_.store(true, std::memory_order_relaxed);
-  voice_.problem("recording stopped, all else goes on: " + error.message + "; " + path_ +
-                 " holds what came before; make room or record elsewhere (--record FILE, record.directory)");
+  voice_.problem("recording stopped: " + error.message + "; " + path_ +
+                 " holds what came before; make room or record elsewhere");
 }
 
 void Recorder::finish() {

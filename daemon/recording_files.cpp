@@ -102,6 +102,12 @@ std::string recording_name(HostTime began, int part) {
   return name + std::string(kSuffix);
 }
 
+std::string size_text(std::uint64_t bytes) {
+  if (bytes < 10'000) return std::to_string(bytes) + " bytes";
+  if (bytes < 10'000'000) return std::to_string(bytes / 1000) + " kB";
+  return std::to_string(bytes / 1'000'000) + " MB";
+}
+
 std::vector<fs::path> remove_oldest_recordings(const fs::path& directory, std::uint64_t keep_bytes) {
   const std::vector<Recording> recordings = recordings_in(directory);
   std::uint64_t total = 0;

@@ -20,6 +20,9 @@ namespace swiftlet {
 /// "swiftlet_20261121_105555.pcap" (UTC); from part 2 on "swiftlet_20261121_105555_2.pcap".
 [[nodiscard]] std::string recording_name(HostTime began, int part);
 
+/// "296 kB", "64 MB".
+[[nodiscard]] std::string size_text(std::uint64_t bytes);
+
 /// Removes the oldest files named as recording_name() does, until those left hold at most `keep_bytes`.
 /// Nothing else is ever touched: no other name, no link, no recording that is being written. What it removed.
 std::vector<std::filesystem::path> remove_oldest_recordings(const std::filesystem::path& directory,

@@ -67,6 +67,13 @@ TEST(RecordingName, SaysWhenTheRecordingBeganInUtcAndWhichPartItIs) {
   EXPECT_EQ(recording_name(began, 2), "swiftlet_20261121_105555_2.pcap");
 }
 
+TEST(SizeText, KeepsTwoDigitsAtLeast) {
+  EXPECT_EQ(size_text(24), "24 bytes");
+  EXPECT_EQ(size_text(9'999), "9999 bytes");
+  EXPECT_EQ(size_text(296'048), "296 kB");
+  EXPECT_EQ(size_text(64'000'000), "64 MB");
+}
+
 class RemoveOldestRecordings : public testing::Test {
  protected:
   void make(const std::string& name) const {

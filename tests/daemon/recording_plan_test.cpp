@@ -45,12 +45,12 @@ TEST(PlanRecording, DoesAsItIsToldWhateverTheCustom) {
   EXPECT_TRUE(is_recorded(Kind::kSimulation, {.asked = true, .refused = false, .file = ""}, off));
 }
 
-TEST(PlanRecording, DoesNotRecordARecording) {
+TEST(PlanRecording, DoesNotRecordAFile) {
   const Result<std::optional<RecordingPlan>> plan = plan_recording(
       input_of(Kind::kFile), {.asked = true, .refused = false, .file = "copy.pcap"}, {}, HostTime{});
   ASSERT_FALSE(plan.ok());
   EXPECT_EQ(plan.error().code, ErrorCode::kInvalidInput);
-  EXPECT_THAT(plan.error().message, testing::HasSubstr("flight.pcap: is a recording already"));
+  EXPECT_THAT(plan.error().message, testing::HasSubstr("flight.pcap: is a file already"));
 }
 
 TEST(PlanRecording, TakesDirectoryAndLimitsFromTheConfiguration) {
