@@ -13,6 +13,7 @@
 
 #include "daemon/recording_files.hpp"
 #include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/request_queue.hpp"
 #include "firmware_link/session_preamble.hpp"
 
 namespace swiftlet {
@@ -22,12 +23,11 @@ constexpr std::chrono::milliseconds kRoomWait{1};
 constexpr std::chrono::milliseconds kTick{50};
 constexpr std::size_t kFramesPerStep = 1024;
 constexpr int kMostParts = 10'000;
-constexpr CrtpTopic kNullTopic{15, 3};
 
 }  // namespace
 
 void RecordingSink::take(const LinkFrame& frame) noexcept {
-  if (frame.size == 0 || is_on(frame.packet(), kNullTopic)) return;
+  if (frame.size == 0 || is_null_packet(frame.packet())) return;
   while (source_can_wait_ && !frames_.has_room()) std::this_thread::sleep_for(kRoomWait);
   static_cast<void>(frames_.try_push(frame));  // what is refused is counted
 }

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <set>
-#include <span>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "firmware_link/crtp_packet.hpp"
 #include "firmware_link/log_block_table.hpp"
 #include "firmware_link/log_toc.hpp"
+#include "firmware_link/toc_item.hpp"
 
 namespace swiftlet {
 namespace {
@@ -51,31 +52,20 @@ class Exchanges {
   std::vector<LinkFrame> frames_;
 };
 
-void add_toc_info(const LogToc::Info& info, Exchanges& exchanges) {
+void add_toc_info(const TocInfo& info, Exchanges& exchanges) {
   const auto crc_byte = [&info](int shift) { return low_byte(info.crc >> shift); };
   exchanges.add(
-      toc_info_request(),
-      make_crtp_packet(kLogTocTopic, {static_cast<std::uint8_t>(LogTocCommand::kInfo), low_byte(info.count),
+      toc_info_request(kLogTocTopic),
+      make_crtp_packet(kLogTocTopic, {static_cast<std::uint8_t>(TocCommand::kInfo), low_byte(info.count),
                                       high_byte(info.count), crc_byte(0), crc_byte(8), crc_byte(16),
                                       crc_byte(24), kMostBlocks, kMostVariables}));
 }
 
-bool put_text(CrtpPacket& packet, std::string_view text) {
-  for (const char c : text)
-    if (!packet.try_push_back(static_cast<std::uint8_t>(c))) return false;
-  return packet.try_push_back(0);
-}
-
 void add_toc_item(const LogToc& toc, std::uint16_t id, Exchanges& exchanges) {
-  CrtpPacket reply =
-      make_crtp_packet(kLogTocTopic, {static_cast<std::uint8_t>(LogTocCommand::kItem), low_byte(id),
-                                      high_byte(id), static_cast<std::uint8_t>(toc.type_of(id))});
-  const std::string_view name = toc.name_of(id);
-  const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos) return;
+  const std::optional<CrtpPacket> reply = toc_item_reply(
+      kLogTocTopic, {id, static_cast<std::uint8_t>(toc.type_of(id)), std::string(toc.name_of(id))});
   // It came in one packet, so it fits one.
-  if (put_text(reply, name.substr(0, dot)) && put_text(reply, name.substr(dot + 1)))
-    exchanges.add(toc_item_request(id), reply);
+  if (reply) exchanges.add(toc_item_request(kLogTocTopic, id), *reply);
 }
 
 void add_start(std::uint8_t id, Duration period, Exchanges& exchanges) {

@@ -23,6 +23,7 @@
 #include "daemon/signal_watcher.hpp"
 #include "firmware_link/input_uri.hpp"
 #include "firmware_link/sample_source.hpp"
+#include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
 namespace {
@@ -108,6 +109,9 @@ class Listener {
 
  private:
   void tell_news() {
+    // A warning becomes a note of the report, too; the rest is of no interest to it.
+    while (const std::optional<VehicleEvent> event = source_.take_event())
+      if (!is_warning(*event)) tell("note", describe(*event));
     const InputReport& report = source_.report();
     for (; notes_ < report.notes.size(); ++notes_) tell("note", report.notes[notes_]);
     for (; problems_ < report.problems.size(); ++problems_) tell("problem", report.problems[problems_]);
