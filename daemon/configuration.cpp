@@ -51,6 +51,8 @@ std::vector<std::string> Configuration::validate() const {
   if (!problems.empty()) return problems;  // how fields agree is asked when each makes sense by itself
   if (sensor.min_range_m && sensor.max_range_m && *sensor.min_range_m >= *sensor.max_range_m)
     problems.emplace_back("sensor.min_range_m must be less than sensor.max_range_m");
+  if (record.max_total_mb < record.max_file_mb)
+    problems.emplace_back("record.max_total_mb must not be less than record.max_file_mb");
   append(problems, frontend.validate());
   append(problems, backend.validate());
   append(problems, map.validate());

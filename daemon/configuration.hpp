@@ -37,12 +37,21 @@ struct PublishConfig {
   std::string channel_prefix = "SWIFTLET_";
 };
 
+/// What the daemon keeps of what it hears.
+struct RecordConfig {
+  bool enabled = true;      ///< live links are recorded
+  std::string directory;    ///< empty: the state directory
+  int max_file_mb = 64;     ///< beyond this a recording is continued in a new file
+  int max_total_mb = 2000;  ///< beyond this the oldest recordings in the directory are removed
+};
+
 struct Configuration {
   SensorOverrides sensor;
   FrontendConfig frontend;
   BackendConfig backend;
   MapConfig map;
   PublishConfig publish;
+  RecordConfig record;
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -21,6 +21,7 @@ Section& section_in(Configuration& config) {
   if constexpr (std::is_same_v<Section, BackendConfig>) return config.backend;
   if constexpr (std::is_same_v<Section, MapConfig>) return config.map;
   if constexpr (std::is_same_v<Section, PublishConfig>) return config.publish;
+  if constexpr (std::is_same_v<Section, RecordConfig>) return config.record;
 }
 
 template <typename Section, typename T>
@@ -151,6 +152,15 @@ constexpr ConfigurationField kFields[] = {
      at<&PublishConfig::tile_refresh_period_s>},
     {"publish", "channel_prefix", "", "what every channel's name begins with", 0, 0,
      at<&PublishConfig::channel_prefix>},
+    {"record", "enabled", "", "radio, cable and UDP are recorded unless --no-record says otherwise", 0, 0,
+     at<&RecordConfig::enabled>},
+    {"record", "directory", "", "where recordings go; empty: the state directory", 0, 0,
+     at<&RecordConfig::directory>},
+    {"record", "max_file_mb", "MB", "a recording that has grown this long is continued in a new file", 1,
+     4000, at<&RecordConfig::max_file_mb>},
+    {"record", "max_total_mb", "MB",
+     "the oldest recordings in the directory are removed so that no more than this is used", 1, 1000000,
+     at<&RecordConfig::max_total_mb>},
 };
 
 std::string range_problem(const ConfigurationField& field, double value) {

@@ -25,6 +25,7 @@ std::string_view introduction_of(std::string_view section) {
   if (section == "frontend") return "The landmark graph: one step for each sample.";
   if (section == "backend") return "Submaps, loop closing and the pose graph.";
   if (section == "map") return "The occupancy map that is published and written.";
+  if (section == "record") return "What the daemon keeps of what it hears: [recording](recording.md).";
   return "What the daemon sends and how often.";
 }
 

@@ -16,7 +16,10 @@
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/run_outputs.hpp"
+#include "daemon/recorder.hpp"
+#include "daemon/recording_plan.hpp"
 #include "daemon/signal_watcher.hpp"
+#include "firmware_link/input_uri.hpp"
 
 namespace swiftlet {
 namespace {
@@ -30,6 +33,7 @@ struct Options {
   double rate = 1.0;
   std::optional<int> beams;
   std::string output_directory;
+  RecordingWish record;
   bool print_reference = false;
   bool verbose = false;
 };
@@ -49,6 +53,13 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--beams", options.beams, "laser logs: how many beams to keep");
   app.add_option("-o,--output", options.output_directory,
                  "write map, trajectories and report here at the end");
+  CLI::Option* record =
+      app.add_option("--record", options.record.file,
+                     "record the flight to this file; without FILE, or without --record from a live link, to "
+                     "the state directory")
+          ->type_name("[FILE]")
+          ->expected(0, 1);
+  app.add_flag("--no-record", options.record.refused, "record nothing")->excludes(record);
   app.add_flag("-v,--verbose", options.verbose, "log each status");
   app.add_flag("--print-configuration-reference", options.print_reference,
                "write docs/configuration.md and exit");
@@ -64,8 +75,29 @@ Result<Configuration> read_configuration(const Options& options) {
   return load_configuration(options.config_path);
 }
 
-Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const Configuration& config) {
+/// The recorder of this run, if it has any. Errors: as Recorder::open, where a recording was asked for; a
+/// recording by custom is only warned about.
+Result<std::unique_ptr<Recorder>> open_recorder(const Options& options, const Configuration& config) {
+  const Result<InputUri> input = parse_input_uri(options.input_uri);
+  if (!input) return input.error();
+  const HostTime now(std::chrono::system_clock::now().time_since_epoch());
+  const Result<std::optional<RecordingPlan>> plan =
+      plan_recording(*input, options.record, config.record, now);
+  if (plan && !*plan) return std::unique_ptr<Recorder>();
+  const RecorderVoice voice{
+      .note = [](const std::string& text) { spdlog::info("{}", text); },
+      .problem = [](const std::string& text) { spdlog::error("{}; the flight goes on", text); }};
+  Result<std::unique_ptr<Recorder>> recorder =
+      plan ? Recorder::open(**plan, voice) : Result<std::unique_ptr<Recorder>>(plan.error());
+  if (recorder || options.record.asked) return recorder;
+  spdlog::warn("this flight is not recorded: {}", recorder.error().message);
+  return std::unique_ptr<Recorder>();
+}
+
+Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const Configuration& config,
+                                                 FrameSink* recording) {
   SampleSourceOptions source;
+  source.recording = recording;
   source.beam_count = options.beams;
   if (config.sensor.range_age_s) source.range_age = from_seconds(*config.sensor.range_age_s);
   source.max_range_m = config.sensor.max_range_m;
@@ -116,6 +148,16 @@ Status write_outputs(const Options& options, const Configuration& config, const 
                                                       .sensor = config.sensor.applied_to(source.sensor())});
 }
 
+/// Until the recording is on the disk, too.
+Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& stop) {
+  std::optional<RecorderThread> thread;
+  if (recorder != nullptr) {
+    spdlog::info("recording to {}", recorder->path());
+    thread.emplace(*recorder);
+  }
+  return daemon.run(stop);
+}
+
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
@@ -123,7 +165,10 @@ int run(const Options& options) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);
   }
-  const Result<std::unique_ptr<SampleSource>> source = open_input(options, *config);
+  const Result<std::unique_ptr<Recorder>> recorder = open_recorder(options, *config);
+  if (!recorder) return refuse(recorder.error().message);
+  const Result<std::unique_ptr<SampleSource>> source =
+      open_input(options, *config, *recorder ? &(*recorder)->sink() : nullptr);
   if (!source) return refuse(source.error().message);
   const Result<std::unique_ptr<LcmPublisher>> publisher =
       LcmPublisher::open(options.lcm_url, config->publish.channel_prefix, new_map_id());
@@ -133,7 +178,7 @@ int run(const Options& options) {
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
-  const Status outcome = daemon.run(signals.token());
+  const Status outcome = run_recorded(daemon, recorder->get(), signals.token());
   if (signals.token().stop_requested()) spdlog::info("stopped by a signal");
   const BackendCounters& counters = daemon.pipeline().backend().counters();
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
@@ -149,6 +194,7 @@ int main_without_exceptions(int argc, char** argv) {
   declare(app, options);
   try {
     app.parse(argc, argv);
+    options.record.asked = app.count("--record") > 0;
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

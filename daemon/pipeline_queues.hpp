@@ -16,6 +16,7 @@
 #include "core/sensing/range_sample.hpp"
 #include "daemon/pipeline_messages.hpp"
 #include "daemon/stage_queue.hpp"
+#include "firmware_link/link.hpp"
 #include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
@@ -104,6 +105,11 @@ struct PublisherQueues {
         frontend,         backend};
   }
 };
+
+/// radio -> recorder: 8 s of the busiest link (1000 packets a second), many minutes of a usual one. Full: the
+/// newest frame is refused and counted, and the recorder says so; a simulation waits instead. One for each
+/// recorder, not among the pipeline's own: the recording begins before the pipeline and ends after it.
+using RecordingQueue = StageQueue<LinkFrame, 8192>;
 
 /// Several megabytes: belongs on the heap.
 struct PipelineQueues {

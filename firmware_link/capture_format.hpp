@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "firmware_link/input_uri.hpp"
+
 namespace swiftlet {
 
 // Captures in the layout of Bitcraze's client library: classic pcap (libpcap file format 2.4) of link type
@@ -36,5 +38,10 @@ struct CaptureVehicle {
   /// "radio E7E7E7E701 channel 80", "usb 0123456789ABCDEF01234567".
   [[nodiscard]] std::string text() const;
 };
+
+/// Whom a recording of this input belongs to. The layout knows radio and USB only: what comes another way
+/// counts as USB, and its serial number is what it is called, in ASCII ("udp:19850", "usb:0", "sim:office"),
+/// cut off at 12 characters or filled up with zeros. Precondition: not a file.
+[[nodiscard]] CaptureVehicle capture_vehicle_of(const InputUri& input);
 
 }  // namespace swiftlet

@@ -10,6 +10,7 @@
 
 #include "core/sensing/range_sample.hpp"
 #include "tools/map_command.hpp"
+#include "tools/record_command.hpp"
 #include "tools/sim_command.hpp"
 
 namespace {
@@ -65,6 +66,17 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
   return sim;
 }
 
+CLI::App* add_record_command(CLI::App& app, swiftlet::RecordCommand& command) {
+  CLI::App* record =
+      app.add_subcommand("record", "Record what a vehicle says, to be replayed or mapped later");
+  record->add_option("INPUT", command.input, "radio://, usb://, udp:// or sim://WORLD?seed=N")->required();
+  record->add_option("-o,--output", command.file, "The recording, a .pcap file that is not there yet")
+      ->required();
+  record->add_option("--seconds", command.seconds, "End after this long; without it, at Ctrl-C")
+      ->check(CLI::PositiveNumber);
+  return record;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("2D SLAM for four range beams");
   app.name("swiftlet");
@@ -74,15 +86,18 @@ int run(int argc, char** argv) {
   const CLI::App* map = add_map_command(app, map_command);
   swiftlet::SimCommand sim_command;
   const CLI::App* sim = add_sim_command(app, sim_command);
+  swiftlet::RecordCommand record_command;
+  const CLI::App* record = add_record_command(app, record_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return refuse(std::string(error.what()) + "; see swiftlet --help");
   }
-  if (!map->parsed() && !sim->parsed()) return refuse("no command given; see swiftlet --help");
-  const swiftlet::Status status =
-      sim->parsed() ? swiftlet::run_sim_command(sim_command) : swiftlet::run_map_command(map_command);
+  swiftlet::Status status = swiftlet::Error{{}, "no command given; see swiftlet --help"};
+  if (map->parsed()) status = swiftlet::run_map_command(map_command);
+  if (sim->parsed()) status = swiftlet::run_sim_command(sim_command);
+  if (record->parsed()) status = swiftlet::run_record_command(record_command);
   return status ? 0 : refuse(status.error().message);
 }
 

@@ -70,9 +70,10 @@ TEST(ConfigurationFields, HoldEveryFieldOfEverySection) {
   EXPECT_EQ(table_count("backend"), field_count<BackendConfig>());
   EXPECT_EQ(table_count("map"), field_count<MapConfig>());
   EXPECT_EQ(table_count("publish"), field_count<PublishConfig>());
+  EXPECT_EQ(table_count("record"), field_count<RecordConfig>());
   EXPECT_EQ(configuration_fields().size(), table_count("sensor") + table_count("frontend") +
                                                table_count("backend") + table_count("map") +
-                                               table_count("publish"));
+                                               table_count("publish") + table_count("record"));
 }
 
 TEST(ConfigurationFields, NameEachFieldOnce) {
@@ -137,7 +138,9 @@ TEST(Configuration, RefusesValuesThatDisagree) {
   Configuration config;
   config.sensor.min_range_m = 2.0;
   config.sensor.max_range_m = 1.0;
-  EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("less than sensor.max_range_m")));
+  config.record.max_file_mb = config.record.max_total_mb + 1;
+  EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("less than sensor.max_range_m"),
+                                                      HasSubstr("less than record.max_file_mb")));
 }
 
 TEST(Configuration, NotANumberIsNoValue) {

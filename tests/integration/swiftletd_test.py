@@ -149,6 +149,51 @@ def a_truncated_capture_is_used_up_to_the_damage(bench):
     expect((out / "trajectory.tum").stat().st_size > 0, "what came before the damage is lost")
 
 
+def killed_while_recording_it_loses_no_more_than_a_second(bench):
+    recording = bench.folder / "flight.pcap"
+    command = [bench.swiftletd, "--input", "sim://office?seed=7", "--record", str(recording),
+               "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"]
+    with subprocess.Popen(command, stderr=subprocess.DEVNULL) as daemon:
+        until = time.monotonic() + 60.0
+        while not recording.exists() or recording.stat().st_size == 24:  # the header: nothing heard yet
+            expect(time.monotonic() < until, "nothing was recorded")
+            time.sleep(0.01)
+        time.sleep(4.0)
+        daemon.kill()
+        daemon.wait()
+    code, lines = bench.daemon("--input", recording, "--rate", 1000, "-o", bench.folder / "kept")
+    expect(code == 0, lines)
+    kept = (bench.folder / "kept" / "trajectory.tum").read_text(encoding="utf-8").splitlines()
+    expect(len(kept) >= 30, f"{len(kept)} samples of 4 s at 10 Hz")  # 1 s less, and not a tenth more
+
+
+def an_existing_recording_is_not_overwritten(bench):
+    recording = bench.folder / "flight.pcap"
+    recording.write_text("mine", encoding="utf-8")
+    code, lines = bench.daemon("--input", "sim://loop", "--record", recording)
+    expect(code == 2 and len(lines) == 1 and "flight.pcap: is there already" in lines[0], lines)
+    expect(recording.read_text(encoding="utf-8") == "mine", "it was written to")
+    code, lines = bench.daemon("--input", recording, "--record", bench.folder / "copy.pcap")
+    expect(code == 2 and len(lines) == 1 and "is a file already" in lines[0], lines)
+
+
+def a_recording_replays_to_the_same_map_and_needs_to_be_asked_for_in_a_simulation(bench):
+    state = bench.folder / "state"
+    os.environ["STATE_DIRECTORY"] = str(state)
+    live = ["--input", "sim://loop?seed=2", "--rate", 1000, "-o", bench.folder / "live"]
+    code, lines = bench.daemon(*live)
+    expect(code == 0 and not state.exists(), lines)
+    code, lines = bench.daemon(*live, "--record")
+    expect(code == 0, lines)
+    (recording,) = state.glob("swiftlet_*.pcap")
+    expect(any(f"recording to {recording}" in line for line in lines), lines)
+    code, lines = bench.daemon("--input", recording, "--rate", 1000, "-o", bench.folder / "again")
+    expect(code == 0, lines)
+    for name in ("trajectory.tum", "map.pgm"):
+        same = (bench.folder / "live" / name).read_bytes() == (bench.folder / "again" / name).read_bytes()
+        expect(same, name + " differs")
+
+
 def main():
     case, swiftletd, consumer, datasets_beside = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:

@@ -31,13 +31,16 @@ struct Outcome {
 class SwiftletCommand : public testing::Test {
  protected:
   /// `arguments` as a shell takes them; {} stands for the test's directory.
-  Outcome run(std::string arguments) const {
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    return run_as(SWIFTLET_COMMAND, arguments);
+  }
+  [[nodiscard]] Outcome run_as(const std::string& program, std::string arguments) const {
     for (auto at = arguments.find("{}"); at != std::string::npos; at = arguments.find("{}"))
       arguments.replace(at, 2, directory_.path());
     const fs::path out = directory_.path() / "stdout";
     const fs::path err = directory_.path() / "stderr";
-    const std::string command = std::string(SWIFTLET_COMMAND) + " " + arguments + " >" + out.string() +
-                                " 2>" + err.string() + " </dev/null";
+    const std::string command =
+        program + " " + arguments + " >" + out.string() + " 2>" + err.string() + " </dev/null";
     const int status = std::system(command.c_str());  // NOLINT(*-env33-c,cert-*): a shell is what is tested
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
   }
@@ -153,6 +156,45 @@ TEST_F(SwiftletCommand, GivesTheSameBytesTwice) {
     ASSERT_EQ(run("map {}/run.clf -o {}/" + std::string(name)).exit_code, 0);
   for (const char* name : {"map.png", "map.pgm", "trajectory.tum"})
     EXPECT_EQ(text_of(file("a") / name), text_of(file("b") / name)) << name;
+}
+
+TEST_F(SwiftletCommand, RecordsAFlightThatMapsAsTheFlightItselfDoes) {
+  const Outcome outcome = run("record 'sim://corridors?seed=3' -o {}/flight.pcap --seconds 60");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr(" samples, "), HasSubstr(" kB: "), HasSubstr("flight.pcap")));
+  EXPECT_THAT(outcome.err, StartsWith("swiftlet: note: connected to the vehicle"));
+  const Outcome whole = run("record 'sim://corridors?seed=3' -o {}/whole.pcap");
+  EXPECT_EQ(whole.exit_code, 0);
+  EXPECT_GT(fs::file_size(file("whole.pcap")), fs::file_size(file("flight.pcap")));
+  ASSERT_EQ(run("map {}/whole.pcap -o {}/replayed").exit_code, 0);
+  ASSERT_EQ(run("map 'sim://corridors?seed=3' -o {}/live").exit_code, 0);
+  for (const char* name : {"map.pgm", "trajectory.tum", "odometry.tum"})
+    EXPECT_EQ(text_of(file("replayed") / name), text_of(file("live") / name)) << name;
+}
+
+TEST_F(SwiftletCommand, RefusesToRecordWhatItCannot) {
+  write("there.pcap", "mine");
+  EXPECT_THAT(run("record 'sim://office' -o {}/there.pcap"), refuses_with("there.pcap: is there already"));
+  EXPECT_EQ(text_of(file("there.pcap")), "mine");
+  EXPECT_THAT(run("record {}/there.pcap -o {}/copy.pcap"), refuses_with("there.pcap: is a file already"));
+  EXPECT_THAT(run("record 'sim://nowhere' -o {}/none.pcap"), refuses_with("nowhere"));
+  EXPECT_FALSE(fs::exists(file("none.pcap")));
+  EXPECT_THAT(run("record 'sim://office' -o {}/none/a.pcap"), refuses_with("none/a.pcap: cannot be written"));
+  EXPECT_THAT(run("record 'sim://office'"), refuses_with("--output"));
+  EXPECT_THAT(run("record 'sim://office' -o {}/a.pcap --seconds 0"), refuses_with("--seconds"));
+}
+
+TEST_F(SwiftletCommand, SaysThatARecordingEndedEarlyAndKeepsWhatItHas) {
+  write("run", "ulimit -f 200\nexec \"$@\"\n");  // in units of 512 or 1024 bytes
+  const fs::path script = file("run");
+  const std::string limited = "sh " + script.string() + " " + SWIFTLET_COMMAND;
+  const Outcome outcome = run_as(limited, "record 'sim://office?seed=1' -o {}/flight.pcap");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("\nswiftlet: recording stopped: "),
+                    EndsWith("flight.pcap holds what came before; make room or record elsewhere\n")));
+  EXPECT_EQ(run("map {}/flight.pcap -o {}/out").exit_code, 0);
 }
 
 fs::path dataset(const std::string& name) {

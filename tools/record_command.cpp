@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "tools/record_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <stop_token>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/base/latest_value.hpp"
+#include "core/base/time.hpp"
+#include "daemon/recorder.hpp"
+#include "daemon/recording_files.hpp"
+#include "daemon/recording_plan.hpp"
+#include "daemon/signal_watcher.hpp"
+#include "firmware_link/input_uri.hpp"
+#include "firmware_link/sample_source.hpp"
+#include "firmware_link/vehicle_event.hpp"
+
+namespace swiftlet {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+constexpr const char* kBackToEmptyLine = "\r\x1b[K";
+constexpr std::chrono::milliseconds kLook{100};
+constexpr int kLooksPerLine = 10;
+
+/// What the thread that listens tells the one that shows.
+struct Heard {
+  std::uint64_t samples = 0;
+  std::uint64_t gaps = 0;
+  HostTime first{};  ///< stamps of samples
+  HostTime latest{};
+};
+static_assert(std::is_trivially_copyable_v<Heard>);
+
+double rate_hz(std::uint64_t samples, Duration span) {
+  return span > Duration::zero() ? static_cast<double>(samples) / to_seconds(span) : 0.0;
+}
+/// From the first sample to the last.
+double mean_rate_hz(const Heard& heard) {
+  return heard.samples > 1 ? rate_hz(heard.samples - 1, heard.latest - heard.first) : 0.0;
+}
+
+/// The running line, in a thread of its own: a terminal that is held must not hold the radio.
+class RunningLine {
+ public:
+  RunningLine(LatestValue<Heard>& heard, const Recorder& recorder) {
+    if (::isatty(::fileno(stderr)) != 1) return;
+    thread_ = std::jthread([&heard, &recorder](const std::stop_token& over) { show(heard, recorder, over); });
+  }
+
+ private:
+  static void show(LatestValue<Heard>& newest, const Recorder& recorder, const std::stop_token& over) {
+    Heard heard;
+    Heard shown;
+    for (int look = 1; !over.stop_requested(); ++look) {
+      std::this_thread::sleep_for(kLook);
+      if (look % kLooksPerLine != 0) continue;
+      static_cast<void>(newest.load_if_new(heard));
+      const double rate = shown.samples > 0
+                              ? rate_hz(heard.samples - shown.samples, heard.latest - shown.latest)
+                              : mean_rate_hz(heard);
+      shown = heard;
+      std::fputs(
+          (kBackToEmptyLine + recording_summary(heard.samples, rate, heard.gaps, recorder.bytes())).c_str(),
+          stderr);
+      std::fflush(stderr);
+    }
+    std::fputs(kBackToEmptyLine, stderr);
+    std::fflush(stderr);
+  }
+
+  std::jthread thread_;
+};
+
+/// Listens to a source and keeps count.
+class Listener {
+ public:
+  Listener(SampleSource& source, LatestValue<Heard>& newest) : source_(source), newest_(newest) {}
+
+  /// Until `may_go_on` says no. Errors: what ended the input before its time.
+  template <typename Condition>
+  Status listen(Condition may_go_on) {
+    while (may_go_on(std::as_const(heard_))) {
+      const Result<RangeSample> sample = source_.next();
+      tell_news();
+      if (!sample && sample.error().code == ErrorCode::kEndOfRecording) return {};
+      if (!sample && sample.error().code != ErrorCode::kTimeout) return sample.error();
+      if (!sample) continue;
+      if (heard_.samples == 0) heard_.first = sample->stamp;
+      heard_.latest = sample->stamp;
+      ++heard_.samples;
+      heard_.gaps = source_.report().gaps;
+      newest_.store(heard_);
+    }
+    return {};
+  }
+  [[nodiscard]] const Heard& heard() const { return heard_; }
+
+ private:
+  void tell_news() {
+    // A warning becomes a note of the report, too; the rest is of no interest to it.
+    while (const std::optional<VehicleEvent> event = source_.take_event())
+      if (!is_warning(*event)) tell("note", describe(*event));
+    const InputReport& report = source_.report();
+    for (; notes_ < report.notes.size(); ++notes_) tell("note", report.notes[notes_]);
+    for (; problems_ < report.problems.size(); ++problems_) tell("problem", report.problems[problems_]);
+  }
+  static void tell(const char* kind, const std::string& text) {
+    const char* start = ::isatty(::fileno(stderr)) == 1 ? kBackToEmptyLine : "";
+    std::fprintf(stderr, "%sswiftlet: %s: %s\n", start, kind, text.c_str());
+  }
+
+  SampleSource& source_;
+  LatestValue<Heard>& newest_;
+  Heard heard_;
+  std::size_t notes_ = 0;  // told so far
+  std::size_t problems_ = 0;
+};
+
+Result<RecordingPlan> plan_for(const RecordCommand& command) {
+  const Result<InputUri> input = parse_input_uri(command.input);
+  if (!input) return input.error();
+  const HostTime now(std::chrono::system_clock::now().time_since_epoch());
+  const RecordingWish wish{.asked = true, .refused = false, .file = command.file};
+  const Result<std::optional<RecordingPlan>> plan = plan_recording(*input, wish, RecordConfig{}, now);
+  if (!plan) return plan.error();
+  return **plan;
+}
+
+/// Listens while the recorder's thread writes; all is on the disk afterwards.
+Status listen_and_record(const RecordCommand& command, const std::stop_token& stop, Recorder& recorder,
+                         Listener& listener, LatestValue<Heard>& newest) {
+  const RecorderThread writer(recorder);
+  const RunningLine line(newest, recorder);
+  const WallClock::time_point began = WallClock::now();
+  return listener.listen([&](const Heard& heard) {
+    const Duration elapsed = std::max<Duration>(WallClock::now() - began, heard.latest - heard.first);
+    return !stop.stop_requested() && !recorder.failed() &&
+           !(command.seconds && elapsed >= from_seconds(*command.seconds));
+  });
+}
+
+}  // namespace
+
+std::string recording_summary(std::uint64_t samples, double rate_hz, std::uint64_t gaps,
+                              std::uint64_t bytes) {
+  return fmt::format("{} samples, {:.1f} Hz, {} gaps, {}", samples, rate_hz, gaps, size_text(bytes));
+}
+
+Status run_record_command(const RecordCommand& command) {
+  const SignalWatcher signals;  // before the threads
+  const Result<RecordingPlan> plan = plan_for(command);
+  if (!plan) return plan.error();
+  std::string trouble;  // of the recorder's thread until that has ended
+  const RecorderVoice voice{
+      .note = [](const std::string&) {},
+      .problem = [&trouble](const std::string& text) { trouble += (trouble.empty() ? "" : "; ") + text; }};
+  const Result<std::unique_ptr<Recorder>> recorder = Recorder::open(*plan, voice);
+  if (!recorder) return recorder.error();
+  SampleSourceOptions options;
+  options.recording = &(*recorder)->sink();
+  const Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
+  if (!source) return source.error();
+
+  LatestValue<Heard> newest;
+  Listener listener(**source, newest);
+  const Status heard = listen_and_record(command, signals.token(), **recorder, listener, newest);
+  if (!trouble.empty()) return Error{ErrorCode::kOutOfSpace, trouble};
+  if (!heard) return heard;
+  const Heard& total = listener.heard();
+  if (total.samples == 0)
+    return Error{ErrorCode::kInvalidInput, command.input + ": not one sample was heard; is the vehicle on?"};
+  std::printf("%s: %s\n",
+              recording_summary(total.samples, mean_rate_hz(total), total.gaps, (*recorder)->bytes()).c_str(),
+              command.file.c_str());
+  return {};
+}
+
+}  // namespace swiftlet
