@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "firmware_link/link_condition.hpp"
 #include "tools/doctor/lcm_checks.hpp"
 #include "tools/doctor/real_time_checks.hpp"
 #include "tools/doctor/storage_checks.hpp"
@@ -97,7 +98,14 @@ Finding nobody_on_radio(const RadioAddress& radio, const Surroundings& around) {
           "use what was found if it is yours; if not, " + std::string(kSwitchOn)};
 }
 
-Finding nobody_answers(const InputUri& uri, const Surroundings& around) {
+/// The device's fault, not the vehicle's.
+bool has_failed(LinkCondition condition) {
+  return condition != LinkCondition::kNone && condition != LinkCondition::kConnected &&
+         condition != LinkCondition::kSilent;
+}
+
+Finding nobody_answers(const InputUri& uri, LinkCondition condition, const Surroundings& around) {
+  if (has_failed(condition)) return {Mark::kProblem, "vehicle", std::string(describe(condition)), ""};
   if (uri.kind == Kind::kRadio) return nobody_on_radio(uri.radio, around);
   if (uri.kind == Kind::kUsbCable)
     return {Mark::kProblem, "vehicle", "it does not answer by its cable", "switch it off and on again"};
@@ -119,7 +127,7 @@ void check_answers(const InputUri& uri, const Surroundings& around, Findings& fi
     return append(findings, skip_vehicle("no link"));
   }
   if (!facts->answered) {
-    findings.push_back(nobody_answers(uri, around));
+    findings.push_back(nobody_answers(uri, facts->link, around));
     return append(findings, skip_vehicle("the vehicle does not answer"));
   }
   findings.push_back({Mark::kOk, "vehicle",

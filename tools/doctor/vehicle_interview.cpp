@@ -58,30 +58,33 @@ bool VehicleInterview::finished(HostTime now) const {
 }
 
 VehicleFacts VehicleInterview::facts() const {
-  VehicleFacts facts{.answered = answered_,
-                     .protocol = handshake_.protocol(),
-                     .firmware = inventory_.firmware(),
-                     .device_type = inventory_.device_type(),
-                     .has_multiranger = inventory_.has_multiranger(),
-                     .has_flow_deck = inventory_.has_flow_deck(),
-                     .refusal = handshake_.failure(),
-                     .logs = logs_,
-                     .health = monitor_.health()};
-  return facts;
+  return {.answered = answered_,
+          .protocol = handshake_.protocol(),
+          .firmware = inventory_.firmware(),
+          .device_type = inventory_.device_type(),
+          .has_multiranger = inventory_.has_multiranger(),
+          .has_flow_deck = inventory_.has_flow_deck(),
+          .refusal = handshake_.failure(),
+          .logs = logs_,
+          .health = monitor_.health()};
 }
 
 VehicleFacts interview_vehicle(Link& link, LinkClock& clock, TocCache& cache,
                                const InterviewPatience& patience) {
   VehicleInterview interview(cache);
   const HostTime begin = clock.now();
-  for (HostTime now = begin; !interview.finished(now) && now - begin < patience.all; now = clock.now()) {
-    if (!interview.facts().answered && now - begin >= patience.first_answer) return interview.facts();
+  const auto is_hopeless = [&](HostTime now) {
+    return now - begin >= patience.all || (!interview.answered() && now - begin >= patience.first_answer);
+  };
+  for (HostTime now = begin; !interview.finished(now) && !is_hopeless(now); now = clock.now()) {
     if (const std::optional<CrtpPacket> request = interview.next_request(now))
       static_cast<void>(link.send(bytes_of(*request)));
     if (const Result<LinkFrame> frame = link.receive(kReceiveTimeout)) interview.hear(*frame);
   }
-  say_farewell(link, clock);
-  return interview.facts();
+  VehicleFacts facts = interview.facts();
+  facts.link = link.statistics().condition;
+  if (facts.answered) say_farewell(link, clock);
+  return facts;
 }
 
 }  // namespace swiftlet

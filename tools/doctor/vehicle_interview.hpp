@@ -10,6 +10,7 @@
 #include "core/base/time.hpp"
 #include "firmware_link/link.hpp"
 #include "firmware_link/link_clock.hpp"
+#include "firmware_link/link_statistics.hpp"
 #include "firmware_link/live_status.hpp"
 #include "firmware_link/log_handshake.hpp"
 #include "firmware_link/log_session.hpp"
@@ -30,6 +31,7 @@ struct VehicleFacts {
   std::optional<Error> refusal;  ///< why its log cannot be used
   bool logs = false;             ///< log data came
   VehicleHealth health;
+  LinkCondition link = LinkCondition::kNone;  ///< at the end
 };
 
 /// Asks a vehicle all that the doctor wants to know, by the handshake that the daemon uses: what works here
@@ -45,6 +47,8 @@ class VehicleInterview {
 
   /// All is told; or the vehicle logs, but not the rest.
   [[nodiscard]] bool finished(HostTime now) const;
+  /// Anything was heard from the vehicle.
+  [[nodiscard]] bool answered() const { return answered_; }
   [[nodiscard]] VehicleFacts facts() const;
 
  private:

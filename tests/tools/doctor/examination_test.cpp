@@ -37,6 +37,8 @@ class CountedLink final : public Link {
   ScriptedLink scripted;
   Result<LinkFrame> receive(Duration timeout) override { return scripted.receive(timeout); }
   Status send(std::span<const std::uint8_t> packet) override { return scripted.send(packet); }
+  LinkStatistics statistics() const override { return {.condition = condition}; }
+  LinkCondition condition = LinkCondition::kSilent;
 
  private:
   int& count_;
@@ -86,6 +88,7 @@ class Examination : public testing::Test {
   bool vehicle_answers_ = true;
   std::vector<RadioAddress> scanned_;
   int scans_ = 0;
+  LinkCondition condition_ = LinkCondition::kSilent;
   int links_ = 0;
   int open_links_ = 0;
 
@@ -94,6 +97,7 @@ class Examination : public testing::Test {
     ++links_;
     auto link = std::make_unique<CountedLink>(open_links_);
     link->scripted.vehicle.variables = variables_;
+    link->condition = condition_;
     link->scripted.reaches = [this](std::int64_t) { return vehicle_answers_; };
     LiveLink live;
     live.clock = std::make_shared<ScriptedClock>(link->scripted);
@@ -153,6 +157,13 @@ TEST_F(Examination, AVehicleThatDoesNotAnswerIsLookedForElsewhere) {
   EXPECT_EQ(find(findings, "vehicle").mark, Mark::kProblem);
   EXPECT_THAT(find(findings, "vehicle").found, HasSubstr("radio://0/90/250K/E7E7E7E7E7"));
   EXPECT_EQ(find(findings, "battery").mark, Mark::kSkipped);
+}
+
+TEST_F(Examination, ADongleThatFailsOnTheWayIsNotTheVehiclesFault) {
+  vehicle_answers_ = false;
+  condition_ = LinkCondition::kDeviceFault;
+  EXPECT_THAT(find(run(Kind::kRadio), "vehicle").found, HasSubstr("answers with errors"));
+  EXPECT_EQ(scans_, 0);
 }
 
 TEST_F(Examination, UdpNeedsNoDongle) {
