@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
-// The swiftlet command line. Exit code 0: done; 2: bad input of any kind, said in one line on stderr.
+// The swiftlet command line. Exit code 0: done; 2: bad input of any kind, said in one line on stderr. And 1
+// of `swiftlet doctor`: it has found a problem.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,12 +10,14 @@
 #include <string>
 
 #include "core/sensing/range_sample.hpp"
+#include "tools/doctor_command.hpp"
 #include "tools/map_command.hpp"
 #include "tools/record_command.hpp"
 #include "tools/sim_command.hpp"
 
 namespace {
 
+constexpr int kExitProblemFound = 1;
 constexpr int kExitBadInput = 2;
 
 int refuse(std::string message) {
@@ -77,6 +80,25 @@ CLI::App* add_record_command(CLI::App& app, swiftlet::RecordCommand& command) {
   return record;
 }
 
+CLI::App* add_doctor_command(CLI::App& app, swiftlet::DoctorCommand& command) {
+  CLI::App* doctor = app.add_subcommand(
+      "doctor", "Check dongle, vehicle, LCM and this machine before a flight; 1 when something stops it");
+  doctor
+      ->add_option("INPUT", command.input, "radio://DONGLE/CHANNEL/RATE/ADDRESS, usb://N or udp://HOST:PORT")
+      ->capture_default_str();
+  doctor->add_option("--lcm-url", command.lcm_url, "where swiftletd is to publish")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
+  doctor->add_flag("--json", command.json, "for programs");
+  return doctor;
+}
+
+int run_doctor(const swiftlet::DoctorCommand& command) {
+  const swiftlet::Result<bool> ready = swiftlet::run_doctor_command(command);
+  if (!ready) return refuse(ready.error().message);
+  return *ready ? 0 : kExitProblemFound;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("2D SLAM for four range beams");
   app.name("swiftlet");
@@ -88,12 +110,15 @@ int run(int argc, char** argv) {
   const CLI::App* sim = add_sim_command(app, sim_command);
   swiftlet::RecordCommand record_command;
   const CLI::App* record = add_record_command(app, record_command);
+  swiftlet::DoctorCommand doctor_command;
+  const CLI::App* doctor = add_doctor_command(app, doctor_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return refuse(std::string(error.what()) + "; see swiftlet --help");
   }
+  if (doctor->parsed()) return run_doctor(doctor_command);
   swiftlet::Status status = swiftlet::Error{{}, "no command given; see swiftlet --help"};
   if (map->parsed()) status = swiftlet::run_map_command(map_command);
   if (sim->parsed()) status = swiftlet::run_sim_command(sim_command);

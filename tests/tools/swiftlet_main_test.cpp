@@ -222,5 +222,24 @@ TEST_F(SwiftletCommand, RefusesACaptureThatIsCutBeforeItsFirstSample) {
   EXPECT_THAT(run("map {}/cut.pcap -o {}/out"), refuses_with("cut.pcap"));
 }
 
+TEST_F(SwiftletCommand, DoctorRefusesWhatIsNoInputOrNoLcmUrl) {
+  EXPECT_THAT(run("doctor foo://bar"), refuses_with("unknown scheme 'foo'"));
+  EXPECT_THAT(run("doctor udp://127.0.0.1:19850 --lcm-url udpm://1.2.3.4"),
+              refuses_with("no multicast address"));
+}
+
+TEST_F(SwiftletCommand, DoctorTellsThatNobodyAnswersAndExitsWithOne) {
+  const Outcome people = run("doctor udp://127.0.0.1:1");
+  EXPECT_EQ(people.exit_code, 1);
+  EXPECT_THAT(people.out, AllOf(HasSubstr("skipped  cable "), HasSubstr("problem  vehicle "),
+                                HasSubstr("nobody answers at 127.0.0.1:1 -> "), HasSubstr("not ready")));
+}
+
+TEST_F(SwiftletCommand, DoctorTellsProgramsInJson) {
+  const Outcome programs = run("doctor sim://office --lcm-url memq:// --json");
+  EXPECT_EQ(programs.exit_code, 0);
+  EXPECT_THAT(programs.out, AllOf(StartsWith("{"), HasSubstr("\"ready\": true"), HasSubstr("\"lcm route\"")));
+}
+
 }  // namespace
 }  // namespace swiftlet

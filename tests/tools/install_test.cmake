@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+
+# Installs BUILD into the empty PREFIX: everything must be in its place and the programs must run from there.
+cmake_minimum_required(VERSION 3.24)
+file(REMOVE_RECURSE ${PREFIX})
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+
+foreach(file
+    bin/swiftlet
+    bin/swiftletd
+    lib/udev/rules.d/70-swiftlet-crazyflie.rules
+    share/swiftlet/60-swiftlet-lcm.conf
+    share/swiftlet/swiftletd.toml
+    share/doc/swiftlet/README.md
+    share/doc/swiftlet/docs/flying.md
+    share/doc/swiftlet/docs/images/office.png)
+  if(NOT EXISTS ${PREFIX}/${file})
+    message(SEND_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+foreach(program swiftlet swiftletd)
+  execute_process(COMMAND ${PREFIX}/bin/${program} --help OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+file(REMOVE_RECURSE ${PREFIX})

@@ -1,0 +1,18 @@
+# The checks of `swiftlet doctor`.
+swiftlet_add_library(swiftlet_doctor
+  SOURCES
+    doctor_command.cpp
+    doctor/device_holder.cpp
+    doctor/examination.cpp
+    doctor/lcm_checks.cpp
+    doctor/lcm_url.cpp
+    doctor/network.cpp
+    doctor/real_time_checks.cpp
+    doctor/report.cpp
+    doctor/storage_checks.cpp
+    doctor/system_files.cpp
+    doctor/usb_checks.cpp
+    doctor/vehicle_checks.cpp
+    doctor/vehicle_interview.cpp
+  LINK swiftlet_firmware_link
+  LINK_PRIVATE swiftlet_libusb swiftlet_radio nlohmann_json::nlohmann_json)

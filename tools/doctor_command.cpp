@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "tools/doctor_command.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "firmware_link/input_uri.hpp"
+#include "firmware_link/libusb_bus.hpp"
+#include "firmware_link/live_link.hpp"
+#include "firmware_link/radio_scan.hpp"
+#include "firmware_link/toc_cache.hpp"
+#include "tools/doctor/examination.hpp"
+#include "tools/doctor/lcm_url.hpp"
+#include "tools/doctor/network.hpp"
+#include "tools/doctor/report.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// On a terminal, unless the user wants none (https://no-color.org).
+bool wants_colours() {
+  const char* refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): no thread runs yet
+  return isatty(STDOUT_FILENO) == 1 && (refused == nullptr || *refused == '\0');
+}
+
+std::vector<RadioAddress> scan(UsbBus& bus, const RadioAddress& wanted) {
+  auto scanned = scan_radio(bus, wanted);
+  auto* found = std::get_if<std::vector<RadioAddress>>(&scanned);
+  return found != nullptr ? std::move(*found) : std::vector<RadioAddress>();
+}
+
+}  // namespace
+
+Result<bool> run_doctor_command(const DoctorCommand& command) {
+  const Result<InputUri> uri = parse_input_uri(command.input);
+  if (!uri) return uri.error();
+  const Result<LcmUrl> lcm_url = parse_lcm_url(command.lcm_url);
+  if (!lcm_url) return lcm_url.error();
+  if (isatty(STDERR_FILENO) == 1) std::fputs("swiftlet: looking, this takes some seconds\n", stderr);
+
+  SystemNetwork network;
+  const Result<std::unique_ptr<UsbBus>> bus = LibusbBus::open();
+  TocCache cache(TocCache::default_directory());
+  const Surroundings around{.files = SystemFiles(),
+                            .network = network,
+                            .usb_bus = bus ? bus->get() : nullptr,
+                            .cache = cache,
+                            .recording_directory = {},
+                            .open_link = open_live_link,
+                            .scan = [&bus](const RadioAddress& radio) { return scan(**bus, radio); }};
+  const Findings findings = examine(*uri, *lcm_url, around);
+  const std::string report =
+      command.json ? report_json(command.input, findings) : report_text(findings, wants_colours());
+  std::fputs(report.c_str(), stdout);
+  return count(findings, Mark::kProblem) == 0;
+}
+
+}  // namespace swiftlet
