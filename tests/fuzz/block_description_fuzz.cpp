@@ -8,6 +8,7 @@
 #include "firmware_link/log_session.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const swiftlet::MemoryFile file({data, size});
   const auto description = swiftlet::read_block_description(file.path());

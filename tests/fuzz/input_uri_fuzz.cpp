@@ -8,6 +8,7 @@
 #include "core/base/check.hpp"
 #include "firmware_link/input_uri.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using swiftlet::InputUri;
   const std::string uri(reinterpret_cast<const char*>(data), size);

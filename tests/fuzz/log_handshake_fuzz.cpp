@@ -79,6 +79,7 @@ class MoodyLink final : public Link {
 }  // namespace
 }  // namespace swiftlet
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   swiftlet::LinkInput input;
   input.name = "fuzz";

@@ -9,6 +9,7 @@
 #include "tests/fuzz/check_samples.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const swiftlet::MemoryFile file({data, size});
   const auto source = swiftlet::open_sample_source(file.path(), {});
