@@ -35,7 +35,9 @@ constexpr Duration kControlTimeout = std::chrono::seconds(1);
 constexpr Duration kOutTimeout = std::chrono::milliseconds(100);
 // Longer than the 200 ms after which a Crazyradio 2.0 gives a packet up by itself.
 constexpr Duration kInTimeout = std::chrono::milliseconds(250);
-constexpr Duration kDrainTimeout = std::chrono::milliseconds(10);
+constexpr Duration kQuiet = std::chrono::milliseconds(10);
+// Longer than any packet takes, retransmissions at 250 kbit/s included.
+constexpr Duration kLongQuiet = std::chrono::milliseconds(25);
 constexpr int kMostStaleAnswers = 16;
 
 std::string in_capitals(std::string text) {
@@ -111,7 +113,7 @@ UsbOutcome Crazyradio::initialise(const RadioAddress& address) {
   if (outcome == UsbOutcome::kDone) outcome = set_retries(kUsualRetries);
   if (outcome == UsbOutcome::kDone) outcome = request(kSetRetryDelay, kDelayFor32Bytes);
   if (outcome == UsbOutcome::kDone) outcome = request(kSetAcknowledge, 1);
-  if (outcome == UsbOutcome::kDone) outcome = drain();
+  if (outcome == UsbOutcome::kDone) outcome = drain(kQuiet).outcome;
   return outcome;
 }
 
@@ -152,11 +154,22 @@ UsbOutcome Crazyradio::set_retries(std::uint8_t retries) {
 
 RadioAnswer Crazyradio::exchange(std::span<const std::uint8_t> packet) {
   SWIFTLET_CHECK(!packet.empty() && packet.size() <= kMaxRadioPayload, "a radio packet has 1 to 32 bytes");
+  if (!answer_may_be_late_) return exchange_once(packet);
   RadioAnswer failed;
-  if (answer_may_be_late_) {
-    failed.outcome = drain();
-    if (failed.outcome != UsbOutcome::kDone) return failed;
-  }
+  failed.outcome = drain(kQuiet).outcome;
+  if (failed.outcome != UsbOutcome::kDone) return failed;
+  const RadioAnswer answer = exchange_once(packet);
+  if (answer.outcome != UsbOutcome::kDone) return answer;
+  // The dongle answers in order: what has another answer behind it was the late one.
+  const Drained drained = drain(kLongQuiet);
+  failed.outcome = drained.outcome == UsbOutcome::kDone ? UsbOutcome::kTimeout : drained.outcome;
+  if (drained.outcome != UsbOutcome::kDone || drained.answers > 0) return failed;
+  answer_may_be_late_ = false;
+  return answer;
+}
+
+RadioAnswer Crazyradio::exchange_once(std::span<const std::uint8_t> packet) {
+  RadioAnswer failed;
   const UsbTransfer out = device_->bulk_out(kOut, packet, kOutTimeout);
   if (!out.done()) {
     failed.outcome = recover(kOut, out.outcome);
@@ -177,18 +190,19 @@ UsbOutcome Crazyradio::recover(std::uint8_t endpoint, UsbOutcome failure) {
   return cleared == UsbOutcome::kDone ? failure : cleared;
 }
 
-UsbOutcome Crazyradio::drain() {
+Crazyradio::Drained Crazyradio::drain(Duration quiet) {
+  Drained drained;
   for (int i = 0; i < kMostStaleAnswers; ++i) {
-    const UsbOutcome outcome = device_->bulk_in(kIn, buffer_, kDrainTimeout).outcome;
-    if (outcome == UsbOutcome::kTimeout) {
-      answer_may_be_late_ = false;
-      return UsbOutcome::kDone;
-    }
+    const UsbOutcome outcome = device_->bulk_in(kIn, buffer_, quiet).outcome;
+    if (outcome == UsbOutcome::kTimeout) return drained;
+    ++drained.answers;
     if (outcome == UsbOutcome::kDone) continue;
-    const UsbOutcome recovered = recover(kIn, outcome);
-    if (recovered != UsbOutcome::kStall) return recovered;
+    drained.outcome = recover(kIn, outcome);
+    if (drained.outcome != UsbOutcome::kStall) return drained;
+    drained.outcome = UsbOutcome::kDone;
   }
-  return UsbOutcome::kFault;  // it talks without being asked
+  drained.outcome = UsbOutcome::kFault;  // it talks without being asked
+  return drained;
 }
 
 RadioAnswer Crazyradio::decode(std::size_t size) const {

@@ -63,8 +63,13 @@ class Crazyradio {
                                    std::span<const std::uint8_t> data = {});
   /// After a failed transfer: brings the endpoint back where that can be done.
   [[nodiscard]] UsbOutcome recover(std::uint8_t endpoint, UsbOutcome failure);
-  /// Throws away what the dongle still has to say about earlier packets.
-  [[nodiscard]] UsbOutcome drain();
+  struct Drained {
+    UsbOutcome outcome = UsbOutcome::kDone;
+    int answers = 0;
+  };
+  /// Throws away what the dongle has to say until it says no more for that long.
+  [[nodiscard]] Drained drain(Duration quiet);
+  [[nodiscard]] RadioAnswer exchange_once(std::span<const std::uint8_t> packet);
   [[nodiscard]] RadioAnswer decode(std::size_t size) const;
 
   std::unique_ptr<UsbDevice> device_;

@@ -81,7 +81,6 @@ void RadioLink::open(HostTime now) {
     return;
   }
   radio_.emplace(std::get<Crazyradio>(std::move(opened)));
-  statistics_.condition = LinkCondition::kSilent;
   failures_in_a_row_ = 0;
   active_at_ = now;
   ask_for_safelink();
@@ -119,13 +118,17 @@ void RadioLink::exchange() {
   ++statistics_.packets_sent;
   if (answer.outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
   if (sent_ == Sent::kRequest) hand_back(frame_of(LinkDirection::kToVehicle, now, bytes_of(packet)));
-  if (answer.acknowledged) hear(answer, clock_.now());
+  if (answer.acknowledged)
+    hear(answer, clock_.now());
+  else if (answer.outcome == UsbOutcome::kDone && statistics_.condition != LinkCondition::kConnected)
+    statistics_.condition = LinkCondition::kSilent;  // the dongle works again
 }
 
 void RadioLink::fall_silent() {
   silent_ = true;
   ++statistics_.silences;
-  if (radio_) statistics_.condition = LinkCondition::kSilent;
+  if (statistics_.condition == LinkCondition::kConnected)
+    statistics_.condition = failures_in_a_row_ == 0 ? LinkCondition::kSilent : LinkCondition::kDeviceFault;
   requests_.clear();
   ask_for_safelink();
 }

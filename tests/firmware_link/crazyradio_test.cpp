@@ -4,12 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <vector>
 
 #include "tests/firmware_link/fake_dongle.hpp"
 
 namespace swiftlet {
 namespace {
+
+using std::chrono::milliseconds;
 
 constexpr std::array<std::uint8_t, 1> kPoll{0xFF};
 
@@ -174,10 +177,30 @@ TEST_F(CrazyradioTest, NeverTakesALateAnswerForTheNextOne) {
   dongle_.fates = {Fate::kAnsweredLate};
   const HostTime asked_at = clock_.now();
   EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kTimeout);
-  EXPECT_GE(clock_.now() - asked_at, std::chrono::milliseconds(100));
+  EXPECT_GE(clock_.now() - asked_at, milliseconds(100));
   EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 2}));
-  dongle_.fates = {Fate::kNeverAnswered};
+  const HostTime back_at = clock_.now();
+  EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 3}));
+  EXPECT_EQ(clock_.now() - back_at, milliseconds(1)) << "all is as usual again";
+}
+
+TEST_F(CrazyradioTest, FindsOutThatAnAnswerIsTheLateOneByTheNextBehindIt) {
+  Crazyradio radio = open();
+  dongle_.vehicle.waiting = {{0x50, 1}, {0x50, 2}, {0x50, 3}};
+  dongle_.fates = {Fate::kAnsweredLate};
+  dongle_.lateness = 2;  // not even while the dongle is drained, but in the midst of the next exchange
   EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kTimeout);
+  const RadioAnswer doubtful = radio.exchange(kPoll);
+  EXPECT_EQ(doubtful.outcome, UsbOutcome::kTimeout);
+  EXPECT_FALSE(doubtful.acknowledged);
+  EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 3}));
+}
+
+TEST_F(CrazyradioTest, GoesOnAfterAnAnswerThatNeverComes) {
+  Crazyradio radio = open();
+  dongle_.fates = {Fate::kNeverAnswered, Fate::kPacketLost};
+  EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kTimeout);
+  EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kDone);
   dongle_.vehicle.waiting = {{0x50, 4}};
   EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 4}));
 }

@@ -98,6 +98,7 @@ class FakeDongle final : public UsbBus {
   std::deque<Fate> fates;                  ///< of the next packets; delivered beyond
   std::optional<std::uint8_t> raw_status;  ///< instead of the usual 0x01
   Duration exchange_time = std::chrono::milliseconds(1);
+  int lateness = 1;           ///< of late answers: reads that wait in vain before
   std::deque<Bytes> answers;  ///< wait in the dongle to be read
   std::vector<Request> requests;
   std::vector<Packet> packets;
@@ -174,7 +175,8 @@ class FakeDongle final : public UsbBus {
         answer.insert(answer.begin(), raw_status.value_or(0x01));
       }
     }
-    (fate_ == Fate::kAnsweredLate ? late_ : answers).push_back(answer);
+    if (fate_ == Fate::kAnsweredLate) reads_in_vain_ = lateness;
+    answers.push_back(answer);
     if (fate_ == Fate::kNeverAnswered) answers.clear();
     return {UsbOutcome::kDone, bytes.size()};
   }
@@ -185,9 +187,9 @@ class FakeDongle final : public UsbBus {
     if (fate == Fate::kInStalls) return {UsbOutcome::kStall, 0};
     if (fate == Fate::kOverflows) return {UsbOutcome::kOverflow, 0};
     if (fate == Fate::kFails) return {UsbOutcome::kFault, 0};
-    if (answers.empty()) {
+    if (answers.empty() || reads_in_vain_ > 0) {
       clock.sleep_for(timeout);
-      std::swap(answers, late_);
+      reads_in_vain_ = std::max(0, reads_in_vain_ - 1);
       return {UsbOutcome::kTimeout, 0};
     }
     const Bytes answer = answers.front();
@@ -198,7 +200,7 @@ class FakeDongle final : public UsbBus {
   }
 
   Fate fate_ = Fate::kDelivered;
-  std::deque<Bytes> late_;
+  int reads_in_vain_ = 0;
 };
 
 }  // namespace swiftlet

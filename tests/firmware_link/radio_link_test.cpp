@@ -426,6 +426,20 @@ TEST_F(RadioLinkTest, OpensADongleAnewThatNeverAnswers) {
   EXPECT_EQ(condition(), LinkCondition::kConnected);
 }
 
+TEST_F(RadioLinkTest, TellsAFaultForAsLongAsTheDongleFailsAfterEachOpening) {
+  connect();
+  dongle_.fates.assign(10'000, Fate::kOutStalls);
+  static_cast<void>(listen(seconds(2)));
+  for (int i = 0; i < 50; ++i) {
+    static_cast<void>(listen(milliseconds(100)));
+    EXPECT_EQ(condition(), LinkCondition::kDeviceFault);
+  }
+  dongle_.fates.clear();
+  dongle_.hears_us = [] { return false; };
+  static_cast<void>(listen(milliseconds(1500)));
+  EXPECT_EQ(condition(), LinkCondition::kSilent) << "the dongle works again, nobody answers";
+}
+
 TEST_F(RadioLinkTest, AllocatesNothingOnceItIsConnected) {
   ManualLinkClock clock;
   AckingBus bus(clock);
