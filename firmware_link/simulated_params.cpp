@@ -206,6 +206,7 @@ std::optional<PacketBytes> SimulatedParams::set_by_name(std::span<const std::uin
   const std::string group(packet.begin() + 2, group_end);
   const std::string name(group_end + 1, name_end);
   PacketBytes reply = head_of(packet, static_cast<std::size_t>(name_end + 1 - packet.begin()));
+  if (reply.full()) return std::nullopt;  // no room for a value, nor for an answer
   put(reply, write_by_name(group, name, packet.subspan(reply.size())));
   return reply;
 }

@@ -22,7 +22,8 @@ constexpr double kRssiSigmaDb = 1.5;
 
 constexpr double kBootMinS = 2.0;
 constexpr double kBootMaxS = 4.0;
-constexpr double kAliasMaxM = 1.3;  // readings without the status filter alias to short wrong ranges
+constexpr double kMaxPosition = 100.0;  // m, kalman.maxPos
+constexpr double kAliasMaxM = 1.3;      // readings without the status filter alias to short wrong ranges
 
 enum Port : std::uint8_t { kParam = 2, kMemory = 4, kLog = 5, kSupervisor = 9, kPlatform = 13, kLink = 15 };
 constexpr std::uint8_t kComplementary = 1;  // stabilizer.estimator
@@ -220,8 +221,13 @@ void SimulatedVehicle::reset_estimator() {
 }
 
 void SimulatedVehicle::begin_estimate() {
-  odometry_.reset(Pose2(params_.number(ids().initial_x), params_.number(ids().initial_y),
-                        params_.number(ids().initial_yaw)));
+  odometry_.reset(Pose2(bounded(ids().initial_x), bounded(ids().initial_y), bounded(ids().initial_yaw)));
+}
+
+/// As far as the filter believes in it: a host may write anything.
+double SimulatedVehicle::bounded(std::uint16_t param) const {
+  const double value = params_.number(param);
+  return std::isfinite(value) ? std::clamp(value, -kMaxPosition, kMaxPosition) : 0.0;
 }
 
 void SimulatedVehicle::freeze_ranges(Duration duration) {
@@ -236,7 +242,7 @@ void SimulatedVehicle::unplug(SimulatedDeck deck) {
 void SimulatedVehicle::move() {
   const FlightState truth = flight_.state(now_);
   odometry_.step(truth, model_.has_flow_deck && params_.number(ids().disable_flow) == 0.0);
-  if (truth.height_m <= 0.0) odometry_.pull_yaw(params_.number(ids().initial_yaw));
+  if (truth.height_m <= 0.0) odometry_.pull_yaw(bounded(ids().initial_yaw));
   show(truth);
 }
 

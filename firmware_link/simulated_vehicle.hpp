@@ -125,6 +125,7 @@ class SimulatedVehicle {
   void check_link();
   void obey_parameters();
   void begin_estimate();
+  [[nodiscard]] double bounded(std::uint16_t param) const;
   void move();
   void read_sensors();
   void read_rangers();

@@ -105,6 +105,13 @@ TEST_F(ParamService, SetsByName) {
   EXPECT_TRUE(ask({0x2F, 0x00, 'a', 'b', 0, 'c'}).empty()) << "a name without end";
 }
 
+TEST_F(ParamService, KeepsSilentOnNamesThatFillThePacket) {
+  Bytes packet(31, 'x');
+  packet[0] = 0x2F;
+  packet[1] = packet[10] = packet[30] = 0;
+  EXPECT_TRUE(ask(packet).empty());
+}
+
 TEST_F(ParamService, TellsExtendedTypes) {
   EXPECT_EQ(behind(4, ask({0x2F, 0x07}, roll_kp_)), (Bytes{0, 1}));
   EXPECT_EQ(behind(4, ask({0x2F, 0x07}, filter_mask_)), Bytes{kNoEntry});

@@ -461,5 +461,33 @@ TEST(SimulatedVehicle, SwitchesItselfOffWithAnEmptyBatteryUntilThatIsReplaced) {
   EXPECT_GT(value_of(polled(vehicle, 1.0).back()), 3700.0);
 }
 
+TEST(SimulatedVehicle, StaysWithinBoundsWhateverIsWritten) {
+  for (const Bytes& value : {Bytes{0, 0, 0xC0, 0x7F}, Bytes{0, 0, 0x80, 0x7F}, Bytes{0, 0, 0x80, 0x7E}}) {
+    SimulatedVehicle vehicle(hop(), exact(), 1);
+    static_cast<void>(ask(vehicle, write_of("kalman", "initialX", value)));
+    static_cast<void>(ask(vehicle, write_of("kalman", "initialYaw", value)));
+    vehicle.reset_estimator();
+    log_as_int16(vehicle, "stateEstimate", "x");
+    EXPECT_LE(std::abs(value_of(polled(vehicle, 0.2).back())), 100.0);
+  }
+}
+
+TEST(SimulatedVehicle, OutlivesAnyPacket) {
+  SimulatedVehicle vehicle(hop(), on_air(), 1);
+  NoiseSource noise(1, "packets");
+  const auto any = [&noise](int limit) { return static_cast<std::uint8_t>(noise.uniform(0.0, limit)); };
+  std::size_t answers = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    Bytes packet(1U + any(31), 0);
+    packet[0] = any(256);
+    if (packet.size() > 1) packet[1] = any(14);
+    for (std::size_t k = 2; k < packet.size(); ++k)
+      packet[k] = noise.chance(0.3) ? std::uint8_t{0} : any(256);
+    answers += ask(vehicle, packet).size();
+    static_cast<void>(vehicle.advance(after(vehicle, 0.002)));
+  }
+  EXPECT_GT(answers, 2000U);
+}
+
 }  // namespace
 }  // namespace swiftlet
