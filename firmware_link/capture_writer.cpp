@@ -19,7 +19,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kBufferSize = 64 * 1024;
+constexpr std::size_t kBufferSize = 65'536;
 constexpr std::size_t kLongestRecord =
     kPcapRecordHeader + record_prefix(CaptureLinkKind::kUsb) + kMaxCrtpPacket;
 constexpr mode_t kEverybodyMayRead = 0644;

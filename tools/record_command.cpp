@@ -175,7 +175,7 @@ Status run_record_command(const RecordCommand& command) {
 
   LatestValue<Heard> newest;
   Listener listener(**source, newest);
-  const Status heard = listen_and_record(command, signals.token(), **recorder, listener, newest);
+  Status heard = listen_and_record(command, signals.token(), **recorder, listener, newest);
   if (!trouble.empty()) return Error{ErrorCode::kOutOfSpace, trouble};
   if (!heard) return heard;
   const Heard& total = listener.heard();
