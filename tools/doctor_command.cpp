@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "daemon/recording_files.hpp"
 #include "firmware_link/input_uri.hpp"
 #include "firmware_link/libusb_bus.hpp"
 #include "firmware_link/live_link.hpp"
@@ -48,12 +49,13 @@ Result<bool> run_doctor_command(const DoctorCommand& command) {
 
   SystemNetwork network;
   const Result<std::unique_ptr<UsbBus>> bus = LibusbBus::open();
+  const Result<std::filesystem::path> recordings = default_recordings_directory();
   TocCache cache(TocCache::default_directory());
   const Surroundings around{.files = SystemFiles(),
                             .network = network,
                             .usb_bus = bus ? bus->get() : nullptr,
                             .cache = cache,
-                            .recording_directory = {},
+                            .recording_directory = recordings ? *recordings : std::filesystem::path(),
                             .open_link = open_live_link,
                             .scan = [&bus](const RadioAddress& radio) { return scan(**bus, radio); }};
   const Findings findings = examine(*uri, *lcm_url, around);

@@ -25,7 +25,7 @@ TEST(FindHolder, NamesTheProgramThatHasTheDeviceOpen) {
   system.link("/proc/self", "50");
   system.write("/proc/12/comm", "bash\n");
   system.link("/proc/12/fd/0", "/dev/pts/0");
-  system.write("/proc/4711/cmdline", std::string("python3\0-m\0cfclient\0", 21));
+  system.write("/proc/4711/cmdline", std::string("python3\0-m\0cfclient\0", 20));
   system.link("/proc/4711/fd/0", "/dev/pts/1");
   system.link("/proc/4711/fd/17", "/dev/bus/usb/001/004");
   const auto holder = find_holder(system.files(), "/dev/bus/usb/001/004");

@@ -5,7 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <map>
+#include <string>
+#include <vector>
 
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/tools/doctor/fake_system.hpp"
@@ -15,8 +16,6 @@
 namespace swiftlet {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using Kind = InputUri::Kind;
 
