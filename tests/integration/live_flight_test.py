@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""swiftletd live on a vehicle that misbehaves: `swiftlet sim` over UDP.
+
+live_flight_test.py CASE SWIFTLETD SWIFTLET. CASE is the name of one of the functions below.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PATIENCE_S = 20.0
+
+
+class Failed(Exception):
+    """The daemon did something else than it should."""
+
+
+def expect(condition, why):
+    if not condition:
+        raise Failed(why)
+
+
+class Vehicle:
+    """`swiftlet sim`."""
+
+    def __init__(self, swiftlet, *options, port=0):
+        self.process = subprocess.Popen([swiftlet, "sim", "--world", "loop", "--udp", f"127.0.0.1:{port}", *options],
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        first = self.process.stdout.readline()
+        expect(first.startswith("listening on udp://127.0.0.1:"), f"no port announced: {first!r}")
+        self.port = int(first.split(",")[0].rsplit(":", 1)[1])
+
+    def instruct(self, line):
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+
+    def end(self):
+        self.process.terminate()
+        self.process.communicate(timeout=PATIENCE_S)
+
+
+class Flight:
+    """swiftletd on a vehicle, recording."""
+
+    def __init__(self, bench, port):
+        self.folder, self.swiftlet = bench.folder, bench.swiftlet
+        self.out, self.recording = self.folder / "out", self.folder / "flight.pcap"
+        environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
+        self.log = open(self.folder / "daemon.log", "w+", encoding="utf-8")
+        self.process = subprocess.Popen(
+            [bench.swiftletd, "--input", f"udp://127.0.0.1:{port}", "--lcm-url", "memq://", "-o", str(self.out),
+             "--record", str(self.recording)], stderr=self.log, env=environment)
+
+    def said(self):
+        return (self.folder / "daemon.log").read_text(encoding="utf-8")
+
+    def wait_for(self, words, times=1):
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            expect(self.process.poll() is None, "the daemon ended by itself: " + self.said())
+            if self.said().count(words) >= times:
+                return
+            time.sleep(0.05)
+        raise Failed(f"the daemon never said {words!r}: {self.said()}")
+
+    def land(self):
+        """Stops the daemon: (input part of the report, stamps of all samples)."""
+        self.process.send_signal(signal.SIGTERM)
+        expect(self.process.wait(timeout=60) == 0, self.said())
+        report = json.loads((self.out / "report.json").read_text(encoding="utf-8"))
+        lines = (self.out / "trajectory.tum").read_text(encoding="utf-8").splitlines()
+        return report["input"], [float(line.split()[0]) for line in lines if not line.startswith("#")]
+
+    def expect_replay_to_be_the_same(self):
+        again = self.folder / "again"
+        done = subprocess.run([self.swiftlet, "map", str(self.recording), "-o", str(again)], capture_output=True,
+                              check=False)
+        expect(done.returncode == 0, done.stderr.decode())
+        for name in ("trajectory.tum", "odometry.tum", "map.pgm"):
+            expect((again / name).read_bytes() == (self.out / name).read_bytes(), name + " differs in the replay")
+
+
+class Bench:
+    def __init__(self, swiftletd, swiftlet, folder):
+        self.swiftletd, self.swiftlet, self.folder = swiftletd, swiftlet, Path(folder)
+
+    def vehicle(self, *options, port=0):
+        return Vehicle(self.swiftlet, *options, port=port)
+
+    def flight(self, port):
+        return Flight(self, port)
+
+
+def longest_hole_s(stamps):
+    return max(after - before for before, after in zip(stamps, stamps[1:]))
+
+
+def the_recording_replays_to_the_same_samples(bench):
+    vehicle = bench.vehicle("--seed", "7")
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(8.0)
+    report, stamps = flight.land()
+    vehicle.end()
+    expect(len(stamps) >= 70 and report["segments"] == 1, report)
+    expect(report["gaps"] == 0 and report["duplicates"] == 0, report)
+    flight.expect_replay_to_be_the_same()
+
+
+def a_silence_of_three_seconds_is_one_gap_and_the_map_is_kept(bench):
+    vehicle = bench.vehicle()
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(3.0)
+    vehicle.instruct("silence 3")
+    flight.wait_for("no log data for a second")
+    flight.wait_for("connected to the vehicle", times=2)
+    time.sleep(3.0)
+    report, stamps = flight.land()
+    vehicle.end()
+    expect(report["gaps"] == 1 and report["segments"] == 2, report)
+    expect(3.0 <= longest_hole_s(stamps) < 5.0, f"a hole of {longest_hole_s(stamps)} s")
+    flight.expect_replay_to_be_the_same()
+
+
+def a_reboot_is_one_gap_and_the_map_is_kept(bench):
+    vehicle = bench.vehicle()
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(3.0)
+    vehicle.instruct("reboot")
+    flight.wait_for("the vehicle has rebooted")
+    time.sleep(2.0)
+    report, stamps = flight.land()
+    vehicle.end()
+    expect(report["gaps"] == 1 and report["segments"] == 2, report)
+    expect(longest_hole_s(stamps) < 4.0 + 2.0, f"a hole of {longest_hole_s(stamps)} s")
+    flight.expect_replay_to_be_the_same()
+
+
+def another_vehicle_at_the_same_address_goes_on(bench):
+    """The battery was changed: nobody answers for a while, then the clock and the dead reckoning are new."""
+    vehicle = bench.vehicle()
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(2.0)
+    vehicle.end()
+    flight.wait_for("the vehicle does not answer")
+    time.sleep(1.0)
+    vehicle = bench.vehicle(port=vehicle.port)
+    flight.wait_for("connected to the vehicle", times=2)
+    time.sleep(2.0)
+    report, _ = flight.land()
+    vehicle.end()
+    expect(report["gaps"] == 1 and report["segments"] == 2, report)
+    flight.expect_replay_to_be_the_same()
+
+
+def waits_for_a_vehicle_that_is_switched_on_later(bench):
+    first = bench.vehicle()
+    first.end()
+    flight = bench.flight(first.port)
+    flight.wait_for("the vehicle does not answer")
+    vehicle = bench.vehicle(port=first.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(2.0)
+    report, stamps = flight.land()
+    vehicle.end()
+    expect(len(stamps) > 10 and report["gaps"] == 0, report)
+
+
+def the_wrap_of_the_vehicles_clock_goes_unnoticed(bench):
+    vehicle = bench.vehicle("--clock-start", "16773.5")  # 24 bits of milliseconds end at 16777.216
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(6.0)
+    report, _ = flight.land()
+    vehicle.end()
+    expect(report["gaps"] == 0 and report["segments"] == 1, report)
+    flight.expect_replay_to_be_the_same()
+
+
+def a_missing_deck_is_named(bench):
+    vehicle = bench.vehicle("--missing-deck", "multiranger")
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("no Multiranger deck")
+    vehicle.end()
+    flight.process.kill()
+    flight.process.wait()
+
+
+def main(case, swiftletd, swiftlet):
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            globals()[case](Bench(swiftletd, swiftlet, folder))
+        except Failed as failure:
+            print(failure)
+            return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
