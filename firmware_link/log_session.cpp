@@ -14,7 +14,8 @@
 namespace swiftlet {
 namespace {
 
-// Packets of less than a second wait in the vehicle while the link is silent; older ones are thrown away.
+// Packets of less than a second wait in the vehicle while the link is silent; older ones are thrown away, but
+// for eight in its radio.
 constexpr Duration kClocksAgree = std::chrono::seconds(2);
 
 }  // namespace
@@ -59,17 +60,22 @@ void LogSession::hear_request(std::span<const std::uint8_t> packet) {
 /// A reset is how a session begins, also after the link was lost. If the vehicle's clock did not run on as
 /// long as ours did meanwhile, the vehicle has rebooted (or is another one).
 DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime heard) {
-  if (std::exchange(reset_heard_, false) && last_data_) {
+  const bool is_after_reset = std::exchange(reset_heard_, false);
+  bool has_waited = false;
+  if (last_data_) {
     using std::chrono::milliseconds;
     const auto ours_ms = (heard - last_data_->heard) / milliseconds(1);
     const auto theirs_ms = static_cast<std::int64_t>(counter_ms) - last_data_->counter_ms;
-    const auto apart_ms = std::abs(DeviceClockUnwrapper::shortest_step_ms(theirs_ms - ours_ms));
-    if (apart_ms > kClocksAgree / milliseconds(1)) {
+    const Duration late = milliseconds(DeviceClockUnwrapper::shortest_step_ms(ours_ms - theirs_ms));
+    if (is_after_reset && std::chrono::abs(late) > kClocksAgree) {
       ++boot_;
       clock_ = {};
+    } else {
+      has_waited = late > kClocksAgree;
     }
   }
-  last_data_ = {counter_ms, heard};
+  // The few that the vehicle's radio keeps through any silence do not tell how the clocks stand.
+  if (!has_waited) last_data_ = {counter_ms, heard};
   return clock_.unwrap(counter_ms);
 }
 

@@ -114,6 +114,26 @@ TEST(LogSession, NamesComingAfterTheBlocksAreGoodEnough) {
   EXPECT_TRUE(session.hear(SyntheticCapture{}.data(1)).has_value());
 }
 
+TEST(LogSession, PacketsThatWaitedThroughASilenceDoNotMakeARebootOfIt) {
+  const SyntheticCapture capture;
+  LogSession session;
+  hear_all(session, capture.handshake());
+  // Its time by the vehicle's clock; heard that many milliseconds later.
+  const auto boot_of = [&](int i, std::int64_t later_ms) {
+    LinkFrame frame = capture.data(i);
+    frame.at += std::chrono::milliseconds(later_ms);
+    const std::optional<LogRecord> record = session.hear(frame);
+    EXPECT_TRUE(record.has_value());
+    return record ? record->boot : 99U;
+  };
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(boot_of(i, 1), 0U);
+  for (int i = 5; i < 13; ++i) EXPECT_EQ(boot_of(i, 6000 - 100L * i), 0U);
+  hear_all(session, capture.handshake());
+  EXPECT_EQ(boot_of(60, 1), 0U);
+  hear_all(session, capture.handshake());
+  EXPECT_EQ(boot_of(10, 20'000), 1U);
+}
+
 TEST(LogSession, NoTrafficKeepsItFromLearningAnew) {
   std::mt19937 random(11);
   LogSession session;
