@@ -1,0 +1,18 @@
+# A Crazyradio that is not there, the simulated vehicle behind it.
+swiftlet_add_library(swiftlet_emulated_radio
+  SOURCES emulated_crazyradio.cpp emulated_receiver.cpp emulated_usb.cpp
+  LINK swiftlet_simulation)
+foreach(test emulated_crazyradio emulated_receiver)
+  swiftlet_add_test(${test}_test LINK swiftlet_emulated_radio)
+endforeach()
+
+# The same behind the kernel's USB interface, for the real libusb.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
+swiftlet_add_library(swiftlet_umockdev_dongle
+  SOURCES umockdev_dongle.cpp
+  LINK swiftlet_emulated_radio
+  LINK_PRIVATE PkgConfig::UMOCKDEV)
+
+# Listens to a link with the least a client must do.
+swiftlet_add_library(swiftlet_log_listener SOURCES log_listener.cpp LINK swiftlet_sensing LINK_PRIVATE GTest::gtest)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "firmware_link/link_clock.hpp"
+
+namespace swiftlet {
+
+/// Time that moves only when told to, or when someone sleeps; what is to happen on the way happens at its
+/// instant. One thread at a time.
+class ScheduledLinkClock final : public LinkClock {
+ public:
+  /// Told of every step of time, before the events at its end.
+  std::function<void(Duration)> on_step;
+
+  [[nodiscard]] HostTime now() override { return now_; }
+  void sleep_for(Duration duration) override { advance(duration); }
+  /// Rounds up to whole microseconds.
+  void advance(Duration by) {
+    const HostTime end = now_ + std::chrono::ceil<std::chrono::microseconds>(std::max(by, Duration::zero()));
+    while (!events_.empty() && events_.begin()->first <= end) {
+      const auto event = events_.extract(events_.begin());
+      step_to(std::max(now_, event.key()));
+      event.mapped()();
+    }
+    step_to(end);
+  }
+  /// Has something happen that much later.
+  void after(Duration delay, std::function<void()> event) { events_.emplace(now_ + delay, std::move(event)); }
+
+ private:
+  void step_to(HostTime to) {
+    const Duration by = to - now_;
+    now_ = to;
+    if (on_step && by > Duration::zero()) on_step(by);
+  }
+
+  HostTime now_{std::chrono::seconds(1'767'225'600)};  // 2026-01-01 00:00:00 UTC
+  std::multimap<HostTime, std::function<void()>> events_;
+};
+
+}  // namespace swiftlet
