@@ -103,7 +103,7 @@ void LinkSampleSource::hear(const LinkFrame& frame) {
   const std::optional<Reading> reading = extractor_.extract(*record);
   if (!reading) return;
   follow_periods();
-  assembler_.add(*reading);
+  assembler_.add(ground_.hold(*reading));
 }
 
 /// A recording has to hold the names too, or it could not be replayed.

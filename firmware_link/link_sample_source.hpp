@@ -12,6 +12,7 @@
 
 #include "firmware_link/block_description.hpp"
 #include "firmware_link/frame_sink.hpp"
+#include "firmware_link/ground_hold.hpp"
 #include "firmware_link/link.hpp"
 #include "firmware_link/link_clock.hpp"
 #include "firmware_link/live_session.hpp"
@@ -80,6 +81,7 @@ class LinkSampleSource final : public SampleSource {
   TocCache cache_;
   std::optional<LiveSession> live_;
   ReadingExtractor extractor_;
+  GroundHold ground_;
   SampleAssembler assembler_;
   Duration range_period_{};
   Duration odometry_period_{};

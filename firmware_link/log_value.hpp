@@ -27,6 +27,9 @@ enum class LogType : std::uint8_t {
 /// "uint16", "float", "half" and so on; nullopt for an unknown name.
 [[nodiscard]] std::optional<LogType> log_type_named(std::string_view name);
 /// Bytes on the wire, 1 to 4.
+/// Bit of supervisor.info.
+inline constexpr unsigned kSupervisorFlying = 1U << 4U;
+
 [[nodiscard]] std::size_t size_of(LogType type);
 /// The value at the start of `bytes`, exactly: every type fits a double. Precondition: size_of(type) bytes.
 [[nodiscard]] double decode_log_value(LogType type, std::span<const std::uint8_t> bytes);

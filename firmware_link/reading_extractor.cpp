@@ -11,6 +11,15 @@
 #include "firmware_link/attitude.hpp"
 
 namespace swiftlet {
+namespace {
+
+/// A value beyond the variable's own 16 bits says nothing.
+std::optional<bool> is_flying(double value, unsigned mask) {
+  if (!(value >= 0.0 && value <= 65535.0)) return std::nullopt;
+  return (static_cast<unsigned>(value) & mask) != 0;
+}
+
+}  // namespace
 
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
@@ -30,6 +39,7 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
     }
   }
   if (!reading.position_odom && !reading.yaw_odom_rad && reading.distance_m.empty()) return std::nullopt;
+  if (slots.flying) reading.is_flying = is_flying(record.value(*slots.flying), slots.flying_mask);
   return reading;
 }
 
@@ -68,6 +78,15 @@ void ReadingExtractor::resolve(const LogRecord& record, Slots& slots) const {
   }
   resolve_position(record, slots);
   resolve_yaw(record, slots);
+  resolve_flying(record, slots);
+}
+
+void ReadingExtractor::resolve_flying(const LogRecord& record, Slots& slots) const {
+  slots.flying = find(record, "supervisor.info");
+  slots.flying_mask = kSupervisorFlying;
+  if (slots.flying) return;
+  slots.flying = find(record, "sys.isFlying");  // firmware before 2023.06
+  slots.flying_mask = ~0U;
 }
 
 void ReadingExtractor::resolve_position(const LogRecord& record, Slots& slots) const {

@@ -55,6 +55,8 @@ class ReadingExtractor {
     std::array<Slot, 2> position_slots{};
     YawKind yaw = YawKind::kNone;
     std::array<Slot, 4> yaw_slots{};  ///< x, y, z, w for a quaternion
+    Slot flying;
+    unsigned flying_mask = 0;
   };
   struct Source {
     std::uint8_t block_id = 0;
@@ -70,6 +72,7 @@ class ReadingExtractor {
   void resolve(const LogRecord& record, Slots& slots) const;
   void resolve_position(const LogRecord& record, Slots& slots) const;
   void resolve_yaw(const LogRecord& record, Slots& slots) const;
+  void resolve_flying(const LogRecord& record, Slots& slots) const;
   /// The slot of each name; false when one is missing.
   bool find_all(const LogRecord& record, std::span<const std::string_view> names,
                 std::span<Slot> slots) const;

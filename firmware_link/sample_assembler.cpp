@@ -37,6 +37,10 @@ void SampleAssembler::add(const Reading& reading) {
                  "a reading has a distance for each beam of the layout, or none");
   if (!accept_time(reading)) return;
   latest_ = std::max(latest_, reading.at);
+  if (reading.begins_anew) {
+    positions_.restart();
+    yaws_.restart();
+  }
   if (reading.position_odom || reading.yaw_odom_rad) ++report_.odometry_packets;
   if (reading.position_odom && std::isfinite(reading.position_odom->x_m) &&
       std::isfinite(reading.position_odom->y_m))

@@ -24,6 +24,8 @@ struct Reading {
   HostTime heard{};
   std::optional<Point2> position_odom;
   std::optional<double> yaw_odom_rad;
+  std::optional<bool> is_flying;  ///< nullopt where the vehicle does not tell
+  bool begins_anew = false;       ///< the dead reckoning does not continue what came before
   /// One distance a beam, or empty: no ranges in this packet. NaN is no measurement; out-of-range values stay
   /// as they are.
   FixedVector<float, kMaxBeams> distance_m;

@@ -10,7 +10,6 @@ namespace {
 enum Variable : std::size_t { kBatteryMillivolts, kRssi, kSupervisor, kBatteryState };
 constexpr std::array<std::string_view, 4> kNames{"pm.vbatMV", "radio.rssi", "supervisor.info", "pm.state"};
 
-constexpr unsigned kFlyingBit = 1U << 4U;
 constexpr int kLowPower = 3;  // of pm.state
 // More than an estimate at rest wanders.
 constexpr double kCarriedM = 0.5;
@@ -28,7 +27,7 @@ void VehicleMonitor::hear(const LogRecord& record) {
   if (const auto millivolts = value(kBatteryMillivolts)) health_.battery_mv = millivolts;
   if (const auto rssi = value(kRssi)) health_.rssi_dbm = -*rssi;
   if (const auto info = value(kSupervisor))
-    health_.is_flying = (static_cast<unsigned>(*info) & kFlyingBit) != 0;
+    health_.is_flying = (static_cast<unsigned>(*info) & kSupervisorFlying) != 0;
   if (const auto state = value(kBatteryState)) health_.battery_is_low = *state == kLowPower;
 }
 

@@ -94,6 +94,18 @@ TEST_F(ReadingExtractorTest, KnowsTheOtherNamesOfPositionAndYaw) {
   EXPECT_DOUBLE_EQ(*extract(LogPacket(2, 10).u32(0xC0000000U))->yaw_odom_rad, 0.0);
 }
 
+TEST_F(ReadingExtractorTest, TellsWhetherItFlies) {
+  describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"supervisor.info", LogType::kUint16}});
+  EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u16(0x0018))->is_flying, true);
+  EXPECT_EQ(extract(LogPacket(1, 20).f32(0.F).u16(0x000F))->is_flying, false);
+}
+
+TEST_F(ReadingExtractorTest, TellsWhetherItFliesOnOlderFirmware) {
+  describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"sys.isFlying", LogType::kUint8}});
+  EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u8(1))->is_flying, true);
+  EXPECT_EQ(extract(LogPacket(1, 20).f32(0.F).u8(0))->is_flying, false);
+}
+
 TEST_F(ReadingExtractorTest, APackedQuaternionInATypeThatCannotHoldItIsNoYaw) {
   describe(1, {{"stateEstimateZ.quat", LogType::kInt32}});
   const std::optional<Reading> reading = extract(LogPacket(1, 10).u32(0xC0000000U));
