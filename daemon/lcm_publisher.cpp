@@ -84,6 +84,12 @@ std::int8_t condition_code(LinkCondition condition) {
       return link_status_t::CONDITION_ACCESS_DENIED;
     case LinkCondition::kDeviceBusy:
       return link_status_t::CONDITION_DEVICE_BUSY;
+    case LinkCondition::kDeviceStalls:
+      return link_status_t::CONDITION_DEVICE_STALLS;
+    case LinkCondition::kDeviceOverflows:
+      return link_status_t::CONDITION_DEVICE_OVERFLOWS;
+    case LinkCondition::kDeviceMute:
+      return link_status_t::CONDITION_DEVICE_MUTE;
     case LinkCondition::kDeviceFault:
       return link_status_t::CONDITION_DEVICE_FAULT;
   }

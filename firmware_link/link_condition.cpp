@@ -22,9 +22,18 @@ std::string_view describe(LinkCondition condition) {
              "again";
     case LinkCondition::kDeviceBusy:
       return "another program has the USB device: close it (cfclient or another client)";
+    case LinkCondition::kDeviceStalls:
+      return "the USB device refuses transfers (stall): unplug it and plug it in again; Crazyradio firmware "
+             "must be 0.40 or newer";
+    case LinkCondition::kDeviceOverflows:
+      return "the USB device sends more than it may (overflow): unplug it and plug it in again, without a "
+             "hub";
+    case LinkCondition::kDeviceMute:
+      return "the USB device does not answer in time: unplug it and plug it in again, into a USB 2 port";
     case LinkCondition::kDeviceFault:
-      return "the USB device answers with errors: unplug it and plug it in again, without a hub or into a "
-             "USB 2 port; Crazyradio firmware must be 0.40 or newer";
+      return "the USB device fails (I/O error): unplug it and plug it in again, without a hub or into a USB "
+             "2 "
+             "port";
   }
   SWIFTLET_CHECK(false, "every condition has its line");
 }
@@ -38,8 +47,11 @@ LinkCondition condition_of(UsbOutcome failure) {
     case UsbOutcome::kBusy:
       return LinkCondition::kDeviceBusy;
     case UsbOutcome::kTimeout:
+      return LinkCondition::kDeviceMute;
     case UsbOutcome::kStall:
+      return LinkCondition::kDeviceStalls;
     case UsbOutcome::kOverflow:
+      return LinkCondition::kDeviceOverflows;
     case UsbOutcome::kFault:
       return LinkCondition::kDeviceFault;
     case UsbOutcome::kDone:

@@ -14,10 +14,13 @@ enum class LinkCondition : std::uint8_t {
   kNone,       ///< not a live link: a recording or a simulation
   kConnected,  ///< the vehicle was heard within the last second
   kSilent,     ///< the device works, the vehicle does not answer: switched off, out of range, other address
-  kDeviceMissing,  ///< no such dongle or cable plugged in
-  kAccessDenied,   ///< it is there, this user may not open it
-  kDeviceBusy,     ///< another program has it
-  kDeviceFault,    ///< it answers with errors: stall, overflow, I/O
+  kDeviceMissing,    ///< no such dongle or cable plugged in
+  kAccessDenied,     ///< it is there, this user may not open it
+  kDeviceBusy,       ///< another program has it
+  kDeviceStalls,     ///< it refuses transfers
+  kDeviceOverflows,  ///< it sends more than it may
+  kDeviceMute,       ///< it does not answer in time
+  kDeviceFault,      ///< any other error: I/O
 };
 
 /// What a link counts, since it was made; copied into the status message. Rates are made of differences.

@@ -114,6 +114,7 @@ void RadioLink::exchange() {
   was_acknowledged_ = answer.acknowledged;
   has_more_ = false;
   failures_in_a_row_ = answer.outcome == UsbOutcome::kDone ? 0 : failures_in_a_row_ + 1;
+  last_outcome_ = answer.outcome;
   if (!answer.may_go_on() || failures_in_a_row_ >= kMostFailuresInARow) return lose_dongle(answer.outcome);
   ++statistics_.packets_sent;
   if (answer.outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
@@ -128,7 +129,8 @@ void RadioLink::fall_silent() {
   silent_ = true;
   ++statistics_.silences;
   if (statistics_.condition == LinkCondition::kConnected)
-    statistics_.condition = failures_in_a_row_ == 0 ? LinkCondition::kSilent : LinkCondition::kDeviceFault;
+    statistics_.condition =
+        last_outcome_ == UsbOutcome::kDone ? LinkCondition::kSilent : condition_of(last_outcome_);
   requests_.clear();
   ask_for_safelink();
 }

@@ -67,6 +67,7 @@ class RadioLink final : public Link {
   ReopenSchedule reopen_;
   std::optional<Crazyradio> radio_;
   int failures_in_a_row_ = 0;
+  UsbOutcome last_outcome_ = UsbOutcome::kDone;  ///< of an exchange
   LinkStatistics statistics_;
 
   RequestQueue requests_;

@@ -30,9 +30,10 @@ TEST(LinkCondition, FollowsFromHowTheDeviceFailed) {
   EXPECT_EQ(condition_of(UsbOutcome::kNoDevice), LinkCondition::kDeviceMissing);
   EXPECT_EQ(condition_of(UsbOutcome::kAccessDenied), LinkCondition::kAccessDenied);
   EXPECT_EQ(condition_of(UsbOutcome::kBusy), LinkCondition::kDeviceBusy);
-  for (const UsbOutcome failure :
-       {UsbOutcome::kTimeout, UsbOutcome::kStall, UsbOutcome::kOverflow, UsbOutcome::kFault})
-    EXPECT_EQ(condition_of(failure), LinkCondition::kDeviceFault);
+  EXPECT_EQ(condition_of(UsbOutcome::kTimeout), LinkCondition::kDeviceMute);
+  EXPECT_EQ(condition_of(UsbOutcome::kStall), LinkCondition::kDeviceStalls);
+  EXPECT_EQ(condition_of(UsbOutcome::kOverflow), LinkCondition::kDeviceOverflows);
+  EXPECT_EQ(condition_of(UsbOutcome::kFault), LinkCondition::kDeviceFault);
 }
 
 }  // namespace

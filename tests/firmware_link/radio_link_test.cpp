@@ -405,11 +405,12 @@ TEST_F(RadioLinkTest, OpensTheDongleAnewAfterItWasUnplugged) {
 }
 
 TEST_F(RadioLinkTest, OpensAFaultyDongleAnewBeforeTheVehicleForgets) {
-  for (const Fate fate : {Fate::kOverflows, Fate::kFails}) {
+  for (const auto& [fate, wanted] : {std::pair(Fate::kOverflows, LinkCondition::kDeviceOverflows),
+                                     std::pair(Fate::kFails, LinkCondition::kDeviceFault)}) {
     static_cast<void>(listen(seconds(2)));
     dongle_.fates = {fate};
     static_cast<void>(listen(milliseconds(20)));
-    EXPECT_EQ(condition(), LinkCondition::kDeviceFault);
+    EXPECT_EQ(condition(), wanted);
     static_cast<void>(listen(milliseconds(200)));
     EXPECT_EQ(condition(), LinkCondition::kConnected);
   }
@@ -432,7 +433,7 @@ TEST_F(RadioLinkTest, TellsAFaultForAsLongAsTheDongleFailsAfterEachOpening) {
   static_cast<void>(listen(seconds(2)));
   for (int i = 0; i < 50; ++i) {
     static_cast<void>(listen(milliseconds(100)));
-    EXPECT_EQ(condition(), LinkCondition::kDeviceFault);
+    EXPECT_EQ(condition(), LinkCondition::kDeviceStalls);
   }
   dongle_.fates.clear();
   dongle_.hears_us = [] { return false; };

@@ -232,7 +232,7 @@ TEST_F(UsbCableLinkTest, GoesOnAfterStallsAndGivesUpAfterTen) {
   cable_.in_outcomes.assign(10, UsbOutcome::kStall);
   static_cast<void>(listen(milliseconds(50)));
   EXPECT_EQ(link_->statistics().device_losses, 1U);
-  EXPECT_EQ(condition(), LinkCondition::kDeviceFault);
+  EXPECT_EQ(condition(), LinkCondition::kDeviceStalls);
 }
 
 TEST_F(UsbCableLinkTest, DropsARequestThatTheVehicleDoesNotTake) {

@@ -165,6 +165,7 @@ TEST_F(EmulatedDongleTest, UnpluggedAndReplugedInMidFlightItBringsSamplesAgain) 
 struct Fault {
   std::string name;
   DongleFault fault;
+  LinkCondition condition;
 };
 std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.name; }
 
@@ -174,7 +175,7 @@ TEST_P(DongleFaultTest, IsToldAndGotOver) {
   connect();
   expect_sample_within(kConnecting);
   mock_up_->with([](EmulatedCrazyradio& dongle) { dongle.standing_fault = GetParam().fault; });
-  expect_condition(LinkCondition::kDeviceFault, seconds(10));
+  expect_condition(GetParam().condition, seconds(10));
   mock_up_->with([](EmulatedCrazyradio& dongle) { dongle.standing_fault.reset(); });
   expect_sample_within(kRecovery);
   EXPECT_EQ(statistics().condition, LinkCondition::kConnected);
@@ -189,12 +190,13 @@ TEST_P(DongleFaultTest, OnceIsGotOverAtOnce) {
   EXPECT_EQ(statistics().condition, LinkCondition::kConnected);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DongleFaultTest,
-                         testing::Values(Fault{"StallOut", DongleFault::kStallOut},
-                                         Fault{"StallIn", DongleFault::kStallIn},
-                                         Fault{"Overflow", DongleFault::kOverflow},
-                                         Fault{"NoAnswer", DongleFault::kNoAnswer}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, DongleFaultTest,
+    testing::Values(Fault{"StallOut", DongleFault::kStallOut, LinkCondition::kDeviceStalls},
+                    Fault{"StallIn", DongleFault::kStallIn, LinkCondition::kDeviceStalls},
+                    Fault{"Overflow", DongleFault::kOverflow, LinkCondition::kDeviceOverflows},
+                    Fault{"NoAnswer", DongleFault::kNoAnswer, LinkCondition::kDeviceMute}),
+    [](const auto& instance) { return instance.param.name; });
 
 TEST_F(EmulatedDongleTest, AnAnswerThatComesLateIsNotTakenForTheNext) {
   connect();

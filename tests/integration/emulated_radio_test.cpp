@@ -252,30 +252,31 @@ void take_away(EmulatedCrazyradio& dongle) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, StandingFaultTest,
-    testing::Values(
-        StandingFault{"Missing", [](EmulatedCrazyradio& dongle) { dongle.unplug(); },
-                      [](EmulatedCrazyradio& dongle) { dongle.plug_in(); }, LinkCondition::kDeviceMissing},
-        StandingFault{"AccessDenied",
-                      [](EmulatedCrazyradio& dongle) {
-                        take_away(dongle);
-                        dongle.denies_access = true;
-                      },
-                      [](EmulatedCrazyradio& dongle) { dongle.denies_access = false; },
-                      LinkCondition::kAccessDenied},
-        StandingFault{"Busy",
-                      [](EmulatedCrazyradio& dongle) {
-                        take_away(dongle);
-                        dongle.claimed_by_another = true;
-                      },
-                      [](EmulatedCrazyradio& dongle) { dongle.claimed_by_another = false; },
-                      LinkCondition::kDeviceBusy},
-        StandingFault{"StallOut", start_fault<DongleFault::kStallOut>, stop_fault,
-                      LinkCondition::kDeviceFault},
-        StandingFault{"StallIn", start_fault<DongleFault::kStallIn>, stop_fault, LinkCondition::kDeviceFault},
-        StandingFault{"Overflow", start_fault<DongleFault::kOverflow>, stop_fault,
-                      LinkCondition::kDeviceFault},
-        StandingFault{"NoAnswer", start_fault<DongleFault::kNoAnswer>, stop_fault,
-                      LinkCondition::kDeviceFault}),
+    testing::Values(StandingFault{"Missing", [](EmulatedCrazyradio& dongle) { dongle.unplug(); },
+                                  [](EmulatedCrazyradio& dongle) { dongle.plug_in(); },
+                                  LinkCondition::kDeviceMissing},
+                    StandingFault{"AccessDenied",
+                                  [](EmulatedCrazyradio& dongle) {
+                                    take_away(dongle);
+                                    dongle.denies_access = true;
+                                  },
+                                  [](EmulatedCrazyradio& dongle) { dongle.denies_access = false; },
+                                  LinkCondition::kAccessDenied},
+                    StandingFault{"Busy",
+                                  [](EmulatedCrazyradio& dongle) {
+                                    take_away(dongle);
+                                    dongle.claimed_by_another = true;
+                                  },
+                                  [](EmulatedCrazyradio& dongle) { dongle.claimed_by_another = false; },
+                                  LinkCondition::kDeviceBusy},
+                    StandingFault{"StallOut", start_fault<DongleFault::kStallOut>, stop_fault,
+                                  LinkCondition::kDeviceStalls},
+                    StandingFault{"StallIn", start_fault<DongleFault::kStallIn>, stop_fault,
+                                  LinkCondition::kDeviceStalls},
+                    StandingFault{"Overflow", start_fault<DongleFault::kOverflow>, stop_fault,
+                                  LinkCondition::kDeviceOverflows},
+                    StandingFault{"NoAnswer", start_fault<DongleFault::kNoAnswer>, stop_fault,
+                                  LinkCondition::kDeviceMute}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(EmulatedRadioTest, HearsTheVehicleAgainWithinTwoSecondsOfThreeSecondsOfSilence) {
