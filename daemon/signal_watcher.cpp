@@ -3,12 +3,21 @@
 #include "daemon/signal_watcher.hpp"
 
 #include <pthread.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string_view>
 
 namespace swiftlet {
 namespace {
 
-constexpr timespec kLookEvery{.tv_sec = 0,
-                              .tv_nsec = 50'000'000};  // how soon the end of the watch is noticed
+using std::chrono::steady_clock;
+
+// How soon the end of the watch is noticed.
+constexpr timespec kLookEvery{.tv_sec = 0, .tv_nsec = 50'000'000};
+// What arrives sooner after the first signal is the same request, told twice.
+constexpr std::chrono::seconds kSameRequest{1};
+constexpr std::string_view kFarewell = "ended at once by a second signal: what was not written is lost\n";
 
 }  // namespace
 
@@ -28,14 +37,19 @@ SignalWatcher::~SignalWatcher() {
 
 void SignalWatcher::watch(const std::stop_token& over) {
   pthread_setname_np(pthread_self(), "signals");
+  steady_clock::time_point asked_at{};
   while (!over.stop_requested()) {
-    if (sigtimedwait(&watched_, nullptr, &kLookEvery) < 0) continue;
-    signalled_.request_stop();
-    break;
+    const int signal = sigtimedwait(&watched_, nullptr, &kLookEvery);
+    if (signal < 0) continue;
+    if (!signalled_.stop_requested()) {
+      asked_at = steady_clock::now();
+      signalled_.request_stop();
+    } else if (steady_clock::now() - asked_at > kSameRequest) {
+      static_cast<void>(::write(STDERR_FILENO, kFarewell.data(), kFarewell.size()));
+      pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
+      ::raise(signal);
+    }
   }
-  // This thread stays and lets the signals through, so that the next one ends the program.
-  pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
-  while (!over.stop_requested()) nanosleep(&kLookEvery, nullptr);
 }
 
 }  // namespace swiftlet

@@ -8,8 +8,9 @@
 
 namespace swiftlet {
 
-/// Turns the first SIGINT or SIGTERM into a request to stop; a second one ends the program at once, as it
-/// would have without the watcher. Make it before any other thread: it blocks both signals in the calling
+/// Turns the first SIGINT or SIGTERM into a request to stop. A second one, unless it comes within a second
+/// (timeout(1) and some terminals send each twice), ends the program at once, as it would have without the
+/// watcher, and with a line on stderr. Make it before any other thread: it blocks both signals in the calling
 /// thread, and threads inherit that.
 class SignalWatcher {
  public:

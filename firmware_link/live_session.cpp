@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/live_session.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace swiftlet {
@@ -12,6 +13,8 @@ using Kind = VehicleEvent::Kind;
 // The firmware's own watchdog: after as long without a packet it deletes the log blocks.
 constexpr Duration kLongestSilence = std::chrono::seconds(1);
 constexpr Duration kTryAgainAfter = std::chrono::seconds(5);
+// With each request repeated five times a second no mere loss lasts as long; no vehicle is exchanged sooner.
+constexpr Duration kLongestHandshakeSilence = std::chrono::seconds(3);
 
 }  // namespace
 
@@ -27,9 +30,14 @@ std::optional<CrtpPacket> LiveSession::next_request(HostTime now) {
 }
 
 void LiveSession::watch_for_silence(HostTime now) {
-  if (!handshake_.finished() || !data_at_ || now - *data_at_ <= kLongestSilence) return;
-  tell(Kind::kDataStopped);
-  restart();
+  if (handshake_.finished()) {
+    const auto has_stopped = [now](const Stream& stream) { return now - stream.data_at > kLongestSilence; };
+    if (std::ranges::none_of(streams_, has_stopped)) return;
+    tell(Kind::kDataStopped);
+    restart();
+  } else if (heard_at_ && !refused_at_ && now - *heard_at_ > kLongestHandshakeSilence) {
+    restart();
+  }
 }
 
 void LiveSession::restart() {
@@ -37,14 +45,17 @@ void LiveSession::restart() {
   inventory_ = VehicleInventory(cache_);
   inventory_told_ = false;
   monitor_.restart();
-  data_at_.reset();
+  round_trip_.restart();
+  streams_.clear();
+  heard_at_.reset();
   refused_at_.reset();
 }
 
 void LiveSession::hear(const LinkFrame& frame, const std::optional<LogRecord>& record) {
   if (!handshake_.finished()) return hear_handshake(frame);
   if (record) {
-    data_at_ = frame.at;
+    for (Stream& stream : streams_)
+      if (stream.block == record->block_id) stream.data_at = frame.at;
     monitor_.hear(*record);
     if (record->boot != boot_) tell(Kind::kRebooted);
     boot_ = record->boot;
@@ -55,6 +66,7 @@ void LiveSession::hear(const LinkFrame& frame, const std::optional<LogRecord>& r
 
 void LiveSession::hear_handshake(const LinkFrame& frame) {
   if (refused_at_) return;
+  heard_at_ = frame.at;
   handshake_.hear(frame.packet());
   if (handshake_.failure()) {
     refused_at_ = frame.at;
@@ -62,7 +74,8 @@ void LiveSession::hear_handshake(const LinkFrame& frame) {
     failure_ = handshake_.failure();
   } else if (handshake_.finished()) {
     was_connected_ = true;
-    data_at_ = frame.at;
+    for (const std::uint8_t block : handshake_.essential_blocks())
+      static_cast<void>(streams_.try_push_back({block, frame.at}));
     tell(Kind::kConnected, handshake_.protocol());
     if (handshake_.protocol() > kNewestProtocol) tell(Kind::kProtocolNewer, handshake_.protocol());
   }

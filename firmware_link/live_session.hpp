@@ -24,9 +24,10 @@
 namespace swiftlet {
 
 /// Keeps a live vehicle sending: brings it to log, asks what it carries, measures the round trip, and begins
-/// anew when no log data came for a second: the vehicle itself deletes its log blocks when it hears nothing
-/// for that long, or it has rebooted. No link, no clock. One thread at a time; allocates while it connects,
-/// not while log data flows. `session` must outlive it and hear each packet first; `cache` must outlive it.
+/// anew when a log block that samples are made of sent nothing for a second: the vehicle itself deletes its
+/// log blocks when it hears nothing for that long, or it has rebooted. No link, no clock. One thread at a
+/// time; allocates while it connects, not while log data flows. `session` must outlive it and hear each
+/// packet first; `cache` must outlive it.
 class LiveSession {
  public:
   LiveSession(const LogSession& session, TocCache& cache);
@@ -50,6 +51,11 @@ class LiveSession {
   [[nodiscard]] std::string vehicle_text() const;
 
  private:
+  /// A log block that samples cannot do without.
+  struct Stream {
+    std::uint8_t block = 0;
+    HostTime data_at{};  ///< the last log data, or the end of the handshake
+  };
   void restart();
   void tell(VehicleEvent::Kind kind, std::int32_t value = 0);
   void hear_handshake(const LinkFrame& frame);
@@ -63,7 +69,8 @@ class LiveSession {
   bool inventory_told_ = false;
   RoundTrip round_trip_;
   VehicleMonitor monitor_;
-  std::optional<HostTime> data_at_;     ///< the last log data, or the end of the handshake
+  FixedVector<Stream, 2> streams_;
+  std::optional<HostTime> heard_at_;    ///< the last packet, in the handshake
   std::optional<HostTime> refused_at_;  ///< the handshake failed
   bool was_connected_ = false;
   std::uint32_t boot_ = 0;

@@ -119,7 +119,10 @@ void LogBlockTable::apply_append(std::uint8_t id, LogError error) {
 
 void LogBlockTable::forget(std::uint8_t id) {
   blocks_[id] = {};
-  requests_[id] = {};
+  // A create that waits for its reply was sent after the request that is answered here, the reply to which
+  // was late: the vehicle answers in order.
+  Request& request = requests_[id];
+  if (request.command != LogCommand::kCreate || request.answered) request = {};
 }
 
 void LogBlockTable::forget_all() {

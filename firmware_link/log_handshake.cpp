@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint8_t kFast10ms = 10;
 constexpr std::uint8_t kSlow10ms = 100;
-constexpr std::size_t kMostRemakes = 20;
+// How long the reply to an append is waited for, in repetition periods, however slow the link.
+constexpr int kMostPatience = 20;
 constexpr std::string_view kSourceText = "Bitcraze Crazyflie";
 
 // Everything of one instant in one packet: 26 bytes, the most a block can hold.
@@ -38,6 +39,10 @@ const TocItem* find_readable(const TocDownload& toc, std::string_view name) {
   return item != nullptr && log_type_of(item->type) ? item : nullptr;
 }
 
+bool is_append(const CrtpPacket& control_request) {
+  return control_request[1] == static_cast<std::uint8_t>(LogCommand::kAppend);
+}
+
 }  // namespace
 
 LogHandshake::LogHandshake(const LogSession& session, TocCache& cache) : session_(&session), cache_(&cache) {
@@ -48,8 +53,10 @@ std::optional<CrtpPacket> LogHandshake::next_request(HostTime now) {
   if (step_ == Step::kToc) return toc_->next_request(now);
   if (!request_.is_due(now)) return std::nullopt;
   // An append must not reach the vehicle twice, and nobody knows whether the first did: make the block anew.
-  const bool is_append = (*request_.packet())[1] == static_cast<std::uint8_t>(LogCommand::kAppend);
-  if (request_.was_sent() && step_ == Step::kBlocks && !deleting_ && is_append) remake_block();
+  if (request_.was_sent() && step_ == Step::kBlocks && is_append(*request_.packet())) {
+    append_patience_ = std::min(append_patience_ + 1, kMostPatience);
+    remake_block();
+  }
   return request_.take_due(now);
 }
 
@@ -167,7 +174,6 @@ void LogHandshake::hear_block_reply(std::span<const std::uint8_t> packet) {
   const auto command = static_cast<LogCommand>(packet[1]);
   const auto error = static_cast<LogError>(packet[3]);
   if (command == LogCommand::kDelete && (error == LogError::kNone || error == LogError::kUnknown)) {
-    deleting_ = false;
     block_request_ = 0;
     return send_block_request();
   }
@@ -193,6 +199,13 @@ void LogHandshake::answer_refusal(LogCommand command, LogError error) {
        remedy);
 }
 
+std::vector<std::uint8_t> LogHandshake::essential_blocks() const {
+  std::vector<std::uint8_t> ids;
+  for (const PlannedBlock& planned : plan_)
+    if (!planned.optional) ids.push_back(planned.id);
+  return ids;
+}
+
 void LogHandshake::next_block_request() {
   ++block_request_;
   if (block_request_ == plan_[block_].requests.size()) return next_block();
@@ -206,14 +219,12 @@ void LogHandshake::next_block() {
   send_block_request();
 }
 
-void LogHandshake::send_block_request() { request_.ask(plan_[block_].requests[block_request_]); }
-
-void LogHandshake::remake_block() {
-  if (++remakes_ > kMostRemakes)
-    return fail("log block " + std::to_string(plan_[block_].id) + " cannot be made in " +
-                std::to_string(kMostRemakes) + " attempts: too many packets are lost");
-  deleting_ = true;
-  request_.ask(log_block_request(LogCommand::kDelete, plan_[block_].id));
+void LogHandshake::send_block_request() {
+  const CrtpPacket& request = plan_[block_].requests[block_request_];
+  // A reply that only takes long must not cost the block over and over again.
+  request_.ask(request, PendingRequest::kRepeatAfter * (is_append(request) ? append_patience_ : 1));
 }
+
+void LogHandshake::remake_block() { request_.ask(log_block_request(LogCommand::kDelete, plan_[block_].id)); }
 
 }  // namespace swiftlet

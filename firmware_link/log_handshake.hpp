@@ -44,7 +44,9 @@ class LogHandshake {
 
   /// All blocks are started: log data flows.
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
-  /// Why this vehicle cannot be used; final.
+  /// The blocks that samples are made of. Once finished().
+  [[nodiscard]] std::vector<std::uint8_t> essential_blocks() const;
+  /// Why this vehicle cannot be used; final. Packets that get lost are no reason.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// CRTP protocol version; 0 until heard. kNewestProtocol is the newest that swiftlet was tried with.
   [[nodiscard]] int protocol() const { return protocol_; }
@@ -84,8 +86,7 @@ class LogHandshake {
   std::vector<PlannedBlock> plan_;
   std::size_t block_ = 0;          ///< of the plan
   std::size_t block_request_ = 0;  ///< of the block
-  bool deleting_ = false;          ///< the block is being deleted, to be made anew
-  std::size_t remakes_ = 0;
+  int append_patience_ = 1;        ///< in repetition periods
   std::optional<Error> failure_;
 };
 

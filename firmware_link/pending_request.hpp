@@ -10,14 +10,15 @@
 
 namespace swiftlet {
 
-/// A request that is sent again every 200 ms until it is answered: one outstanding, because bursts lose
-/// replies in older firmware.
+/// A request that is sent again every 200 ms, unless told otherwise, until it is answered: one outstanding,
+/// because bursts lose replies in older firmware.
 class PendingRequest {
  public:
   static constexpr Duration kRepeatAfter = std::chrono::milliseconds(200);
 
-  void ask(const CrtpPacket& packet) {
+  void ask(const CrtpPacket& packet, Duration repeat_after = kRepeatAfter) {
     packet_ = packet;
+    repeat_after_ = repeat_after;
     sent_at_.reset();
   }
   void drop() { packet_.reset(); }
@@ -25,7 +26,7 @@ class PendingRequest {
   /// Its next transmission would be a repetition.
   [[nodiscard]] bool was_sent() const { return sent_at_.has_value(); }
   [[nodiscard]] bool is_due(HostTime now) const {
-    return packet_ && !(sent_at_ && now - *sent_at_ < kRepeatAfter);
+    return packet_ && !(sent_at_ && now - *sent_at_ < repeat_after_);
   }
   /// The packet to send now, if it is due.
   [[nodiscard]] std::optional<CrtpPacket> take_due(HostTime now) {
@@ -36,6 +37,7 @@ class PendingRequest {
 
  private:
   std::optional<CrtpPacket> packet_;
+  Duration repeat_after_ = kRepeatAfter;
   std::optional<HostTime> sent_at_;
 };
 

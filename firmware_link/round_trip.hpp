@@ -28,6 +28,11 @@ class RoundTrip {
     is_open_ = false;
     last_ = at - *sent_at_;
   }
+  /// Another connection: what was measured of the last one says nothing any more.
+  void restart() {
+    is_open_ = false;
+    last_ = Duration::zero();
+  }
   /// The last one measured; 0 before the first.
   [[nodiscard]] Duration last() const { return last_; }
 

@@ -29,7 +29,17 @@ TEST(SignalWatcher, TurnsEitherSignalIntoARequestToStop) {
   }
 }
 
-TEST(SignalWatcherDeathTest, ASecondSignalEndsTheProgram) {
+TEST(SignalWatcher, ASignalThatArrivesTwiceIsOneRequest) {
+  // As from timeout(1): once to the program, once to its group.
+  const SignalWatcher watcher;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(kill(getpid(), SIGINT), 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(is_requested_soon(watcher.token()));
+}
+
+TEST(SignalWatcherDeathTest, ASecondSignalEndsTheProgramAndSaysSo) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(
       {
@@ -41,7 +51,7 @@ TEST(SignalWatcherDeathTest, ASecondSignalEndsTheProgram) {
           std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
       },
-      testing::KilledBySignal(SIGTERM), "");
+      testing::KilledBySignal(SIGTERM), "second signal");
 }
 
 }  // namespace

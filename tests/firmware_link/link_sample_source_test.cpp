@@ -11,6 +11,7 @@
 
 #include "tests/firmware_link/counting_new.hpp"
 #include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/manual_link_clock.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/firmware_link/synthetic_capture.hpp"
 
@@ -106,6 +107,21 @@ TEST(LinkSampleSource, PassesOnALostDevice) {
   LinkSampleSource source(input_of(SyntheticCapture{}.frames(), {ErrorCode::kDeviceLost, "unplugged"}));
   EXPECT_EQ(read_all(source).size(), 7U);
   EXPECT_EQ(source.next().error().code, ErrorCode::kDeviceLost);
+}
+
+TEST(LinkSampleSource, ALiveLinkThatNeverYieldsASampleDoesNotHoldItsCaller) {
+  SyntheticCapture capture;
+  capture.packets = 1000;
+  std::vector<LinkFrame> frames = capture.frames();
+  for (LinkFrame& frame : frames)
+    if (frame.direction == LinkDirection::kToVehicle) frame.bytes[1] = 0;  // so that no block is known
+  LinkInput input = input_of(std::move(frames));
+  input.clock = std::make_shared<ManualLinkClock>();
+  LinkSampleSource source(std::move(input));
+  const Result<RangeSample> sample = source.next();
+  ASSERT_FALSE(sample.ok());
+  EXPECT_EQ(sample.error().code, ErrorCode::kTimeout);
+  EXPECT_LT(source.report().frames, 200U);
 }
 
 TEST(LinkSampleSource, DoesNotAllocateForASample) {

@@ -112,6 +112,42 @@ TEST_F(LiveSessionTest, ReconnectingAsksForNoTableOfContentsAgain) {
   EXPECT_THAT(link_.requests, Contains(hex("5c 03")));
 }
 
+TEST_F(LiveSessionTest, TheSlowBlockAloneIsNoLife) {
+  run_until(5000);
+  link_.vehicle.blocks.erase(1);
+  run_until(9000);
+  EXPECT_THAT(events_, ElementsAre(Kind::kConnected, Kind::kDataStopped, Kind::kConnected));
+  EXPECT_LT(first_data_after(5000), 7000);
+}
+
+TEST_F(LiveSessionTest, OfTwoBlocksBothHaveToLive) {
+  std::erase_if(link_.vehicle.variables, [](const auto& variable) { return variable.name == "info"; });
+  run_until(5000);
+  ASSERT_TRUE(link_.vehicle.blocks.contains(2));
+  link_.vehicle.blocks.erase(2);
+  run_until(9000);
+  EXPECT_THAT(events_, ElementsAre(Kind::kConnected, Kind::kDataStopped, Kind::kConnected));
+  EXPECT_TRUE(link_.vehicle.blocks.contains(2));
+}
+
+TEST_F(LiveSessionTest, AfterASilenceInTheHandshakeAnotherVehicleMayAnswer) {
+  link_.fate = [this](auto) {
+    const bool is_silent = link_.requests.size() >= 10 && link_.now_ms < 4000;
+    return is_silent ? ScriptedLink::Fate::kRequestLost : ScriptedLink::Fate::kArrives;
+  };
+  run_until(3900);
+  ASSERT_THAT(link_.requests.back(), ElementsAre(0xFD, 0));
+  run_until(6000);
+  EXPECT_THAT(events_, ElementsAre(Kind::kConnected));
+  EXPECT_GT(data_ms_.size(), 10U);
+}
+
+TEST_F(LiveSessionTest, TheRoundTripOfALostConnectionIsForgotten) {
+  link_.reaches = [](std::int64_t ms) { return ms < 5000; };
+  run_until(8000);
+  EXPECT_EQ(live_.round_trip(), Duration::zero());
+}
+
 TEST_F(LiveSessionTest, NamesMissingDecks) {
   link_.vehicle.params[0].value = 0;
   link_.vehicle.params[1].value = 0;

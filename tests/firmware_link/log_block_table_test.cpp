@@ -118,6 +118,14 @@ TEST_F(LogBlockTableTest, ARequestWithoutAReplyIsBelievedWhenTheSizeConfirmsIt) 
   EXPECT_EQ(table_.entries_in(1, 6), 2U);
 }
 
+TEST_F(LogBlockTableTest, ALateReplyToADeleteLeavesTheCreateThatFollowedIt) {
+  exchange("5d 02 01", "5d 02 01 00");
+  table_.hear_request(hex("5d 06 01 77 3e 00"));
+  table_.hear_reply(hex("5d 02 01 02"));  // to a repetition of the delete
+  table_.hear_reply(hex("5d 06 01 00"));
+  EXPECT_EQ(table_.entries_in(1, 4), 1U);
+}
+
 TEST_F(LogBlockTableTest, NeverHoldsMoreThanAPacketCarries) {
   exchange("5d 06 01 77 01 00 77 02 00 77 03 00 77 04 00 77 05 00 77 06 00 77 07 00 77 08 00", "5d 06 01 07");
   EXPECT_EQ(table_[1].entries.size(), 6U);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <random>
 #include <string>
 #include <vector>
@@ -236,6 +237,40 @@ TEST_F(LogHandshakeTest, EveryRequestMayBeLostOnceOrItsAnswer) {
       ASSERT_TRUE(link.vehicle.blocks.at(1).running);
     }
   }
+}
+
+TEST_F(LogHandshakeTest, AnswersMayTakeLongerThanTheRepetitionWaits) {
+  for (const int delay_ms : {210, 390, 700}) {
+    ScriptedVehicle vehicle = link_.vehicle;
+    LogSession session;
+    TocCache cache;
+    LogHandshake handshake(session, cache);
+    std::deque<LinkFrame> replies;
+    for (int ms = 0; ms < 60'000 && !handshake.finished() && !handshake.failure(); ms += 10) {
+      if (const auto request = handshake.next_request(host_ms(ms))) {
+        const Bytes packet(request->begin(), request->end());
+        static_cast<void>(session.hear(sent(packet, host_ms(ms))));
+        replies.push_back(received(*vehicle.answer(packet), host_ms(ms + delay_ms)));
+      }
+      for (; !replies.empty() && replies.front().at <= host_ms(ms); replies.pop_front()) {
+        static_cast<void>(session.hear(replies.front()));
+        handshake.hear(replies.front().packet());
+      }
+    }
+    EXPECT_TRUE(handshake.finished()) << delay_ms;
+    EXPECT_EQ(vehicle.blocks[1].entries.size(), 10U) << delay_ms;
+    EXPECT_EQ(session.blocks()[1].entries.size(), 10U) << delay_ms;
+  }
+}
+
+TEST_F(LogHandshakeTest, NoLossIsAVerdictOnTheVehicle) {
+  link_.fate = [this](std::span<const std::uint8_t> request) {
+    const bool is_append = request[0] == 0x5D && request[1] == 7;
+    return is_append && link_.now_ms < 15'000 ? Fate::kAnswerLost : Fate::kArrives;
+  };
+  run();
+  EXPECT_FALSE(handshake_.failure().has_value());
+  EXPECT_TRUE(handshake_.finished());
 }
 
 TEST_F(LogHandshakeTest, GetsThroughABadLink) {
