@@ -161,6 +161,8 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
+  const SignalWatcher
+      signals;  // before any thread: the USB library has one of its own as soon as it is opened
   if (!options.output_directory.empty()) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);
@@ -174,7 +176,6 @@ int run(const Options& options) {
       LcmPublisher::open(options.lcm_url, config->publish.channel_prefix, new_map_id());
   if (!publisher) return refuse(publisher.error().message);
 
-  const SignalWatcher signals;  // before the threads
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
