@@ -187,7 +187,7 @@ def an_existing_recording_is_not_overwritten(bench):
     expect(code == 2 and len(lines) == 1 and "flight.pcap: is there already" in lines[0], lines)
     expect(recording.read_text(encoding="utf-8") == "mine", "it was written to")
     code, lines = bench.daemon("--input", recording, "--record", bench.folder / "copy.pcap")
-    expect(code == 2 and len(lines) == 1 and "is a file already" in lines[0], lines)
+    expect(code == 2 and len(lines) == 1 and "is no vehicle" in lines[0], lines)
 
 
 def a_recording_replays_to_the_same_map_and_needs_to_be_asked_for_in_a_simulation(bench):
