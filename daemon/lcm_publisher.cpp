@@ -237,7 +237,7 @@ Result<std::unique_ptr<LcmPublisher>> LcmPublisher::open(const std::string& url,
   auto state = std::make_unique<State>(url, channel_prefix, map_id);
   if (!state->lcm.good())
     return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": LCM could not open it; check address and route"};
+                 "LCM URL \"" + url + "\": LCM could not open it; swiftlet doctor says why"};
   return std::unique_ptr<LcmPublisher>(new LcmPublisher(std::move(state)));
 }
 

@@ -122,11 +122,11 @@ std::int64_t new_map_id() {
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
 }
 
-/// One line for each problem of the input; its exit code.
+/// One line for each problem of the input, and for each note from `first_note` on; its exit code.
 int tell_problems(const Options& options, const Daemon& daemon, const InputReport& report,
-                  const Status& outcome) {
+                  std::size_t first_note, const Status& outcome) {
   int exit_code = 0;
-  for (const std::string& note : report.notes) spdlog::info("{}", note);
+  for (std::size_t i = first_note; i < report.notes.size(); ++i) spdlog::info("{}", report.notes[i]);
   for (const std::string& problem : report.problems) exit_code = refuse(problem);
   if (!outcome) exit_code = refuse(outcome.error().message);
   if (daemon.pipeline().backend().scans().size() == 0 && exit_code == 0)
@@ -161,6 +161,8 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
+  const SignalWatcher
+      signals;  // before any thread: the USB library has one of its own as soon as it is opened
   if (!options.output_directory.empty()) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);
@@ -174,7 +176,6 @@ int run(const Options& options) {
       LcmPublisher::open(options.lcm_url, config->publish.channel_prefix, new_map_id());
   if (!publisher) return refuse(publisher.error().message);
 
-  const SignalWatcher signals;  // before the threads
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
@@ -184,13 +185,17 @@ int run(const Options& options) {
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
   const Status written = write_outputs(options, *config, daemon, **source);
-  const int exit_code = tell_problems(options, daemon, (*source)->report(), outcome);
+  // A live vehicle's notes are the events that were told when they happened.
+  const InputReport& report = (*source)->report();
+  const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;
+  const int exit_code = tell_problems(options, daemon, report, first_note, outcome);
   return written ? exit_code : refuse(written.error().message);
 }
 
 int main_without_exceptions(int argc, char** argv) {
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");
+  app.set_version_flag("--version", SWIFTLET_VERSION);
   declare(app, options);
   try {
     app.parse(argc, argv);

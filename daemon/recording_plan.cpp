@@ -19,9 +19,8 @@ Result<std::optional<RecordingPlan>> plan_recording(const InputUri& input, const
   const bool is_live = !is_file && input.kind != InputUri::Kind::kSimulation;
   if (wish.refused || !(wish.asked || (config.enabled && is_live))) return std::optional<RecordingPlan>();
   if (is_file)
-    return Error{
-        ErrorCode::kInvalidInput,
-        input.path + ": is a file already; record a vehicle (radio://, usb://, udp://) or sim://WORLD"};
+    return Error{ErrorCode::kInvalidInput,
+                 input.path + ": is no vehicle; record one (radio://, usb://, udp://) or sim://WORLD"};
   RecordingPlan plan;
   plan.vehicle = capture_vehicle_of(input);
   plan.file = wish.file;

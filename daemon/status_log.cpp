@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "firmware_link/link_condition.hpp"
@@ -27,9 +28,10 @@ std::string link_text(const DaemonStatus& status) {
   const LiveStatus& live = status.input.live;
   if (live.link.condition == LinkCondition::kNone) return {};
   const double round_trip_ms = to_seconds(live.round_trip) * 1e3;
-  return fmt::format("; link {:.0f} % acknowledged, {:.0f} packets/s, round trip {:.1f} ms, {} mV",
+  const std::optional<int> battery_mv = live.vehicle.battery_mv;
+  return fmt::format("; link {:.0f} % acknowledged, {:.0f} packets/s, round trip {:.1f} ms{}",
                      std::max(0.0, status.link_rates.ack_rate) * 100.0, status.link_rates.received_hz,
-                     round_trip_ms, live.vehicle.battery_mv.value_or(0));
+                     round_trip_ms, battery_mv ? fmt::format(", {} mV", *battery_mv) : "");
 }
 
 }  // namespace
@@ -39,7 +41,8 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   warn_if_grown("input: holes in the ranges", before.input.gaps, now.input.gaps);
   warn_if_grown("input: problems", before.input.problems, now.input.problems);
   if (before.input.segments > 0)
-    warn_if_grown("input: the dead reckoning began anew", before.input.segments, now.input.segments);
+    warn_if_grown("input: new segments (silence, restart or reset)", before.input.segments,
+                  now.input.segments);
   warn_if_grown("frontend: batches rolled back", before.frontend.batches_rolled_back,
                 now.frontend.batches_rolled_back);
   warn_if_grown("frontend: no room", before.frontend.refused_full, now.frontend.refused_full);

@@ -28,8 +28,7 @@ std::string describe(const VehicleEvent& event) {
              "how it is mounted and restart the vehicle";
     case Kind::kNoFlowDeck:
       return "the vehicle finds no Flow deck (deck.bcFlow2 is 0), so it does not know how it moves: check "
-             "how "
-             "it is mounted and restart the vehicle";
+             "how it is mounted and restart the vehicle";
     case Kind::kYawTrap:
       return "the vehicle moves with its motors off: its firmware then pulls the yaw back to the initial one "
              "within seconds, and the map will be wrong; fly, or do not turn";

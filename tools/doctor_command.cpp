@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "daemon/recording_files.hpp"
+#include "firmware_link/input_file.hpp"
 #include "firmware_link/input_uri.hpp"
 #include "firmware_link/libusb_bus.hpp"
 #include "firmware_link/live_link.hpp"
@@ -43,6 +44,8 @@ std::vector<RadioAddress> scan(UsbBus& bus, const RadioAddress& wanted) {
 Result<bool> run_doctor_command(const DoctorCommand& command) {
   const Result<InputUri> uri = parse_input_uri(command.input);
   if (!uri) return uri.error();
+  if (uri->kind == InputUri::Kind::kFile)
+    if (const auto size = size_of_input_file(uri->path); !size) return size.error();
   const Result<LcmUrl> lcm_url = parse_lcm_url(command.lcm_url);
   if (!lcm_url) return lcm_url.error();
   if (isatty(STDERR_FILENO) == 1) std::fputs("swiftlet: looking, this takes some seconds\n", stderr);

@@ -48,14 +48,17 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
 }
 
 CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
-  CLI::App* sim = app.add_subcommand("sim", "Put a simulated vehicle on UDP, to practise on");
+  CLI::App* sim = app.add_subcommand(
+      "sim", "Put a simulated vehicle on UDP, to practise on; reads instructions from stdin, try help");
   sim->add_option("--world", command.world, "office, maze, loop or corridors")->capture_default_str();
-  sim->add_option("--seed", command.seed, "Of all noise")->capture_default_str();
+  sim->add_option("--seed", command.seed, "Of all noise: the same seed is the same vehicle")
+      ->capture_default_str();
   sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();
   sim->add_option("--laps", command.laps, "How often to fly the world's script before landing")
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
-  sim->add_option("--battery", command.battery_minutes, "Minutes in the air until it is empty")
+  sim->add_option("--battery", command.battery_minutes,
+                  "Minutes in the air until it is empty; without it, 8 a lap")
       ->check(CLI::Range(0.1, 1000.0));
   sim->add_option("--clock-start", command.clock_start_s, "Seconds on the vehicle's clock at first")
       ->check(CLI::Range(0.0, 1e6));
@@ -82,14 +85,15 @@ CLI::App* add_record_command(CLI::App& app, swiftlet::RecordCommand& command) {
 
 CLI::App* add_doctor_command(CLI::App& app, swiftlet::DoctorCommand& command) {
   CLI::App* doctor = app.add_subcommand(
-      "doctor", "Check dongle, vehicle, LCM and this machine before a flight; 1 when something stops it");
+      "doctor",
+      "Check dongle, vehicle, LCM and this machine before a flight; exit code 1 when something stops it");
   doctor
       ->add_option("INPUT", command.input, "radio://DONGLE/CHANNEL/RATE/ADDRESS, usb://N or udp://HOST:PORT")
       ->capture_default_str();
-  doctor->add_option("--lcm-url", command.lcm_url, "where swiftletd is to publish")
+  doctor->add_option("--lcm-url", command.lcm_url, "Where swiftletd is to publish")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();
-  doctor->add_flag("--json", command.json, "for programs");
+  doctor->add_flag("--json", command.json, "For programs");
   return doctor;
 }
 
@@ -116,7 +120,9 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return refuse(std::string(error.what()) + "; see swiftlet --help");
+    const bool is_unknown = app.get_subcommands().empty() && app.remaining_size() > 0;
+    const std::string what = is_unknown ? "no command '" + app.remaining().front() + "'" : error.what();
+    return refuse(what + "; see swiftlet --help");
   }
   if (doctor->parsed()) return run_doctor(doctor_command);
   swiftlet::Status status = swiftlet::Error{{}, "no command given; see swiftlet --help"};

@@ -50,7 +50,7 @@ TEST(PlanRecording, DoesNotRecordAFile) {
       input_of(Kind::kFile), {.asked = true, .refused = false, .file = "copy.pcap"}, {}, HostTime{});
   ASSERT_FALSE(plan.ok());
   EXPECT_EQ(plan.error().code, ErrorCode::kInvalidInput);
-  EXPECT_THAT(plan.error().message, testing::HasSubstr("flight.pcap: is a file already"));
+  EXPECT_THAT(plan.error().message, testing::HasSubstr("flight.pcap: is no vehicle"));
 }
 
 TEST(PlanRecording, TakesDirectoryAndLimitsFromTheConfiguration) {

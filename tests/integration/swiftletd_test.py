@@ -116,6 +116,19 @@ def sigterm_ends_the_run_with_its_outputs(bench):
     stop_with(bench, signal.SIGTERM)
 
 
+def sigint_ends_a_wait_for_the_dongle(bench):
+    """The USB library's own thread must not take the signal."""
+    with subprocess.Popen([bench.swiftletd, "--input", "radio://NOSUCHSERIAL/80", "--no-record",
+                           "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
+        said = daemon.stderr.readline()
+        while b"plug it in" not in said:
+            expect(said, "the daemon ended by itself")
+            said = daemon.stderr.readline()
+        daemon.send_signal(signal.SIGINT)
+        _, said = daemon.communicate(timeout=60)
+    expect(daemon.returncode == 2 and b"stopped by a signal" in said, f"{daemon.returncode}: {said.decode()}")
+
+
 def bad_input_gets_one_line_and_exit_code_2(bench):
     config = bench.folder / "bad.toml"
     config.write_text("[map]\nresolution_m = 0.05\nresolutoin_m = 0.1\n", encoding="utf-8")
@@ -174,7 +187,7 @@ def an_existing_recording_is_not_overwritten(bench):
     expect(code == 2 and len(lines) == 1 and "flight.pcap: is there already" in lines[0], lines)
     expect(recording.read_text(encoding="utf-8") == "mine", "it was written to")
     code, lines = bench.daemon("--input", recording, "--record", bench.folder / "copy.pcap")
-    expect(code == 2 and len(lines) == 1 and "is a file already" in lines[0], lines)
+    expect(code == 2 and len(lines) == 1 and "is no vehicle" in lines[0], lines)
 
 
 def a_recording_replays_to_the_same_map_and_needs_to_be_asked_for_in_a_simulation(bench):

@@ -82,7 +82,7 @@ TEST_F(SwiftletCommand, HelpAndVersionAreNoErrors) {
 
 TEST_F(SwiftletCommand, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(run(""), refuses_with("swiftlet --help"));
-  EXPECT_THAT(run("fly"), refuses_with("swiftlet --help"));
+  EXPECT_THAT(run("fly"), refuses_with("no command 'fly'; see swiftlet --help"));
   EXPECT_THAT(run("map in.pcap -o {}/out --frobnicate"), refuses_with("--frobnicate"));
   EXPECT_THAT(run("map in.pcap"), refuses_with("--output"));
   EXPECT_THAT(run("map in.clf -o {}/out --beams 1"), refuses_with("--beams"));
@@ -176,7 +176,7 @@ TEST_F(SwiftletCommand, RefusesToRecordWhatItCannot) {
   write("there.pcap", "mine");
   EXPECT_THAT(run("record 'sim://office' -o {}/there.pcap"), refuses_with("there.pcap: is there already"));
   EXPECT_EQ(text_of(file("there.pcap")), "mine");
-  EXPECT_THAT(run("record {}/there.pcap -o {}/copy.pcap"), refuses_with("there.pcap: is a file already"));
+  EXPECT_THAT(run("record {}/there.pcap -o {}/copy.pcap"), refuses_with("there.pcap: is no vehicle"));
   EXPECT_THAT(run("record 'sim://nowhere' -o {}/none.pcap"), refuses_with("nowhere"));
   EXPECT_FALSE(fs::exists(file("none.pcap")));
   EXPECT_THAT(run("record 'sim://office' -o {}/none/a.pcap"), refuses_with("none/a.pcap: cannot be written"));
@@ -224,6 +224,7 @@ TEST_F(SwiftletCommand, RefusesACaptureThatIsCutBeforeItsFirstSample) {
 
 TEST_F(SwiftletCommand, DoctorRefusesWhatIsNoInputOrNoLcmUrl) {
   EXPECT_THAT(run("doctor foo://bar"), refuses_with("unknown scheme 'foo'"));
+  EXPECT_THAT(run("doctor radio//0/80"), refuses_with("radio//0/80: no such file"));
   EXPECT_THAT(run("doctor udp://127.0.0.1:19850 --lcm-url udpm://1.2.3.4"),
               refuses_with("no multicast address"));
 }

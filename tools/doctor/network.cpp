@@ -79,8 +79,11 @@ std::optional<NetworkRoute> SystemNetwork::route_to(const std::string& address) 
   const UdpSocket probe;
   const sockaddr_in far = ipv4(address, htons(kAnyPort));
   if (connect(probe.fd(), generic(far), sizeof far) != 0) return std::nullopt;
-  const std::optional<sockaddr_in> near = name_of(probe.fd());
-  return near ? interface_with(near->sin_addr) : std::nullopt;
+  std::optional<sockaddr_in> near = name_of(probe.fd());
+  if (!near) return std::nullopt;
+  // A route over an interface without an address that others know leaves the source open: that of loopback.
+  if (near->sin_addr.s_addr == htonl(INADDR_ANY)) near->sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return interface_with(near->sin_addr);
 }
 
 Status SystemNetwork::send_to_self(const std::string& group) {
