@@ -98,7 +98,7 @@ std::string recording_name(HostTime began, int part) {
   std::array<char, 32> time{};
   const std::size_t size = std::strftime(time.data(), time.size(), "%Y%m%d_%H%M%S", &utc);
   std::string name = std::string(kPrefix) + std::string(time.data(), size);
-  if (part > 1) name += "_" + std::to_string(part);
+  if (part > 1) name.append("_").append(std::to_string(part));
   return name + std::string(kSuffix);
 }
 

@@ -24,7 +24,7 @@ constexpr int kLastUsbIndex = 99;
 constexpr int kLowestRateLimitHz = 20;
 constexpr int kHighestRateLimitHz = 10'000;
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string quoted(std::string_view text) { return std::string(1, '\'').append(text) + '\''; }
 
 /// A whole number and nothing else.
 template <typename T>
