@@ -31,9 +31,8 @@ std::string_view describe(LinkCondition condition) {
     case LinkCondition::kDeviceMute:
       return "the USB device does not answer in time: unplug it and plug it in again, into a USB 2 port";
     case LinkCondition::kDeviceFault:
-      return "the USB device fails (I/O error): unplug it and plug it in again, without a hub or into a USB "
-             "2 "
-             "port";
+      return "the USB device fails (I/O error): unplug it and plug it in again, without a hub or into a "
+             "USB 2 port";
   }
   SWIFTLET_CHECK(false, "every condition has its line");
 }
