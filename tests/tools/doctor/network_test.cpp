@@ -55,7 +55,7 @@ bool route_multicast_over_loopback() {
   const int fd = socket(AF_INET, SOCK_DGRAM, 0);
   char name[] = "lo";
   ifreq up{};
-  std::strcpy(up.ifr_name, name);
+  std::memcpy(up.ifr_name, name, sizeof name);
   up.ifr_flags = IFF_UP | IFF_MULTICAST;
   rtentry route{};
   set(route.rt_dst, 0xE0000000);
