@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -189,6 +190,8 @@ int run(const Options& options) {
 }
 
 int main_without_exceptions(int argc, char** argv) {
+  // Whoever read the log may be gone (a pipe to a program that the same Ctrl-C ended): write the outputs.
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");
   declare(app, options);

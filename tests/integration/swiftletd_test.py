@@ -116,6 +116,17 @@ def sigterm_ends_the_run_with_its_outputs(bench):
     stop_with(bench, signal.SIGTERM)
 
 
+def a_log_that_nobody_reads_any_more_costs_no_outputs(bench):
+    out = bench.folder / "out"
+    with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "20", "-o", str(out),
+                           "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
+        time.sleep(1.0)
+        daemon.stderr.close()
+        daemon.send_signal(signal.SIGINT)
+        expect(daemon.wait(timeout=60) == 0, f"exit code {daemon.returncode}")
+    expect((out / "map.pgm").stat().st_size > 0, "no map")
+
+
 def bad_input_gets_one_line_and_exit_code_2(bench):
     config = bench.folder / "bad.toml"
     config.write_text("[map]\nresolution_m = 0.05\nresolutoin_m = 0.1\n", encoding="utf-8")
