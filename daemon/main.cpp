@@ -166,6 +166,7 @@ int run(const Options& options) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);
   }
+  const SignalWatcher signals;  // before the threads, libusb's too
   const Result<std::unique_ptr<Recorder>> recorder = open_recorder(options, *config);
   if (!recorder) return refuse(recorder.error().message);
   const Result<std::unique_ptr<SampleSource>> source =
@@ -175,7 +176,6 @@ int run(const Options& options) {
       LcmPublisher::open(options.lcm_url, config->publish.channel_prefix, new_map_id());
   if (!publisher) return refuse(publisher.error().message);
 
-  const SignalWatcher signals;  // before the threads
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);

@@ -116,6 +116,18 @@ def sigterm_ends_the_run_with_its_outputs(bench):
     stop_with(bench, signal.SIGTERM)
 
 
+def a_signal_stops_it_cleanly_while_it_uses_usb(bench):
+    """libusb has a thread of its own, which must not be the one that takes the signal."""
+    with subprocess.Popen([bench.swiftletd, "--input", "radio://0/80/2M/E7E7E7E7E7", "--no-record",
+                           "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
+        time.sleep(1.5)
+        if daemon.poll() is not None:
+            raise Skipped("no USB here: " + daemon.stderr.read().decode().strip())
+        daemon.send_signal(signal.SIGTERM)
+        _, said = daemon.communicate(timeout=60)
+    expect(b"stopped by a signal" in said, f"exit code {daemon.returncode}: {said.decode()}")
+
+
 def a_log_that_nobody_reads_any_more_costs_no_outputs(bench):
     out = bench.folder / "out"
     with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "20", "-o", str(out),
