@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -167,6 +168,7 @@ int run(const Options& options) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);
   }
+  const SignalWatcher signals;  // before the threads, libusb's too
   const Result<std::unique_ptr<Recorder>> recorder = open_recorder(options, *config);
   if (!recorder) return refuse(recorder.error().message);
   const Result<std::unique_ptr<SampleSource>> source =
@@ -193,6 +195,8 @@ int run(const Options& options) {
 }
 
 int main_without_exceptions(int argc, char** argv) {
+  // Whoever read the log may be gone (a pipe to a program that the same Ctrl-C ended): write the outputs.
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");
   app.set_version_flag("--version", SWIFTLET_VERSION);

@@ -189,7 +189,8 @@ std::optional<LiveStatus> LinkSampleSource::live_status() const {
 std::optional<VehicleEvent> LinkSampleSource::take_event() {
   if (!live_) return std::nullopt;
   const std::optional<VehicleEvent> event = live_->take_event();
-  if (event && is_warning(*event)) report_.notes.push_back(describe(*event));
+  if (event && is_warning(*event) && noted_.insert(event->kind).second)
+    report_.notes.push_back(describe(*event));
   return event;
 }
 

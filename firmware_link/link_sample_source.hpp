@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "firmware_link/sample_source.hpp"
 #include "firmware_link/toc_cache.hpp"
 #include "firmware_link/usb_device.hpp"
+#include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
 
@@ -80,6 +82,7 @@ class LinkSampleSource final : public SampleSource {
   LogSession session_;
   TocCache cache_;
   std::optional<LiveSession> live_;
+  std::set<VehicleEvent::Kind> noted_;  ///< kinds of warnings: the report must not grow with the flight
   ReadingExtractor extractor_;
   GroundHold ground_;
   SampleAssembler assembler_;

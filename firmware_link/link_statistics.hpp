@@ -26,8 +26,9 @@ enum class LinkCondition : std::uint8_t {
 /// What a link counts, since it was made; copied into the status message. Rates are made of differences.
 struct LinkStatistics {
   LinkCondition condition = LinkCondition::kNone;
-  std::uint64_t packets_sent = 0;      ///< every transmission, polls and repetitions too
-  std::uint64_t packets_acked = 0;     ///< of those, acknowledged (UDP, cable: all that were sent)
+  std::uint64_t packets_sent = 0;  ///< every transmission, polls and repetitions too
+  std::uint64_t packets_acked =
+      0;  ///< of those, acknowledged (cable: all; UDP: sent while the vehicle is heard)
   std::uint64_t radio_retries = 0;     ///< retransmissions by the dongle, where it tells
   std::uint64_t packets_received = 0;  ///< with content: null packets left out
   std::uint64_t duplicates = 0;        ///< downlink packets heard twice and dropped by safelink

@@ -150,7 +150,7 @@ bool UdpLink::transmit(std::span<const std::uint8_t> packet, HostTime now) {
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL) >= 0) {
       ++statistics_.packets_sent;
-      ++statistics_.packets_acked;
+      if (heard_at_) ++statistics_.packets_acked;  // UDP itself does not say
       return true;
     }
     if (errno != ECONNREFUSED) break;

@@ -34,6 +34,10 @@ std::string describe(const VehicleEvent& event) {
              "within seconds, and the map will be wrong; fly, or do not turn";
     case Kind::kBatteryLow:
       return "the vehicle's battery is low (" + value + " mV): land";
+    case Kind::kRangesFrozen:
+      return "none of the ranges has changed for two seconds: a range sensor hangs, and what is mapped now "
+             "is "
+             "wrong; land and restart the vehicle";
   }
   return {};
 }

@@ -19,8 +19,9 @@ struct VehicleEvent {
     kRefused,        ///< after a reconnection, it cannot be used (the session tries again)
     kNoMultiranger,
     kNoFlowDeck,
-    kYawTrap,     ///< it is carried or pushed with its motors off
-    kBatteryLow,  ///< value: millivolts
+    kYawTrap,       ///< it is carried or pushed with its motors off
+    kBatteryLow,    ///< value: millivolts
+    kRangesFrozen,  ///< in flight none of them has changed for seconds
   };
   Kind kind = Kind::kConnected;
   std::int32_t value = 0;

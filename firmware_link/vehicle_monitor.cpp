@@ -2,24 +2,31 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/vehicle_monitor.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace swiftlet {
 namespace {
 
-enum Variable : std::size_t { kBatteryMillivolts, kRssi, kSupervisor, kBatteryState };
-constexpr std::array<std::string_view, 4> kNames{"pm.vbatMV", "radio.rssi", "supervisor.info", "pm.state"};
+enum Variable : std::size_t { kBatteryMillivolts, kRssi, kSupervisor, kBatteryState, kFirstRange };
+constexpr std::array<std::string_view, 8> kNames{"pm.vbatMV",  "radio.rssi",  "supervisor.info",
+                                                 "pm.state",   "range.front", "range.left",
+                                                 "range.back", "range.right"};
 
 constexpr int kLowPower = 3;  // of pm.state
 // More than an estimate at rest wanders.
 constexpr double kCarriedM = 0.5;
 constexpr double kTurnedRad = 0.5;
+// Measured anew twenty times; a vehicle in flight never stands so still, and no sensor is so quiet.
+constexpr Duration kFrozen = std::chrono::seconds(2);
+constexpr int kOutOfReachMm = 4000;
 
 }  // namespace
 
 void VehicleMonitor::hear(const LogRecord& record) {
   const Slots& slots = slots_of(record);
-  const auto value = [&](Variable variable) -> std::optional<int> {
+  const auto value = [&](std::size_t variable) -> std::optional<int> {
     const std::optional<std::uint8_t> slot = slots[variable];
     if (!slot || *slot >= record.entry_count) return std::nullopt;
     return static_cast<int>(std::lround(record.value(*slot)));
@@ -29,6 +36,25 @@ void VehicleMonitor::hear(const LogRecord& record) {
   if (const auto info = value(kSupervisor))
     health_.is_flying = (static_cast<unsigned>(*info) & kSupervisorFlying) != 0;
   if (const auto state = value(kBatteryState)) health_.battery_is_low = *state == kLowPower;
+  Ranges ranges_mm{};
+  bool has_ranges = true;
+  for (std::size_t i = 0; i < ranges_mm.size(); ++i) {
+    const std::optional<int> range_mm = value(kFirstRange + i);
+    has_ranges = has_ranges && range_mm;
+    ranges_mm[i] = range_mm.value_or(0);
+  }
+  if (has_ranges) watch_ranges(ranges_mm, record.at);
+}
+
+void VehicleMonitor::watch_ranges(const Ranges& ranges_mm, DeviceTime at) {
+  const auto is_hit = [](int range_mm) { return range_mm > 0 && range_mm < kOutOfReachMm; };
+  const bool could_move = health_.is_flying.value_or(true) && std::ranges::any_of(ranges_mm, is_hit);
+  if (!could_move || ranges_mm != ranges_mm_ || !ranges_moved_at_) {
+    ranges_moved_at_ = at;
+    told_frozen_ = false;
+  }
+  ranges_mm_ = ranges_mm;
+  ranges_are_frozen_ = at - *ranges_moved_at_ >= kFrozen;
 }
 
 void VehicleMonitor::see(const Pose2& T_odom_body) {
@@ -51,13 +77,18 @@ std::optional<VehicleEvent> VehicleMonitor::take_event() {
     told_battery_ = true;
     return VehicleEvent{VehicleEvent::Kind::kBatteryLow, health_.battery_mv.value_or(0)};
   }
+  if (ranges_are_frozen_ && !told_frozen_) {
+    told_frozen_ = true;
+    return VehicleEvent{VehicleEvent::Kind::kRangesFrozen, 0};
+  }
   return std::nullopt;
 }
 
 void VehicleMonitor::restart() {
   health_ = {};
   T_odom_standing_.reset();
-  yaw_trap_ = told_yaw_trap_ = told_battery_ = false;
+  ranges_moved_at_.reset();
+  yaw_trap_ = told_yaw_trap_ = told_battery_ = ranges_are_frozen_ = told_frozen_ = false;
 }
 
 const VehicleMonitor::Slots& VehicleMonitor::slots_of(const LogRecord& record) {

@@ -109,11 +109,10 @@ class Listener {
 
  private:
   void tell_news() {
-    // A warning becomes a note of the report, too; the rest is of no interest to it.
-    while (const std::optional<VehicleEvent> event = source_.take_event())
-      if (!is_warning(*event)) tell("note", describe(*event));
     const InputReport& report = source_.report();
     for (; notes_ < report.notes.size(); ++notes_) tell("note", report.notes[notes_]);
+    while (const std::optional<VehicleEvent> event = source_.take_event()) tell("note", describe(*event));
+    notes_ = report.notes.size();  // a warning becomes a note of the report, too
     for (; problems_ < report.problems.size(); ++problems_) tell("problem", report.problems[problems_]);
   }
   static void tell(const char* kind, const std::string& text) {

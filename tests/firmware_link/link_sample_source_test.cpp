@@ -37,6 +37,17 @@ class FrameLink final : public Link {
   std::size_t next_ = 0;
 };
 
+/// The time of a scripted link, which must outlive it.
+class ScriptedClock final : public LinkClock {
+ public:
+  explicit ScriptedClock(const ScriptedLink& link) : link_(link) {}
+  HostTime now() override { return host_ms(link_.now_ms); }
+  void sleep_for(Duration /*duration*/) override {}
+
+ private:
+  const ScriptedLink& link_;
+};
+
 LinkInput input_of(std::vector<LinkFrame> frames, Error end = {ErrorCode::kEndOfRecording, "end"}) {
   LinkInput input;
   input.name = "flight.pcap";
@@ -193,6 +204,24 @@ TEST(LinkSampleSource, BringsALiveVehicleToSendSamples) {
   ASSERT_EQ(truth.size(), samples.size());
   EXPECT_EQ(truth[9].stamp, samples[9].stamp);
   EXPECT_NEAR(truth[9].pose.x_m(), to_seconds(samples[9].measured_at.time_since_epoch()), 1e-12);
+}
+
+TEST(LinkSampleSource, NotesEachKindOfWarningOnceHoweverLongTheFlight) {
+  auto link = std::make_unique<ScriptedLink>();
+  link->vehicle.variables = ScriptedVehicle::modern_variables();
+  link->reaches = [](std::int64_t ms) { return ms % 6000 < 3000; };
+  LinkInput input;
+  input.clock = std::make_shared<ScriptedClock>(*link);
+  input.link = std::move(link);
+  input.starts_logging = true;
+  LinkSampleSource source(std::move(input));
+  std::size_t stops = 0;
+  for (Result<RangeSample> sample = source.next(); sample || sample.error().code == ErrorCode::kTimeout;
+       sample = source.next())
+    while (const auto event = source.take_event())
+      if (event->kind == VehicleEvent::Kind::kDataStopped) ++stops;
+  EXPECT_GT(stops, 5U);
+  EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("no log data for a second")));
 }
 
 TEST(LinkSampleSource, PassesOnWhyAVehicleCannotBeUsed) {

@@ -15,7 +15,7 @@ TEST(VehicleEvent, SaysWhatAndWhatToDo) {
   EXPECT_THAT(describe({Kind::kConnected, 12}), HasSubstr("protocol 12"));
   EXPECT_THAT(describe({Kind::kNoMultiranger, 0}), HasSubstr("deck.bcMultiranger is 0"));
   EXPECT_THAT(describe({Kind::kBatteryLow, 3150}), HasSubstr("3150 mV"));
-  for (int kind = 0; kind <= static_cast<int>(Kind::kBatteryLow); ++kind)
+  for (int kind = 0; kind <= static_cast<int>(Kind::kRangesFrozen); ++kind)
     EXPECT_FALSE(describe({static_cast<Kind>(kind), 0}).empty());
 }
 

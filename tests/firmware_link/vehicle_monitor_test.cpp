@@ -53,6 +53,60 @@ TEST_F(VehicleMonitorTest, ReadsWhatTheLogSays) {
   EXPECT_FALSE(monitor_.health().battery_is_low);
 }
 
+/// Block 5: the ranges, beside block 1.
+class FrozenRangesTest : public VehicleMonitorTest {
+ protected:
+  FrozenRangesTest() {
+    std::uint16_t id = 4;
+    for (const char* name : {"front", "left", "back", "right"})
+      static_cast<void>(session_.hear(received(toc_item_reply(id++, LogType::kUint16, "range", name))));
+    static_cast<void>(session_.hear(sent(hex("5d 06 05 02 04 00 02 05 00 02 06 00 02 07 00"))));
+    static_cast<void>(session_.hear(received(hex("5d 06 05 00"))));
+  }
+  /// For that long, ten times a second; `front_step_mm` a packet.
+  bool warns_within(int duration_ms, std::uint16_t front_step_mm = 0) {
+    bool warned = false;
+    for (const int end_ms = now_ms_ + duration_ms; now_ms_ < end_ms; now_ms_ += 100) {
+      front_mm_ = static_cast<std::uint16_t>(front_mm_ + front_step_mm);
+      hear(LogPacket(5, static_cast<std::uint32_t>(now_ms_))
+               .u16(front_mm_)
+               .u16(32766)
+               .u16(back_mm_)
+               .u16(32766)
+               .bytes());
+      while (const auto event = monitor_.take_event())
+        warned = warned || event->kind == VehicleEvent::Kind::kRangesFrozen;
+    }
+    return warned;
+  }
+
+  std::uint16_t front_mm_ = 2000;
+  std::uint16_t back_mm_ = 1200;
+
+ private:
+  int now_ms_ = 1000;
+};
+
+TEST_F(FrozenRangesTest, AreToldOnceUntilTheyMoveAgain) {
+  hear_state(kFlying, 3800);
+  EXPECT_FALSE(warns_within(5000, 1));
+  EXPECT_FALSE(warns_within(1900));
+  EXPECT_TRUE(warns_within(500));
+  EXPECT_FALSE(warns_within(5000));
+  EXPECT_FALSE(warns_within(500, 1));
+  EXPECT_TRUE(warns_within(2500));
+}
+
+TEST_F(FrozenRangesTest, AreNoneOnTheGroundNorWhereThereIsNothingInReach) {
+  hear_state(0, 3800);
+  EXPECT_FALSE(warns_within(5000));
+  hear_state(kFlying, 3800);
+  EXPECT_FALSE(warns_within(1900));
+  front_mm_ = 32766;
+  back_mm_ = 0;
+  EXPECT_FALSE(warns_within(5000));
+}
+
 TEST_F(VehicleMonitorTest, WarnsOnceOfALowBattery) {
   hear_state(kFlying, 3150);
   hear(LogPacket(3, 100).u16(0x2D03).bytes());

@@ -129,6 +129,17 @@ def sigint_ends_a_wait_for_the_dongle(bench):
     expect(daemon.returncode == 2 and b"stopped by a signal" in said, f"{daemon.returncode}: {said.decode()}")
 
 
+def a_log_that_nobody_reads_any_more_costs_no_outputs(bench):
+    out = bench.folder / "out"
+    with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "20", "-o", str(out),
+                           "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
+        time.sleep(1.0)
+        daemon.stderr.close()
+        daemon.send_signal(signal.SIGINT)
+        expect(daemon.wait(timeout=60) == 0, f"exit code {daemon.returncode}")
+    expect((out / "map.pgm").stat().st_size > 0, "no map")
+
+
 def bad_input_gets_one_line_and_exit_code_2(bench):
     config = bench.folder / "bad.toml"
     config.write_text("[map]\nresolution_m = 0.05\nresolutoin_m = 0.1\n", encoding="utf-8")
