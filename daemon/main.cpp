@@ -162,8 +162,6 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
-  const SignalWatcher
-      signals;  // before any thread: the USB library has one of its own as soon as it is opened
   if (!options.output_directory.empty()) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);

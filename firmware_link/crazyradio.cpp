@@ -14,7 +14,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::uint16_t kOldestRelease = 0x0040;
 constexpr std::uint8_t kOut = 0x01;
 constexpr std::uint8_t kIn = 0x81;
 
@@ -47,44 +46,48 @@ std::string in_capitals(std::string text) {
 }
 
 /// An index, where the name is one and not a serial number.
-std::optional<std::size_t> index_in(const std::string& dongle) {
+std::optional<std::size_t> index_in(const std::string& name) {
   std::size_t index = 0;
-  const auto [end, error] = std::from_chars(dongle.data(), dongle.data() + dongle.size(), index);
-  const bool is_number = error == std::errc() && end == dongle.data() + dongle.size();
-  return is_number && dongle.size() < 10 ? std::optional(index) : std::nullopt;
-}
-
-std::vector<UsbIdentity> dongles_named(const std::string& dongle, std::vector<UsbIdentity> plugged_in) {
-  if (dongle == "*") return plugged_in;
-  if (const std::optional<std::size_t> index = index_in(dongle))
-    return *index < plugged_in.size() ? std::vector{plugged_in[*index]} : std::vector<UsbIdentity>{};
-  std::erase_if(plugged_in, [wanted = in_capitals(dongle)](const UsbIdentity& identity) {
-    return in_capitals(identity.serial) != wanted;
-  });
-  return plugged_in;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  return is_number && name.size() < 10 ? std::optional(index) : std::nullopt;
 }
 
 using Opened = std::variant<std::unique_ptr<UsbDevice>, UsbOutcome>;
 
+Opened open_dongle(UsbBus& bus, const UsbIdentity& identity) {
+  // Permission may come this very moment, but then this may be another dongle than the one asked for.
+  if (identity.access == UsbOutcome::kAccessDenied) return identity.access;
+  if (identity.release_bcd < kOldestCrazyradioRelease) return UsbOutcome::kFault;
+  return bus.open(identity, 0);
+}
+
 /// The first of those named that can be opened, else why the first cannot.
-Opened open_dongle(UsbBus& bus, const std::string& dongle) {
-  const std::vector<UsbIdentity> plugged_in = bus.list(kCrazyradioVendor, kCrazyradioProduct);
+Opened open_dongle(UsbBus& bus, const std::string& name) {
   UsbOutcome failure = UsbOutcome::kDone;
-  for (const UsbIdentity& identity : dongles_named(dongle, plugged_in)) {
-    Opened opened =
-        identity.release_bcd < kOldestRelease ? Opened(UsbOutcome::kFault) : bus.open(identity, 0);
+  for (const UsbIdentity& identity : dongles_named(name, bus.list(kCrazyradioVendor, kCrazyradioProduct))) {
+    Opened opened = open_dongle(bus, identity);
     if (opened.index() == 0) return opened;
     if (failure == UsbOutcome::kDone) failure = std::get<UsbOutcome>(opened);
   }
-  if (failure != UsbOutcome::kDone) return failure;
-  const bool may_be_hidden =
-      !index_in(dongle) && std::ranges::any_of(plugged_in, [](const UsbIdentity& other) {
-        return other.access == UsbOutcome::kAccessDenied;
-      });
-  return may_be_hidden ? UsbOutcome::kAccessDenied : UsbOutcome::kNoDevice;
+  return failure == UsbOutcome::kDone ? UsbOutcome::kNoDevice : failure;
 }
 
 }  // namespace
+
+std::vector<UsbIdentity> dongles_named(const std::string& name, std::vector<UsbIdentity> plugged_in) {
+  if (name == "*") return plugged_in;
+  if (const std::optional<std::size_t> index = index_in(name))
+    return *index < plugged_in.size() ? std::vector{plugged_in[*index]} : std::vector<UsbIdentity>{};
+  const auto has_name = [wanted = in_capitals(name)](const UsbIdentity& identity) {
+    return in_capitals(identity.serial) == wanted;
+  };
+  const bool is_there = std::ranges::any_of(plugged_in, has_name);
+  std::erase_if(plugged_in, [&](const UsbIdentity& identity) {
+    return is_there ? !has_name(identity) : identity.access != UsbOutcome::kAccessDenied;
+  });
+  return plugged_in;
+}
 
 std::variant<Crazyradio, UsbOutcome> Crazyradio::open(UsbBus& bus, const RadioAddress& address) {
   Opened opened = open_dongle(bus, address.dongle);

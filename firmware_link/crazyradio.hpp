@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/base/fixed_vector.hpp"
 #include "firmware_link/radio_address.hpp"
@@ -19,7 +20,14 @@ namespace swiftlet {
 
 inline constexpr std::uint16_t kCrazyradioVendor = 0x1915;
 inline constexpr std::uint16_t kCrazyradioProduct = 0x7777;
+/// As bcdDevice counts: 0.40, the first that knows the requests.
+inline constexpr std::uint16_t kOldestCrazyradioRelease = 0x0040;
 inline constexpr std::size_t kMaxRadioPayload = 32;
+
+/// Those that a RadioAddress may mean by `name`: an index, a serial number, "*" for all. Where nobody has
+/// that serial number, those that may not be asked for theirs.
+[[nodiscard]] std::vector<UsbIdentity> dongles_named(const std::string& name,
+                                                     std::vector<UsbIdentity> plugged_in);
 
 /// What became of one packet.
 struct RadioAnswer {

@@ -8,36 +8,16 @@
 #include <string>
 
 #include "firmware_link/byte_order.hpp"
+#include "firmware_link/simulated_toc.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr std::size_t kMaxBlocks = 16;
 constexpr std::size_t kMaxEntries = 128;
-constexpr std::size_t kMaxBlockBytes = 26;
 constexpr std::size_t kEntryBytes = 3;  // type, id of the variable
 
-constexpr std::uint8_t kTableReply = 0x50;
 constexpr std::uint8_t kDataHeader = 0x52;
-
-enum TableCommand : std::uint8_t { kItem = 2, kInfo = 3 };
-enum ControlCommand : std::uint8_t {
-  kDelete = 2,
-  kStart = 3,
-  kStop = 4,
-  kReset = 5,
-  kCreate = 6,
-  kAppend = 7,
-  kStartMilliseconds = 8
-};
-enum Errno : std::uint8_t {
-  kOk = 0,
-  kNoEntry = 2,
-  kTooBig = 7,
-  kNoSuchCommand = 8,
-  kNoMemory = 12,
-  kExists = 17
-};
 
 /// IEEE 754 half precision, rounded to nearest, ties to even.
 std::uint16_t half_bits(float value) {
@@ -73,33 +53,21 @@ void put_value(PacketBytes& packet, double value, LogType fetch_type) {
 }
 
 PacketBytes table_info() {
-  PacketBytes reply;
-  put(reply, kTableReply);
-  put(reply, kInfo);
-  put_little_endian(reply, simulated_log_table().size(), 2);
-  put_little_endian(reply, simulated_log_table_crc(), 4);
+  PacketBytes reply =
+      simulated_toc_info(kLogTocTopic, simulated_log_table().size(), simulated_log_table_crc());
   put(reply, kMaxBlocks);
   put(reply, kMaxEntries);
   return reply;
 }
 
-PacketBytes table_item(std::uint16_t id) {
-  PacketBytes reply;
-  put(reply, kTableReply);
-  put(reply, kItem);
-  if (id >= simulated_log_table().size()) return reply;
-  const LogVariable& variable = simulated_log_table()[id];
-  put_little_endian(reply, id, 2);
-  put(reply, static_cast<std::uint8_t>(variable.type));
-  put_text(reply, variable.group);
-  put_text(reply, variable.name);
-  return reply;
-}
-
 std::optional<PacketBytes> answer_table(std::span<const std::uint8_t> packet) {
-  if (packet.size() >= 2 && packet[1] == kInfo) return table_info();
-  if (packet.size() >= 4 && packet[1] == kItem) return table_item(load_u16(packet, 2));
-  return std::nullopt;  // the 8-bit commands left the firmware with protocol version 12
+  if (asks_for_toc_info(packet)) return table_info();
+  const std::optional<std::uint16_t> id = wanted_toc_item(packet);
+  if (!id) return std::nullopt;  // the 8-bit commands left the firmware with protocol version 12
+  if (*id >= simulated_log_table().size()) return simulated_toc_end(kLogTocTopic);
+  const LogVariable& variable = simulated_log_table()[*id];
+  return simulated_toc_item(kLogTocTopic, *id, static_cast<std::uint8_t>(variable.type), variable.group,
+                            variable.name);
 }
 
 }  // namespace
@@ -118,81 +86,81 @@ std::optional<PacketBytes> SimulatedLog::handle(std::span<const std::uint8_t> pa
   put(reply, packet[0]);  // the firmware answers in the request's buffer, link bits included
   put(reply, packet[1]);
   put(reply, packet.size() > 2 ? packet[2] : std::uint8_t{0});
-  put(reply, control(packet, now));
+  put(reply, static_cast<std::uint8_t>(control(packet, now)));
   return reply;
 }
 
-std::uint8_t SimulatedLog::control(std::span<const std::uint8_t> packet, Milliseconds now) {
-  const std::uint8_t command = packet[1];
-  if (command == kReset) {
+LogError SimulatedLog::control(std::span<const std::uint8_t> packet, Milliseconds now) {
+  const auto command = static_cast<LogCommand>(packet[1]);
+  if (command == LogCommand::kReset) {
     clear();
-    return kOk;
+    return LogError::kNone;
   }
-  const bool is_known = command >= kDelete && command <= kStartMilliseconds;
-  const std::size_t needed = command == kStart ? 4 : command == kStartMilliseconds ? 5 : 3;
-  if (!is_known || packet.size() < needed) return kNoSuchCommand;
+  const bool is_known = command >= LogCommand::kDelete && command <= LogCommand::kStartV2;
+  const std::size_t needed = command == LogCommand::kStart ? 4 : command == LogCommand::kStartV2 ? 5 : 3;
+  if (!is_known || packet.size() < needed) return LogError::kUnknownCommand;
   const std::uint8_t id = packet[2];
   switch (command) {
-    case kDelete:
-      return blocks_.erase(id) > 0 ? kOk : kNoEntry;
-    case kStart:
+    case LogCommand::kDelete:
+      return blocks_.erase(id) > 0 ? LogError::kNone : LogError::kUnknown;
+    case LogCommand::kStart:
       return start(id, Milliseconds(10 * packet[3]), now);
-    case kStop:
+    case LogCommand::kStop:
       return stop(id);
-    case kCreate:
+    case LogCommand::kCreate:
       return create(id, packet.subspan(3));
-    case kAppend:
+    case LogCommand::kAppend:
       return append(id, packet.subspan(3));
     default:
       return start(id, Milliseconds(load_u16(packet, 3)), now);
   }
 }
 
-std::uint8_t SimulatedLog::create(std::uint8_t id, std::span<const std::uint8_t> entries) {
-  if (blocks_.contains(id)) return kExists;
-  if (blocks_.size() == kMaxBlocks) return kNoMemory;
+LogError SimulatedLog::create(std::uint8_t id, std::span<const std::uint8_t> entries) {
+  if (blocks_.contains(id)) return LogError::kExists;
+  if (blocks_.size() == kMaxBlocks) return LogError::kNoRoom;
   blocks_.emplace(id, Block{.entries = {}, .jitter = NoiseSource(seed_, "log_jitter/" + std::to_string(id))});
   return append(id, entries);
 }
 
 /// Not atomic, like the firmware's: entries before the one that fails stay in the block.
-std::uint8_t SimulatedLog::append(std::uint8_t id, std::span<const std::uint8_t> entries) {
+LogError SimulatedLog::append(std::uint8_t id, std::span<const std::uint8_t> entries) {
   const auto found = blocks_.find(id);
-  if (found == blocks_.end()) return kNoEntry;
+  if (found == blocks_.end()) return LogError::kUnknown;
   std::vector<Entry>& present = found->second.entries;
   for (; entries.size() >= kEntryBytes; entries = entries.subspan(kEntryBytes)) {
     const Entry entry{static_cast<LogType>(entries[0] & 0x0FU), load_u16(entries, 1)};
     std::size_t bytes = log_type_size(entry.fetch_type);
     for (const Entry& other : present) bytes += log_type_size(other.fetch_type);
-    if (bytes > kMaxBlockBytes) return kTooBig;
-    if (entries_in_use() == kMaxEntries) return kNoMemory;
+    if (bytes > kMaxLogBytes) return LogError::kTooBig;
+    if (entries_in_use() == kMaxEntries) return LogError::kNoRoom;
     const bool is_known =
         entry.variable < simulated_log_table().size() && log_type_size(entry.fetch_type) > 0;
-    if (!is_known) return kNoEntry;
+    if (!is_known) return LogError::kUnknown;
     present.push_back(entry);
   }
-  return kOk;
+  return LogError::kNone;
 }
 
-std::uint8_t SimulatedLog::start(std::uint8_t id, Milliseconds period, Milliseconds now) {
+LogError SimulatedLog::start(std::uint8_t id, Milliseconds period, Milliseconds now) {
   const auto found = blocks_.find(id);
-  if (found == blocks_.end()) return kNoEntry;
+  if (found == blocks_.end()) return LogError::kUnknown;
   Block& block = found->second;
   if (period.count() == 0) {
     block.one_shot_due = true;
-    return kOk;
+    return LogError::kNone;
   }
   block.period = period;
   block.beat = now + period;  // the first packet comes one period after the start
   block.schedule_after(now);
-  return kOk;
+  return LogError::kNone;
 }
 
-std::uint8_t SimulatedLog::stop(std::uint8_t id) {
+LogError SimulatedLog::stop(std::uint8_t id) {
   const auto found = blocks_.find(id);
-  if (found == blocks_.end()) return kNoEntry;
+  if (found == blocks_.end()) return LogError::kUnknown;
   found->second.period = Milliseconds(0);
-  return kOk;
+  return LogError::kNone;
 }
 
 void SimulatedLog::Block::schedule_after(Milliseconds now) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/time.hpp"
+#include "firmware_link/crtp_packet.hpp"
 #include "firmware_link/simulated_log_table.hpp"
 #include "firmware_link/simulated_packet.hpp"
 #include "firmware_link/simulated_random.hpp"
@@ -51,11 +52,11 @@ class SimulatedLog {
     void schedule_after(Milliseconds now);
   };
 
-  [[nodiscard]] std::uint8_t control(std::span<const std::uint8_t> packet, Milliseconds now);
-  [[nodiscard]] std::uint8_t create(std::uint8_t id, std::span<const std::uint8_t> entries);
-  [[nodiscard]] std::uint8_t append(std::uint8_t id, std::span<const std::uint8_t> entries);
-  [[nodiscard]] std::uint8_t start(std::uint8_t id, Milliseconds period, Milliseconds now);
-  [[nodiscard]] std::uint8_t stop(std::uint8_t id);
+  [[nodiscard]] LogError control(std::span<const std::uint8_t> packet, Milliseconds now);
+  [[nodiscard]] LogError create(std::uint8_t id, std::span<const std::uint8_t> entries);
+  [[nodiscard]] LogError append(std::uint8_t id, std::span<const std::uint8_t> entries);
+  [[nodiscard]] LogError start(std::uint8_t id, Milliseconds period, Milliseconds now);
+  [[nodiscard]] LogError stop(std::uint8_t id);
   [[nodiscard]] static PacketBytes data_packet(std::uint8_t id, const Block& block, Milliseconds now,
                                                const VehicleState& state);
   [[nodiscard]] std::size_t entries_in_use() const;

@@ -7,16 +7,15 @@
 #include <string>
 
 #include "firmware_link/byte_order.hpp"
+#include "firmware_link/simulated_toc.hpp"
 
 namespace swiftlet {
 namespace {
 
 // Headers that the firmware builds anew have their link bits 0; other answers keep those of the request.
-constexpr std::uint8_t kTableHeader = 0x20;
 constexpr std::uint8_t kMiscHeader = 0x23;
 
 enum Channel : std::uint8_t { kTable = 0, kRead = 1, kWrite = 2, kMisc = 3 };
-enum TableCommand : std::uint8_t { kItem = 2, kInfo = 3 };
 enum MiscCommand : std::uint8_t {
   kSetByName = 0,
   kValueUpdated = 1,
@@ -111,24 +110,14 @@ std::optional<PacketBytes> SimulatedParams::handle(std::span<const std::uint8_t>
 }
 
 std::optional<PacketBytes> SimulatedParams::answer_table(std::span<const std::uint8_t> packet) const {
-  const bool is_info = packet.size() >= 2 && packet[1] == kInfo;
-  const bool is_item = packet.size() >= 4 && packet[1] == kItem;
-  if (!is_info && !is_item) return std::nullopt;  // the 8-bit commands left the firmware long ago
-  PacketBytes reply;
-  put(reply, kTableHeader);
-  put(reply, packet[1]);
-  if (is_info) {
-    put_little_endian(reply, values_.size(), 2);
-    put_little_endian(reply, simulated_param_table_crc(), 4);
-    return reply;
-  }
-  const std::uint16_t id = load_u16(packet, 2);
-  if (!exists(id)) return reply;
-  put_little_endian(reply, id, 2);
-  put(reply, static_cast<std::uint8_t>(static_cast<unsigned>(description(id).type) | description(id).flags));
-  put_text(reply, description(id).group);
-  put_text(reply, description(id).name);
-  return reply;
+  if (asks_for_toc_info(packet))
+    return simulated_toc_info(kParamTocTopic, values_.size(), simulated_param_table_crc());
+  const std::optional<std::uint16_t> id = wanted_toc_item(packet);
+  if (!id) return std::nullopt;  // the 8-bit commands left the firmware long ago
+  if (!exists(*id)) return simulated_toc_end(kParamTocTopic);
+  const ParamDescription& param = description(*id);
+  const auto type = static_cast<std::uint8_t>(static_cast<unsigned>(param.type) | param.flags);
+  return simulated_toc_item(kParamTocTopic, *id, type, param.group, param.name);
 }
 
 std::optional<PacketBytes> SimulatedParams::read(std::span<const std::uint8_t> packet) const {

@@ -91,7 +91,7 @@ void SimulatedUdpServer::serve() {
 void SimulatedUdpServer::live_on() {
   for (const SentPacket& sent : vehicle_.advance(vehicle_began_at_ + (clock_.now() - began_at_)))
     if (peer_) send(sent.bytes, *peer_);
-  if (peer_ && clock_.now() - peer_heard_at_ > kRadioLinkTimeout) peer_.reset();
+  if (peer_ && vehicle_.now() - peer_heard_at_ > kRadioLinkTimeout) peer_.reset();
 }
 
 void SimulatedUdpServer::hear() {
@@ -124,7 +124,7 @@ void SimulatedUdpServer::remember(const sockaddr_in& from, bool is_null_packet) 
     peer_ = from;
     peer_is_client_ = false;
   }
-  peer_heard_at_ = clock_.now();
+  peer_heard_at_ = vehicle_.now();
   if (!is_null_packet) peer_is_client_ = true;
 }
 

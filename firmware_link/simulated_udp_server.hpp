@@ -81,7 +81,7 @@ class SimulatedUdpServer {
   DeviceTime vehicle_began_at_;
   HostTime silent_until_{};
   std::optional<sockaddr_in> peer_;
-  HostTime peer_heard_at_{};
+  DeviceTime peer_heard_at_{};  ///< by the vehicle's time, as its own time-out
   bool peer_is_client_ = false;
   std::deque<Flying> flying_;
 };

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "firmware_link/crtp_packet.hpp"
 #include "firmware_link/link_condition.hpp"
@@ -35,6 +34,14 @@ constexpr Duration kSilence = std::chrono::seconds(1);
 constexpr int kMostFailuresInARow = 10;
 
 }  // namespace
+
+std::vector<UsbIdentity> vehicles_on_cables(UsbBus& bus) {
+  std::vector<UsbIdentity> vehicles = bus.list(kVendor, kProduct);
+  std::erase_if(vehicles, [](const UsbIdentity& identity) {
+    return identity.access == UsbOutcome::kDone && identity.manufacturer != kManufacturer;
+  });
+  return vehicles;
+}
 
 UsbCableLink::UsbCableLink(UsbBus& bus, LinkClock& clock, int index)
     : bus_(bus), clock_(clock), index_(index), heard_at_(clock.now()) {
@@ -73,11 +80,7 @@ void UsbCableLink::open(HostTime now) {
 }
 
 UsbOutcome UsbCableLink::open_vehicle() {
-  std::vector<UsbIdentity> vehicles = bus_.list(kVendor, kProduct);
-  std::erase_if(vehicles, [](const UsbIdentity& identity) {
-    // Whose texts may not be read may be one: that is what the user is to be told.
-    return identity.access == UsbOutcome::kDone && identity.manufacturer != kManufacturer;
-  });
+  const std::vector<UsbIdentity> vehicles = vehicles_on_cables(bus_);
   if (index_ < 0 || std::cmp_greater_equal(index_, vehicles.size())) return UsbOutcome::kNoDevice;
   const UsbIdentity& chosen = vehicles[static_cast<std::size_t>(index_)];
   if (chosen.access != UsbOutcome::kDone) return chosen.access;

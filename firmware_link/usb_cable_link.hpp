@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
@@ -18,6 +19,10 @@
 #include "firmware_link/usb_device.hpp"
 
 namespace swiftlet {
+
+/// The vehicles on cables, in the order of their indices; among them devices with the same numbers that may
+/// not be asked for their maker.
+[[nodiscard]] std::vector<UsbIdentity> vehicles_on_cables(UsbBus& bus);
 
 /// A vehicle on its own USB cable: each transfer is a packet, nothing is lost, nothing is polled. While the
 /// link has it, the vehicle does not answer by radio; the destructor gives it back. Hands back what it sent

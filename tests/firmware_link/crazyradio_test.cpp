@@ -146,6 +146,19 @@ TEST_F(CrazyradioTest, ThatMayNotTellItsSerialNumberIsNotMissing) {
   EXPECT_EQ(failure(), UsbOutcome::kNoDevice);
 }
 
+TEST_F(CrazyradioTest, ThatMayBeAnotherThanTheOneAskedForIsNotOpened) {
+  dongle_.plugged_in[0].serial.clear();
+  dongle_.plugged_in[0].access = UsbOutcome::kAccessDenied;  // as it was listed; opening it would work by now
+  plug_in("0123456789");
+  dongle_.plugged_in[1].access = UsbOutcome::kDone;
+  address_.dongle = "A1B2C3D4E5";
+  EXPECT_EQ(failure(), UsbOutcome::kAccessDenied);
+  EXPECT_TRUE(dongle_.opened.empty());
+  address_.dongle = "0123456789";
+  EXPECT_EQ(failure(), UsbOutcome::kDone);
+  EXPECT_EQ(dongle_.opened, std::vector<std::size_t>{1});
+}
+
 TEST_F(CrazyradioTest, TellsWhatBecameOfAPacket) {
   Crazyradio radio = open();
   dongle_.vehicle.waiting.push_back({0x52, 1, 0x8E, 0x11, 0});

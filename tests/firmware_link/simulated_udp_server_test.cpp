@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/firmware_link/manual_link_clock.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -21,15 +23,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-class ManualClock final : public LinkClock {
- public:
-  [[nodiscard]] HostTime now() override { return now_; }
-  void sleep_for(Duration duration) override { now_ += duration; }
-
- private:
-  HostTime now_{seconds(1000)};
-};
 
 class Client {
  public:
@@ -86,7 +79,7 @@ class UdpServer : public testing::Test {
     EXPECT_THAT(ask(client, {0x5D, 3, 1, 10}), ElementsAre(Bytes{0x5D, 3, 1, 0}));
   }
 
-  ManualClock clock_;
+  ManualLinkClock clock_;
   SimulatedVehicle vehicle_{make_simulated_world("loop").value(), on_air(), 1};
   std::unique_ptr<SimulatedUdpServer> server_;
   Client client_{server_->address()};
@@ -129,6 +122,16 @@ TEST_F(UdpServer, ForgetsAClientThatWentAndWelcomesTheNext) {
   start_logging(next);
   pass(milliseconds(500));
   EXPECT_THAT(next.received(), SizeIs(testing::Ge(4U)));
+}
+
+TEST_F(UdpServer, ForgetsAClientNoEarlierThanTheVehicleItsBlocks) {
+  clock_.sleep_for(std::chrono::microseconds(500));
+  start_logging(client_);
+  pass(milliseconds(998));
+  for (int i = 0; i < 40 && server_->client(); ++i) pass(std::chrono::microseconds(100));
+  EXPECT_EQ(server_->client(), std::nullopt);
+  const Client next(server_->address());
+  EXPECT_THAT(ask(next, {0x5D, 3, 1, 10}), ElementsAre(Bytes{0x5D, 3, 1, 2})) << "the block is gone";
 }
 
 TEST_F(UdpServer, LetsNoScanTakeTheStreamAway) {

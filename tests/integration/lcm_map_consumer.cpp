@@ -25,8 +25,9 @@ namespace {
 class MapConsumer {
  public:
   explicit MapConsumer(lcm::LCM& lcm) {
-    lcm.subscribe("SWIFTLET_MAP_TILE", &MapConsumer::take_tile, this);
-    lcm.subscribe("SWIFTLET_STATUS", &MapConsumer::take_status, this);
+    // By functions, not by methods: GCC 12's sanitizer takes LCM's calls of those for wild ones.
+    lcm.subscribeFunction("SWIFTLET_MAP_TILE", take_tile, this);
+    lcm.subscribeFunction("SWIFTLET_STATUS", take_status, this);
   }
 
   /// The daemon has finished and every tile is here at its newest.
@@ -63,20 +64,24 @@ class MapConsumer {
     return std::any_of(cells.begin(), cells.end(), [](std::int8_t percent) { return percent >= 0; });
   }
 
-  void take_tile(const lcm::ReceiveBuffer*, const std::string&, const map_tile_t* message) {
-    if (message->map_id != map_id_) tiles_.clear();
-    map_id_ = message->map_id;
-    resolution_m_ = message->resolution;
-    MapTile tile{.index = {message->tile_x, message->tile_y},
-                 .version = static_cast<std::uint32_t>(message->version)};
-    std::memcpy(tile.occupancy_percent.data(), message->occupancy_percent,
-                sizeof(message->occupancy_percent));
-    MapTile& kept = tiles_.try_emplace(tile.index, tile).first->second;
-    if (tile.version >= kept.version) kept = tile;
+  static void take_tile(const lcm::ReceiveBuffer*, const std::string&, const map_tile_t* message,
+                        MapConsumer* self) {
+    self->take(*message);
+  }
+  static void take_status(const lcm::ReceiveBuffer*, const std::string&, const status_t* message,
+                          MapConsumer* self) {
+    self->status_ = *message;
   }
 
-  void take_status(const lcm::ReceiveBuffer*, const std::string&, const status_t* message) {
-    status_ = *message;
+  void take(const map_tile_t& message) {
+    if (message.map_id != map_id_) tiles_.clear();
+    map_id_ = message.map_id;
+    resolution_m_ = message.resolution;
+    MapTile tile{.index = {message.tile_x, message.tile_y},
+                 .version = static_cast<std::uint32_t>(message.version)};
+    std::memcpy(tile.occupancy_percent.data(), message.occupancy_percent, sizeof(message.occupancy_percent));
+    MapTile& kept = tiles_.try_emplace(tile.index, tile).first->second;
+    if (tile.version >= kept.version) kept = tile;
   }
 };
 

@@ -15,35 +15,7 @@ import tempfile
 import time
 from pathlib import Path
 
-PATIENCE_S = 20.0
-
-
-class Failed(Exception):
-    """The daemon did something else than it should."""
-
-
-def expect(condition, why):
-    if not condition:
-        raise Failed(why)
-
-
-class Vehicle:
-    """`swiftlet sim`."""
-
-    def __init__(self, swiftlet, *options, port=0):
-        self.process = subprocess.Popen([swiftlet, "sim", "--world", "loop", "--udp", f"127.0.0.1:{port}", *options],
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        first = self.process.stdout.readline()
-        expect(first.startswith("listening on udp://127.0.0.1:"), f"no port announced: {first!r}")
-        self.port = int(first.split(",")[0].rsplit(":", 1)[1])
-
-    def instruct(self, line):
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-
-    def end(self):
-        self.process.terminate()
-        self.process.communicate(timeout=PATIENCE_S)
+from simulation import PATIENCE_S, Failed, Simulation, expect
 
 
 class Flight:
@@ -92,7 +64,7 @@ class Bench:
         self.swiftletd, self.swiftlet, self.folder = swiftletd, swiftlet, Path(folder)
 
     def vehicle(self, *options, port=0):
-        return Vehicle(self.swiftlet, *options, port=port)
+        return Simulation(self.swiftlet, "--world", "loop", *options, port=port)
 
     def flight(self, port):
         return Flight(self, port)
@@ -119,7 +91,7 @@ def a_silence_of_three_seconds_is_one_gap_and_the_map_is_kept(bench):
     flight = bench.flight(vehicle.port)
     flight.wait_for("connected to the vehicle")
     time.sleep(3.0)
-    vehicle.instruct("silence 3")
+    vehicle.type("silence 3")
     flight.wait_for("no log data for a second")
     flight.wait_for("connected to the vehicle", times=2)
     time.sleep(3.0)
@@ -135,7 +107,7 @@ def a_reboot_is_one_gap_and_the_map_is_kept(bench):
     flight = bench.flight(vehicle.port)
     flight.wait_for("connected to the vehicle")
     time.sleep(3.0)
-    vehicle.instruct("reboot")
+    vehicle.type("reboot")
     flight.wait_for("the vehicle has rebooted")
     time.sleep(2.0)
     report, stamps = flight.land()

@@ -14,49 +14,13 @@ import subprocess
 import sys
 import time
 
+from simulation import Failed, Simulation, expect
+
 PATIENCE_S = 2.0  # a real client would wait for ever
 PARAM, MEMORY, LOG, SUPERVISOR, PLATFORM, LINK = 2, 4, 5, 9, 13, 15
 LOG_TYPES = {1: "<B", 2: "<H", 3: "<L", 4: "<b", 5: "<h", 6: "<i", 7: "<f"}
 PARAM_TYPES = {0: "<b", 1: "<h", 2: "<i", 3: "<q", 6: "<f", 7: "<d", 8: "<B", 9: "<H", 10: "<L", 11: "<Q"}
 ENOENT = 2
-
-
-class Failed(Exception):
-    """The simulated vehicle did something else than a vehicle would."""
-
-
-def expect(condition, why):
-    if not condition:
-        raise Failed(why)
-
-
-class Simulation:
-    """`swiftlet sim` on a free port."""
-
-    def __init__(self, swiftlet, *options):
-        self.process = subprocess.Popen([swiftlet, "sim", "--udp", "127.0.0.1:0", *options], stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        first = self.process.stdout.readline()
-        expect(first.startswith("listening on udp://127.0.0.1:"), f"no port announced: {first!r}")
-        self.port = int(first.split(",")[0].rsplit(":", 1)[1])
-
-    def instruct(self, line):
-        """Types a line; comes back when it is done."""
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-        self.wait_for("done: " + line)
-
-    def wait_for(self, notice):
-        for line in self.process.stdout:
-            if line.startswith(notice):
-                return line.strip()
-        raise Failed(f"ended before it said {notice!r}")
-
-    def end(self):
-        if self.process.poll() is None:
-            self.process.terminate()
-        self.process.communicate(timeout=PATIENCE_S)
-        return self.process.returncode
 
 
 class Client:

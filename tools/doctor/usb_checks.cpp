@@ -4,27 +4,22 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <variant>
 
 #include "firmware_link/crazyradio.hpp"
+#include "firmware_link/usb_cable_link.hpp"
 #include "tools/doctor/device_holder.hpp"
 
 namespace swiftlet {
 namespace {
 
-struct DeviceNumbers {
-  std::uint16_t vendor, product;
-};
-constexpr DeviceNumbers kCrazyradioBootLoader{0x1915, 0x0101};
-constexpr DeviceNumbers kVehicle{0x0483, 0x5740};  // ST's number for any serial port: the maker decides
+constexpr std::uint16_t kCrazyradioBootLoader = 0x0101;
 
 // Of Crazyradio PA, which counts in the low byte: 0x0053 is 0.53. Crazyradio 2.0 counts in both: 0x0504
 // is 5.4.
-constexpr std::uint16_t kOldestUsable = 0x0040;
 constexpr std::uint16_t kNewestOfPa = 0x0053;
 constexpr std::uint16_t kFirstOfRadio2 = 0x0300;
 constexpr std::uint16_t kAdvisedOfRadio2 = 0x0504;
@@ -91,33 +86,14 @@ Finding no_such_dongle(const PluggedIn& plugged_in, const RadioAddress& radio) {
 }  // namespace
 
 PluggedIn look_at_bus(UsbBus& bus) {
-  PluggedIn plugged_in{.dongles = bus.list(kCrazyradioVendor, kCrazyradioProduct),
-                       .boot_loaders = bus.list(kCrazyradioBootLoader.vendor, kCrazyradioBootLoader.product),
-                       .vehicles = bus.list(kVehicle.vendor, kVehicle.product)};
-  // A maker that cannot be read may be the right one; another one is not.
-  std::erase_if(plugged_in.vehicles, [](const UsbIdentity& device) {
-    return device.access == UsbOutcome::kDone && !device.manufacturer.starts_with("Bitcraze");
-  });
-  return plugged_in;
+  return {.dongles = bus.list(kCrazyradioVendor, kCrazyradioProduct),
+          .boot_loaders = bus.list(kCrazyradioVendor, kCrazyradioBootLoader),
+          .vehicles = vehicles_on_cables(bus)};
 }
 
 std::optional<UsbIdentity> named_dongle(const PluggedIn& plugged_in, const RadioAddress& radio) {
-  const std::vector<UsbIdentity>& dongles = plugged_in.dongles;
-  if (radio.dongle == "*") return dongles.empty() ? std::nullopt : std::optional(dongles.front());
-  std::size_t index = 0;
-  const char* end = radio.dongle.data() + radio.dongle.size();
-  const auto [stop, error] = std::from_chars(radio.dongle.data(), end, index);
-  if (radio.dongle.size() < 10 && error == std::errc{} && stop == end)
-    return index < dongles.size() ? std::optional(dongles[index]) : std::nullopt;
-  const auto found = std::find_if(dongles.begin(), dongles.end(), [&radio](const UsbIdentity& dongle) {
-    return dongle.serial == radio.dongle;
-  });
-  if (found != dongles.end()) return *found;
-  // A serial number that may not be read may be the one.
-  const auto hidden = std::find_if(dongles.begin(), dongles.end(), [](const UsbIdentity& dongle) {
-    return dongle.access == UsbOutcome::kAccessDenied;
-  });
-  return hidden == dongles.end() ? std::nullopt : std::optional(*hidden);
+  const std::vector<UsbIdentity> named = dongles_named(radio.dongle, plugged_in.dongles);
+  return named.empty() ? std::nullopt : std::optional(named.front());
 }
 
 std::optional<UsbIdentity> named_vehicle(const PluggedIn& plugged_in, int index) {
@@ -145,7 +121,7 @@ Finding check_dongle(const PluggedIn& plugged_in, const RadioAddress& radio, con
 Finding check_dongle_firmware(const UsbIdentity& dongle) {
   const std::uint16_t release = dongle.release_bcd;
   const std::string version = version_text(release);
-  if (release < kOldestUsable)
+  if (release < kOldestCrazyradioRelease)
     return {Mark::kProblem, "dongle firmware", version + " cannot do what swiftlet needs",
             "update the dongle to " + version_text(kNewestOfPa)};
   const bool is_old_pa = !is_radio2(dongle) && release < kNewestOfPa;

@@ -56,6 +56,7 @@ TEST_F(UsbChecks, ADongleIsFoundByIndexBySerialNumberOrAnyhow) {
   EXPECT_THAT(dongle("0").found, HasSubstr("Crazyradio PA"));
   EXPECT_THAT(dongle("1").found, HasSubstr("Crazyradio 2.0"));
   EXPECT_THAT(dongle("A1B2C3D4E5F60718").found, HasSubstr("Crazyradio 2.0"));
+  EXPECT_THAT(dongle("a1b2c3d4e5f60718").found, HasSubstr("Crazyradio 2.0"));
   EXPECT_THAT(dongle("*").found, HasSubstr("Crazyradio PA"));
 }
 
