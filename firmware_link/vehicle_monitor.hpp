@@ -34,7 +34,7 @@ class VehicleMonitor {
   void restart();
 
  private:
-  static constexpr std::size_t kVariables = 4;
+  static constexpr std::size_t kVariables = 6;
   using Slots = std::array<std::optional<std::uint8_t>, kVariables>;
   const Slots& slots_of(const LogRecord& record);
 
