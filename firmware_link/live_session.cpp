@@ -102,7 +102,9 @@ std::optional<VehicleEvent> LiveSession::take_event() {
 
 std::string LiveSession::vehicle_text() const {
   if (!inventory_.finished()) return {};
-  return inventory_.device_type() + ", firmware " + inventory_.firmware();
+  const std::string& type = inventory_.device_type();
+  const std::string& firmware = inventory_.firmware();
+  return (type.empty() ? "Crazyflie" : type) + ", firmware " + (firmware.empty() ? "unknown" : firmware);
 }
 
 }  // namespace swiftlet

@@ -22,7 +22,9 @@ constexpr std::array<std::string_view, 10> kOneBlock{
     "range.left",      "range.right",     "range.zrange",      "supervisor.info", "pm.vbatMV"};
 // For firmware that lacks one of those.
 constexpr std::array<std::string_view, 2> kPositionBlock{"stateEstimateZ.x", "stateEstimateZ.y"};
-constexpr std::array<std::string_view, 3> kPositionBlockExtras{"stateEstimateZ.z", "pm.vbatMV", "radio.rssi"};
+// What the one block tells of the vehicle's health, by the other names too that firmware has for it.
+constexpr std::array<std::string_view, 6> kPositionBlockExtras{
+    "stateEstimateZ.z", "pm.vbatMV", "pm.vbat", "radio.rssi", "supervisor.info", "sys.isFlying"};
 constexpr std::array<std::string_view, 8> kRangeBlock{
     "stateEstimate.qw", "stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz",
     "range.front",      "range.back",       "range.left",       "range.right"};
@@ -135,7 +137,7 @@ void LogHandshake::plan_blocks() {
       for (const std::string_view name : kRangeBlock)
         if (find_readable(*toc_, name) == nullptr) missing += ' ' + std::string(name);
       return fail("the vehicle's firmware does not offer the log variables" + missing +
-                  ": update it to 2022.09 or newer");
+                  ": update it to a release of 2022.09 or newer, built with the range module");
     }
   }
   if (plan_block(kSlowBlockId, kSlow10ms, {}, kSlowBlock)) plan_.back().optional = true;

@@ -78,7 +78,7 @@ std::string SimulatedUdpServer::address() const {
 }
 
 std::optional<std::string> SimulatedUdpServer::client() const {
-  if (!peer_ || !peer_is_client_) return std::nullopt;
+  if (!peer_) return std::nullopt;
   return text_of(*peer_);
 }
 
@@ -109,23 +109,16 @@ void SimulatedUdpServer::hear() {
 
 void SimulatedUdpServer::hear(std::span<const std::uint8_t> packet, const sockaddr_in& from) {
   if (!vehicle_.is_on_air()) return;
-  remember(from, is_null(packet));
-  for (const PacketBytes& answer : vehicle_.handle(packet)) send(answer, from);
+  const bool is_scan = is_null(packet) && !(peer_ && is_same(*peer_, from));
+  if (!is_scan) {
+    peer_ = from;
+    peer_heard_at_ = vehicle_.now();
+    for (const PacketBytes& answer : vehicle_.handle(packet)) send(answer, from);
+  }
   if (!is_null(packet) || packet.size() > 1) return;
   PacketBytes idle;
   put(idle, kIdle);
   send(idle, from);
-}
-
-void SimulatedUdpServer::remember(const sockaddr_in& from, bool is_null_packet) {
-  const bool is_peer = peer_ && is_same(*peer_, from);
-  if (peer_ && !is_peer && is_null_packet) return;
-  if (!is_peer) {
-    peer_ = from;
-    peer_is_client_ = false;
-  }
-  peer_heard_at_ = vehicle_.now();
-  if (!is_null_packet) peer_is_client_ = true;
 }
 
 void SimulatedUdpServer::send(const PacketBytes& bytes, const sockaddr_in& to) {

@@ -26,8 +26,9 @@ struct PacketFaults {
 
 /// A simulated vehicle on a UDP socket: one datagram is one CRTP packet, a null packet of one byte is
 /// answered with `f3`. Requests are answered to whoever sent them; log data and console text go to the peer:
-/// the last one that sent a packet, but a null packet from elsewhere takes nothing over while the peer is
-/// heard. The vehicle lives at the clock's pace. One thread at a time; allocates.
+/// the last one that sent a request. A null packet from elsewhere is a scan, of which the vehicle learns
+/// nothing: what it says at boot waits for a client. The vehicle lives at the clock's pace. One thread at a
+/// time; allocates.
 class SimulatedUdpServer {
  public:
   /// `host`: IPv4 address; port 0: any free one. The vehicle and the clock must outlive the server. Noise
@@ -67,7 +68,6 @@ class SimulatedUdpServer {
   void live_on();
   void hear();
   void hear(std::span<const std::uint8_t> packet, const sockaddr_in& from);
-  void remember(const sockaddr_in& from, bool is_null_packet);
   void send(const PacketBytes& bytes, const sockaddr_in& to);
   void send_due();
   [[nodiscard]] bool is_silent() const { return clock_.now() < silent_until_; }
@@ -82,7 +82,6 @@ class SimulatedUdpServer {
   HostTime silent_until_{};
   std::optional<sockaddr_in> peer_;
   DeviceTime peer_heard_at_{};  ///< by the vehicle's time, as its own time-out
-  bool peer_is_client_ = false;
   std::deque<Flying> flying_;
 };
 

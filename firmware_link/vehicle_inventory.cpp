@@ -14,15 +14,25 @@ namespace {
 constexpr const char* kMultiranger = "deck.bcMultiranger";
 // Both generations of the flow deck.
 constexpr std::array<const char*, 2> kFlowDecks{"deck.bcFlow2", "deck.bcFlow"};
+// Firmware keeps silent about a version that it does not know of.
+constexpr int kMostVersionRequests = 10;
 
 }  // namespace
 
 VehicleInventory::VehicleInventory(TocCache& cache) : toc_(kParamTocTopic, cache) {
-  request_.ask(version_request(VersionQuery::kFirmware));
+  ask_version(Step::kFirmware, VersionQuery::kFirmware);
 }
 
 std::optional<CrtpPacket> VehicleInventory::next_request(HostTime now) {
+  const bool asks_version = step_ == Step::kFirmware || step_ == Step::kDeviceType;
+  if (asks_version && request_.is_due(now) && ++version_requests_ > kMostVersionRequests) leave_version();
   return step_ == Step::kToc ? toc_.next_request(now) : request_.take_due(now);
+}
+
+void VehicleInventory::ask_version(Step step, VersionQuery query) {
+  step_ = step;
+  version_requests_ = 0;
+  request_.ask(version_request(query));
 }
 
 void VehicleInventory::hear(std::span<const std::uint8_t> packet) {
@@ -43,9 +53,12 @@ void VehicleInventory::hear_version(std::span<const std::uint8_t> packet, Versio
                                     std::string& text) {
   if (packet.size() < 2 || packet[1] != static_cast<std::uint8_t>(query)) return;
   text.assign(packet.begin() + 2, std::find(packet.begin() + 2, packet.end(), std::uint8_t{0}));
-  if (query == VersionQuery::kFirmware) {
-    step_ = Step::kDeviceType;
-    request_.ask(version_request(VersionQuery::kDeviceType));
+  leave_version();
+}
+
+void VehicleInventory::leave_version() {
+  if (step_ == Step::kFirmware) {
+    ask_version(Step::kDeviceType, VersionQuery::kDeviceType);
   } else {
     step_ = Step::kToc;
   }

@@ -31,7 +31,7 @@ class VehicleInventory {
 
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
 
-  // Once finished.
+  // Once finished. Texts are empty where the vehicle does not say: firmware of 2018 does not know its type.
   [[nodiscard]] const std::string& firmware() const { return firmware_; }
   [[nodiscard]] const std::string& device_type() const { return device_type_; }
   /// nullopt: the vehicle does not say.
@@ -46,7 +46,9 @@ class VehicleInventory {
     std::optional<bool> attached;
   };
 
+  void ask_version(Step step, VersionQuery query);
   void hear_version(std::span<const std::uint8_t> packet, VersionQuery query, std::string& text);
+  void leave_version();
   void hear_deck(std::span<const std::uint8_t> packet);
   void plan_decks();
   void ask_next_deck();
@@ -54,6 +56,7 @@ class VehicleInventory {
   TocDownload toc_;
   Step step_ = Step::kFirmware;
   PendingRequest request_;
+  int version_requests_ = 0;  ///< sent for the present version
   std::string firmware_;
   std::string device_type_;
   std::vector<Deck> decks_;

@@ -9,10 +9,18 @@
 namespace swiftlet {
 namespace {
 
-enum Variable : std::size_t { kBatteryMillivolts, kRssi, kSupervisor, kBatteryState, kFirstRange };
-constexpr std::array<std::string_view, 8> kNames{"pm.vbatMV",  "radio.rssi",  "supervisor.info",
-                                                 "pm.state",   "range.front", "range.left",
-                                                 "range.back", "range.right"};
+enum Variable : std::size_t {
+  kBatteryMillivolts,
+  kBatteryVolts,
+  kRssi,
+  kSupervisor,
+  kFlies,
+  kBatteryState,
+  kFirstRange
+};
+constexpr std::array<std::string_view, 10> kNames{
+    "pm.vbatMV", "pm.vbat",     "radio.rssi", "supervisor.info", "sys.isFlying",
+    "pm.state",  "range.front", "range.left", "range.back",      "range.right"};
 
 constexpr int kLowPower = 3;  // of pm.state
 // More than an estimate at rest wanders.
@@ -26,13 +34,15 @@ constexpr int kOutOfReachMm = 4000;
 
 void VehicleMonitor::hear(const LogRecord& record) {
   const Slots& slots = slots_of(record);
-  const auto value = [&](std::size_t variable) -> std::optional<int> {
+  const auto value = [&](std::size_t variable, double scale = 1.0) -> std::optional<int> {
     const std::optional<std::uint8_t> slot = slots[variable];
     if (!slot || *slot >= record.entry_count) return std::nullopt;
-    return static_cast<int>(std::lround(record.value(*slot)));
+    return static_cast<int>(std::lround(record.value(*slot) * scale));
   };
+  if (const auto millivolts = value(kBatteryVolts, 1000.0)) health_.battery_mv = millivolts;
   if (const auto millivolts = value(kBatteryMillivolts)) health_.battery_mv = millivolts;
   if (const auto rssi = value(kRssi)) health_.rssi_dbm = -*rssi;
+  if (const auto flies = value(kFlies)) health_.is_flying = *flies != 0;
   if (const auto info = value(kSupervisor))
     health_.is_flying = (static_cast<unsigned>(*info) & kSupervisorFlying) != 0;
   if (const auto state = value(kBatteryState)) health_.battery_is_low = *state == kLowPower;

@@ -35,7 +35,7 @@ class VehicleMonitor {
   void restart();
 
  private:
-  static constexpr std::size_t kVariables = 8;
+  static constexpr std::size_t kVariables = 10;
   using Ranges = std::array<int, 4>;
   using Slots = std::array<std::optional<std::uint8_t>, kVariables>;
   void watch_ranges(const Ranges& ranges_mm, DeviceTime at);

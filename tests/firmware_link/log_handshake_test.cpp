@@ -98,6 +98,18 @@ TEST_F(LogHandshakeTest, StartsTwoBlocksOnOlderFirmware) {
                           "range.front", "range.back", "range.left", "range.right", "range.zrange"));
 }
 
+TEST_F(LogHandshakeTest, AsksForTheHealthByTheNamesThatTheFirmwareHasForIt) {
+  remove("pm.vbatMV");
+  remove("supervisor.info");
+  remove("radio.rssi");
+  link_.vehicle.variables.push_back({"pm", "vbat", LogType::kFloat});
+  link_.vehicle.variables.push_back({"sys", "isFlying", LogType::kUint8});
+  run();
+  ASSERT_TRUE(handshake_.finished());
+  EXPECT_THAT(names_of(1), ElementsAre("stateEstimateZ.x", "stateEstimateZ.y", "stateEstimateZ.z", "pm.vbat",
+                                       "sys.isFlying"));
+}
+
 TEST_F(LogHandshakeTest, AsksForNoVariableOfAnUnknownType) {
   const auto x = std::ranges::find(link_.vehicle.variables, "x", &ScriptedVehicle::Variable::name);
   x->type = LogType{};  // stateEstimate.x

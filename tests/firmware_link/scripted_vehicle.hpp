@@ -45,6 +45,7 @@ class ScriptedVehicle {
   std::vector<Param> params{{"deck", "bcMultiranger", 1}, {"deck", "bcFlow2", 1}};
   std::uint8_t protocol = 12;
   std::string source = "Bitcraze Crazyflie";
+  bool knows_its_type = true;  ///< firmware before 2019 does not answer that question
   std::map<std::uint8_t, Block> blocks;
   std::size_t room = 128;  ///< variables in all blocks
 
@@ -95,8 +96,9 @@ class ScriptedVehicle {
   }
 
  private:
-  [[nodiscard]] Bytes answer_version(std::span<const std::uint8_t> request) const {
-    if (request[1] == 0) return {0xDD, 0, protocol, 0, 0, 0};
+  [[nodiscard]] std::optional<Bytes> answer_version(std::span<const std::uint8_t> request) const {
+    if (request[1] == 0) return Bytes{0xDD, 0, protocol, 0, 0, 0};
+    if (request[1] == 2 && !knows_its_type) return std::nullopt;
     const std::string text = request[1] == 1 ? "2026.08" : "Crazyflie 2.1";
     Bytes reply{0xDD, request[1]};
     reply.insert(reply.end(), text.begin(), text.end());

@@ -32,7 +32,10 @@ TEST(ParamTable, DescribesParametersAsTheFirmwareDoes) {
   EXPECT_EQ(param("kalman", "initialYaw").type, ParamType::kFloat);
   EXPECT_EQ(param("kalman", "initialYaw").flags, kParamCore);
   EXPECT_EQ(param("multiranger", "filterMask").type, ParamType::kUint16);
-  EXPECT_EQ(param("pid_rate", "roll_kp").flags, kParamCore | kParamPersistent);
+  EXPECT_EQ(param("multiranger", "filterMask").flags, 0);
+  EXPECT_EQ(param("kalman", "pNAcc_xy").flags, kParamCore | kParamPersistent);
+  EXPECT_EQ(param("supervisor", "landedTimeout").flags, kParamPersistent);
+  EXPECT_EQ(param("pid_rate", "roll_kp").flags, kParamPersistent);
 }
 
 TEST(ParamTable, KnowsDefaultValues) {

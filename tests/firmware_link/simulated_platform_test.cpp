@@ -45,28 +45,37 @@ TEST(PlatformService, TellsVersionFirmwareAndType) {
   EXPECT_EQ(std::string(type.begin() + 2, type.end()), "Crazyflie 2.1");
 }
 
-TEST(PlatformService, TakesCommandsAndTheAppChannelSilently) {
-  EXPECT_TRUE(platform({0xDC, 0x00, 0x01}).empty());
+TEST(PlatformService, AnswersCommandsInTheirOwnBuffer) {
+  EXPECT_EQ(platform({0xDC, 0x00, 0x01}), (Bytes{0xDC, 0x00, 0x01})) << "continuous wave";
+  EXPECT_EQ(platform({0xDC, 0x01, 0x01}), (Bytes{0xDC, 0x01, 0x01})) << "armed";
+  EXPECT_EQ(platform({0xDC, 0x01, 0x00}), (Bytes{0xDC, 0x01, 0x00})) << "not disarmed";
+  EXPECT_EQ(platform({0xDC, 0x02}), (Bytes{0xDC, 0x02, 0x01})) << "recovered";
+  EXPECT_EQ(platform({0xDC, 0x03, 0x01}), (Bytes{0xDC})) << "user notified";
+}
+
+TEST(PlatformService, TakesTheAppChannelAndWhatItDoesNotKnowSilently) {
+  EXPECT_TRUE(platform({0xDC}).empty());
   EXPECT_TRUE(platform({0xDE, 0x01}).empty());
   EXPECT_TRUE(platform({0xDD, 0x07}).empty());
 }
 
 TEST(SupervisorService, TellsAllStatesAsBits) {
-  EXPECT_EQ(supervisor({0x9C, 0x0C}), (Bytes{0x9C, 0x8C, 0x0F, 0x00}));
-  EXPECT_EQ(supervisor({0x9C, 0x0C}, true), (Bytes{0x9C, 0x8C, 0x1F, 0x00}));
+  EXPECT_EQ(supervisor({0x9C, 0x0C}), (Bytes{0x90, 0x8C, 0x0F, 0x00}));
+  EXPECT_EQ(supervisor({0x9C, 0x0C}, true), (Bytes{0x90, 0x8C, 0x1F, 0x00}));
 }
 
 TEST(SupervisorService, TellsEachState) {
-  EXPECT_EQ(supervisor({0x9C, 0x05}), (Bytes{0x9C, 0x85, 0})) << "flying";
-  EXPECT_EQ(supervisor({0x9C, 0x05}, true), (Bytes{0x9C, 0x85, 1}));
-  EXPECT_EQ(supervisor({0x9C, 0x0B}), (Bytes{0x9C, 0x8B, 0})) << "high-level control disabled";
+  EXPECT_EQ(supervisor({0x9C, 0x05}), (Bytes{0x90, 0x85, 0})) << "flying";
+  EXPECT_EQ(supervisor({0x9C, 0x05}, true), (Bytes{0x90, 0x85, 1}));
+  EXPECT_EQ(supervisor({0x9C, 0x0B}), (Bytes{0x90, 0x8B, 0})) << "high-level control disabled";
   EXPECT_TRUE(supervisor({0x9C, 0x0D}).empty());
   EXPECT_TRUE(supervisor({0x9C, 0x00}).empty());
 }
 
 TEST(SupervisorService, ConfirmsArmingAndRecoveryButNotTheEmergencyStop) {
-  EXPECT_EQ(supervisor({0x9D, 0x01, 0x01}), (Bytes{0x9D, 0x81, 1, 1}));
-  EXPECT_EQ(supervisor({0x9D, 0x02}), (Bytes{0x9D, 0x82, 1, 1}));
+  EXPECT_EQ(supervisor({0x9D, 0x01, 0x01}), (Bytes{0x91, 0x81, 1, 1}));
+  EXPECT_EQ(supervisor({0x9D, 0x01, 0x00}), (Bytes{0x91, 0x81, 0, 1})) << "it arms itself";
+  EXPECT_EQ(supervisor({0x9D, 0x02}), (Bytes{0x91, 0x82, 1, 1}));
   EXPECT_TRUE(supervisor({0x9D, 0x03}).empty());
   EXPECT_TRUE(supervisor({0x9D, 0x04}).empty());
 }

@@ -143,6 +143,19 @@ TEST_F(UdpServer, LetsNoScanTakeTheStreamAway) {
   EXPECT_THAT(scanner.received(), IsEmpty());
 }
 
+TEST_F(UdpServer, KeepsItsConsoleTextForAClient) {
+  vehicle_.reset_estimator();  // says so
+  const Client scanner(server_->address());
+  EXPECT_THAT(ask(scanner, {0xFF}), ElementsAre(Bytes{0xF3}));
+  pass(milliseconds(300));
+  EXPECT_THAT(scanner.received(), IsEmpty());
+  EXPECT_THAT(ask(client_, {0xFC, 7}), ElementsAre(Bytes{0xFC, 7}));
+  pass(milliseconds(300));
+  const std::vector<Bytes> text = client_.received();
+  ASSERT_THAT(text, SizeIs(testing::Ge(1U)));
+  EXPECT_EQ(std::string(text[0].begin() + 1, text[0].begin() + 10), "ESTKALMAN");
+}
+
 TEST_F(UdpServer, TakesARestartedClientForTheSameVehicleAtOnce) {
   start_logging(client_);
   const Client restarted(server_->address());

@@ -54,6 +54,20 @@ TEST(VehicleInventory, EitherGenerationOfTheFlowDeckWillDo) {
   EXPECT_FALSE(inventory.has_multiranger().has_value());
 }
 
+TEST(VehicleInventory, AsksForTheDecksOfAVehicleThatDoesNotKnowItsType) {
+  ScriptedVehicle vehicle;
+  vehicle.knows_its_type = false;
+  vehicle.params = {{"deck", "bcFlow2", 0}, {"deck", "bcMultiranger", 1}};
+  TocCache cache;
+  VehicleInventory inventory(cache);
+  ask(inventory, vehicle);
+  ASSERT_TRUE(inventory.finished());
+  EXPECT_EQ(inventory.firmware(), "2026.08");
+  EXPECT_EQ(inventory.device_type(), "");
+  EXPECT_EQ(inventory.has_multiranger(), true);
+  EXPECT_EQ(inventory.has_flow_deck(), false);
+}
+
 TEST(VehicleInventory, AsksForTheTableOfContentsOnce) {
   ScriptedVehicle vehicle;
   TocCache cache;

@@ -11,16 +11,19 @@
 namespace swiftlet {
 namespace {
 
-/// Block 1: supervisor.info, pm.vbatMV; block 3: pm.state, radio.rssi.
+/// Block 1: supervisor.info, pm.vbatMV; block 2: pm.vbat, sys.isFlying; block 3: pm.state, radio.rssi.
 class VehicleMonitorTest : public testing::Test {
  protected:
   VehicleMonitorTest() {
     for (const auto& reply : {toc_item_reply(0, LogType::kUint16, "supervisor", "info"),
                               toc_item_reply(1, LogType::kUint16, "pm", "vbatMV"),
                               toc_item_reply(2, LogType::kInt8, "pm", "state"),
-                              toc_item_reply(3, LogType::kUint8, "radio", "rssi")})
+                              toc_item_reply(3, LogType::kUint8, "radio", "rssi"),
+                              toc_item_reply(4, LogType::kFloat, "pm", "vbat"),
+                              toc_item_reply(5, LogType::kUint8, "sys", "isFlying")})
       static_cast<void>(session_.hear(received(reply)));
-    for (const char* request : {"5d 06 01 02 00 00 02 01 00", "5d 06 03 04 02 00 01 03 00"}) {
+    for (const char* request :
+         {"5d 06 01 02 00 00 02 01 00", "5d 06 02 07 04 00 01 05 00", "5d 06 03 04 02 00 01 03 00"}) {
       static_cast<void>(session_.hear(sent(hex(request))));
       Bytes reply = hex(request);
       reply.resize(3);
@@ -105,6 +108,14 @@ TEST_F(FrozenRangesTest, AreNoneOnTheGroundNorWhereThereIsNothingInReach) {
   front_mm_ = 32766;
   back_mm_ = 0;
   EXPECT_FALSE(warns_within(5000));
+}
+
+TEST_F(VehicleMonitorTest, ReadsTheNamesOfOtherFirmware) {
+  hear(LogPacket(2, 100).f32(3.8749F).u8(1).bytes());
+  EXPECT_EQ(monitor_.health().battery_mv, 3875);
+  EXPECT_EQ(monitor_.health().is_flying, true);
+  hear(LogPacket(2, 200).f32(3.7F).u8(0).bytes());
+  EXPECT_EQ(monitor_.health().is_flying, false);
 }
 
 TEST_F(VehicleMonitorTest, WarnsOnceOfALowBattery) {
