@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/link_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -112,10 +113,7 @@ void LinkSampleSource::hear(const LinkFrame& frame) {
 /// A recording has to hold the names too, or it could not be replayed.
 void LinkSampleSource::hear_cached_toc(HostTime at) {
   for (const CrtpPacket& reply : live_->take_cached_replies()) {
-    LinkFrame frame;
-    frame.at = at;
-    frame.size = static_cast<std::uint8_t>(reply.size());
-    std::copy(reply.begin(), reply.end(), frame.bytes.begin());
+    const LinkFrame frame = frame_of(LinkDirection::kFromVehicle, at, bytes_of(reply));
     if (input_.recording != nullptr) input_.recording->take(frame);
     static_cast<void>(session_.hear(frame));
   }

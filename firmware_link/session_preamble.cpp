@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/session_preamble.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/link_packet.hpp"
 #include "firmware_link/log_block_table.hpp"
 #include "firmware_link/log_toc.hpp"
 #include "firmware_link/toc_item.hpp"
@@ -28,8 +28,8 @@ class Exchanges {
   explicit Exchanges(HostTime at) : at_(at) {}
 
   void add(const CrtpPacket& request, const CrtpPacket& reply) {
-    frames_.push_back(frame(LinkDirection::kToVehicle, request));
-    frames_.push_back(frame(LinkDirection::kFromVehicle, reply));
+    frames_.push_back(frame_of(LinkDirection::kToVehicle, at_, bytes_of(request)));
+    frames_.push_back(frame_of(LinkDirection::kFromVehicle, at_, bytes_of(reply)));
   }
   /// A command of the log's control channel with its usual reply.
   void add_control(const CrtpPacket& request, LogError error) {
@@ -39,15 +39,6 @@ class Exchanges {
   std::vector<LinkFrame> take() { return std::move(frames_); }
 
  private:
-  [[nodiscard]] LinkFrame frame(LinkDirection direction, const CrtpPacket& packet) const {
-    LinkFrame made;
-    made.at = at_;
-    made.direction = direction;
-    made.size = static_cast<std::uint8_t>(packet.size());
-    std::ranges::copy(packet, made.bytes.begin());
-    return made;
-  }
-
   HostTime at_;
   std::vector<LinkFrame> frames_;
 };

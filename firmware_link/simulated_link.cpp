@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/simulated_link.hpp"
 
-#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
+
+#include "firmware_link/link_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -72,12 +73,7 @@ void SimulatedLink::poll() {
 }
 
 void SimulatedLink::queue(LinkDirection direction, DeviceTime at, std::span<const std::uint8_t> packet) {
-  LinkFrame frame;
-  frame.at = host_time(at);
-  frame.direction = direction;
-  frame.size = static_cast<std::uint8_t>(packet.size());
-  std::ranges::copy(packet, frame.bytes.begin());
-  heard_.push_back(frame);
+  heard_.push_back(frame_of(direction, host_time(at), packet));
 }
 
 HostTime SimulatedLink::host_time(DeviceTime at) const { return kOpened + (at - opened_at_); }

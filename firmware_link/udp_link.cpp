@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/link_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -106,12 +107,7 @@ void UdpLink::keep_alive(HostTime now) {
 std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
   while (!requests_.empty()) {
     const CrtpPacket request = requests_.pop();
-    LinkFrame frame;
-    frame.at = now;
-    frame.direction = LinkDirection::kToVehicle;
-    frame.size = static_cast<std::uint8_t>(request.size());
-    std::copy(request.begin(), request.end(), frame.bytes.begin());
-    if (transmit(frame.packet(), now)) return frame;
+    if (transmit(bytes_of(request), now)) return frame_of(LinkDirection::kToVehicle, now, bytes_of(request));
   }
   return std::nullopt;
 }

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cstdint>
@@ -13,6 +12,7 @@
 
 #include "firmware_link/crtp_packet.hpp"
 #include "firmware_link/link.hpp"
+#include "firmware_link/link_packet.hpp"
 #include "firmware_link/log_value.hpp"
 
 namespace swiftlet {
@@ -30,19 +30,11 @@ inline Bytes hex(std::string_view text) {
   return bytes;
 }
 
-inline LinkFrame frame_of(LinkDirection direction, const Bytes& packet, HostTime at = {}) {
-  LinkFrame frame;
-  frame.at = at;
-  frame.direction = direction;
-  frame.size = static_cast<std::uint8_t>(packet.size());
-  std::copy(packet.begin(), packet.end(), frame.bytes.begin());
-  return frame;
-}
 inline LinkFrame sent(const Bytes& packet, HostTime at = {}) {
-  return frame_of(LinkDirection::kToVehicle, packet, at);
+  return frame_of(LinkDirection::kToVehicle, at, packet);
 }
 inline LinkFrame received(const Bytes& packet, HostTime at = {}) {
-  return frame_of(LinkDirection::kFromVehicle, packet, at);
+  return frame_of(LinkDirection::kFromVehicle, at, packet);
 }
 
 inline Bytes toc_item_reply(std::uint16_t id, LogType type, std::string_view group, std::string_view name) {

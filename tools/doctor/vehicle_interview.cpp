@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/doctor/vehicle_interview.hpp"
 
-#include <algorithm>
+#include <chrono>
+
+#include "firmware_link/link_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -11,14 +13,6 @@ constexpr Duration kReceiveTimeout = std::chrono::milliseconds(20);
 // Health comes with the log; on older firmware not all of it.
 constexpr Duration kHealthTimeout = std::chrono::seconds(2);
 constexpr Duration kFarewell = std::chrono::milliseconds(100);
-
-LinkFrame as_heard(const CrtpPacket& packet, HostTime at) {
-  LinkFrame frame;
-  frame.at = at;
-  frame.size = static_cast<std::uint8_t>(packet.size());
-  std::copy(packet.begin(), packet.end(), frame.bytes.begin());
-  return frame;
-}
 
 /// Blocks that nobody listens to would run on: on USB and UDP for ever.
 void say_farewell(Link& link, LinkClock& clock) {
@@ -44,7 +38,7 @@ void VehicleInterview::hear(const LinkFrame& frame) {
   if (log_ended_at_) return inventory_.hear(frame.packet());
   handshake_.hear(frame.packet());
   for (const CrtpPacket& reply : handshake_.take_cached_replies())
-    static_cast<void>(session_.hear(as_heard(reply, frame.at)));
+    static_cast<void>(session_.hear(frame_of(LinkDirection::kFromVehicle, frame.at, bytes_of(reply))));
   if (handshake_.finished() || handshake_.failure()) log_ended_at_ = frame.at;
 }
 
