@@ -116,6 +116,16 @@ def sigterm_ends_the_run_with_its_outputs(bench):
     stop_with(bench, signal.SIGTERM)
 
 
+def threads_that_take_sigint(pid):
+    """The names of those that do not block it."""
+    takers = []
+    for thread in pathlib.Path(f"/proc/{pid}/task").iterdir():
+        status = dict(line.split(":\t", 1) for line in (thread / "status").read_text().splitlines() if ":\t" in line)
+        if not int(status["SigBlk"], 16) >> (signal.SIGINT - 1) & 1:
+            takers.append(status["Name"])
+    return takers
+
+
 def sigint_ends_a_wait_for_the_dongle(bench):
     """The USB library's own thread must not take the signal."""
     with subprocess.Popen([bench.swiftletd, "--input", "radio://NOSUCHSERIAL/80", "--no-record",
@@ -124,8 +134,10 @@ def sigint_ends_a_wait_for_the_dongle(bench):
         while b"plug it in" not in said:
             expect(said, "the daemon ended by itself")
             said = daemon.stderr.readline()
+        takers = threads_that_take_sigint(daemon.pid)
         daemon.send_signal(signal.SIGINT)
         _, said = daemon.communicate(timeout=60)
+    expect(takers == ["signals"], f"these threads take SIGINT: {takers}")
     expect(daemon.returncode == 2 and b"stopped by a signal" in said, f"{daemon.returncode}: {said.decode()}")
 
 
