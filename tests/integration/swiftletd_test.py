@@ -119,7 +119,7 @@ def sigterm_ends_the_run_with_its_outputs(bench):
 def threads_that_take_sigint(pid):
     """The names of those that do not block it."""
     takers = []
-    for thread in pathlib.Path(f"/proc/{pid}/task").iterdir():
+    for thread in Path(f"/proc/{pid}/task").iterdir():
         status = dict(line.split(":\t", 1) for line in (thread / "status").read_text().splitlines() if ":\t" in line)
         if not int(status["SigBlk"], 16) >> (signal.SIGINT - 1) & 1:
             takers.append(status["Name"])
