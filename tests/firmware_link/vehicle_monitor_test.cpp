@@ -32,7 +32,8 @@ class VehicleMonitorTest : public testing::Test {
     }
   }
   void hear(const Bytes& packet) {
-    const auto record = session_.hear(received(packet));
+    const auto frame = received(packet);  // the record views it
+    const auto record = session_.hear(frame);
     ASSERT_TRUE(record.has_value());
     monitor_.hear(*record);
   }
