@@ -13,4 +13,7 @@ namespace swiftlet {
 /// device, no permission, or empty. The message is fit for the user.
 [[nodiscard]] Result<std::uint64_t> size_of_input_file(const std::string& path);
 
+/// By content: any pcap, classic or not, begins in one of a few ways. False where it cannot be read.
+[[nodiscard]] bool begins_like_capture(const std::string& path);
+
 }  // namespace swiftlet

@@ -2,11 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample_source.hpp"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <utility>
 
 #include "firmware_link/carmen_sample_source.hpp"
@@ -44,19 +42,6 @@ SensorModel crazyflie_sensor(const SampleSourceOptions& options) {
   return sensor;
 }
 
-/// By content: any pcap, classic or not, begins with one of these; a laser log is text or gzip.
-bool looks_like_capture(const std::string& path) {
-  std::array<char, 4> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), start.size());
-  constexpr std::array<std::array<char, 4>, 5> kStarts{{{'\xD4', '\xC3', '\xB2', '\xA1'},
-                                                        {'\xA1', '\xB2', '\xC3', '\xD4'},
-                                                        {'\x4D', '\x3C', '\xB2', '\xA1'},
-                                                        {'\xA1', '\xB2', '\x3C', '\x4D'},
-                                                        {'\x0A', '\x0D', '\x0D', '\x0A'}}};  // pcapng
-  return std::find(kStarts.begin(), kStarts.end(), start) != kStarts.end();
-}
-
 Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
                                                    const SampleSourceOptions& options) {
   Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path);
@@ -83,7 +68,7 @@ Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
 Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const SampleSourceOptions& options) {
   const Result<std::uint64_t> size = size_of_input_file(path);
   if (!size) return size.error();
-  if (looks_like_capture(path) || path.ends_with(".pcap")) return open_capture(path, options);
+  if (begins_like_capture(path) || path.ends_with(".pcap")) return open_capture(path, options);
   return CarmenSampleSource::open(path, options);
 }
 

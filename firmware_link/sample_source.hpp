@@ -10,6 +10,7 @@
 
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
+#include "core/geometry/stamped_pose.hpp"
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
 #include "firmware_link/frame_sink.hpp"
@@ -35,11 +36,6 @@ struct InputReport {
   std::uint64_t invalid = 0;
   std::vector<std::string> notes;     ///< what to know (e.g. layout taken from a side file)
   std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
-};
-
-struct StampedPose {
-  HostTime stamp{};
-  Pose2 pose;
 };
 
 /// Anything that yields range samples in time order: a link with its log session and assembler, or a laser

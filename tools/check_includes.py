@@ -13,14 +13,15 @@ import sys
 from pathlib import Path
 
 SENSING = ["core/base", "core/geometry", "core/sensing"]
-CORE = SENSING + ["core/frontend", "core/backend", "core/mapping"]
+CORE = SENSING + ["core/frontend", "core/backend", "core/mapping", "core/evaluation"]
 ALLOWED = {  # folder: folders it may include from, besides itself; the longest matching folder counts
     "core/base": [],
     "core/geometry": ["core/base"],
     "core/sensing": ["core/base", "core/geometry"],
     "core/frontend": SENSING,
     "core/backend": SENSING,
-    "core/mapping": CORE,
+    "core/mapping": SENSING + ["core/frontend", "core/backend"],
+    "core/evaluation": SENSING,
     "firmware_link": SENSING,
     "daemon": CORE + ["firmware_link", "proto"],
     "tools": CORE + ["firmware_link", "proto", "daemon"],

@@ -11,6 +11,7 @@
 
 #include "core/sensing/range_sample.hpp"
 #include "tools/doctor_command.hpp"
+#include "tools/eval_command.hpp"
 #include "tools/map_command.hpp"
 #include "tools/record_command.hpp"
 #include "tools/sim_command.hpp"
@@ -97,6 +98,22 @@ CLI::App* add_doctor_command(CLI::App& app, swiftlet::DoctorCommand& command) {
   return doctor;
 }
 
+CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
+  CLI::App* eval = app.add_subcommand("eval", "Hold a trajectory against what is known of the truth");
+  eval->add_option("TRAJECTORY", command.trajectory, "A TUM file: trajectory.tum of a run")->required();
+  eval->add_option(
+      "REFERENCE", command.references,
+      "Relations (Kuemmerle 2009), a true trajectory (TUM) or the flight's capture (.pcap), told "
+      "by content");
+  eval->add_option("--relations", command.relations, "A reference that is relations; may be given twice")
+      ->allow_extra_args(false);
+  eval->add_option("--truth", command.truths, "A reference that is a true trajectory; may be given twice")
+      ->allow_extra_args(false);
+  eval->add_option("--json", command.json_file,
+                   "Write all figures to this file; - for stdout, not the table");
+  return eval;
+}
+
 int run_doctor(const swiftlet::DoctorCommand& command) {
   const swiftlet::Result<bool> ready = swiftlet::run_doctor_command(command);
   if (!ready) return refuse(ready.error().message);
@@ -116,6 +133,8 @@ int run(int argc, char** argv) {
   const CLI::App* record = add_record_command(app, record_command);
   swiftlet::DoctorCommand doctor_command;
   const CLI::App* doctor = add_doctor_command(app, doctor_command);
+  swiftlet::EvalCommand eval_command;
+  const CLI::App* eval = add_eval_command(app, eval_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -129,6 +148,7 @@ int run(int argc, char** argv) {
   if (map->parsed()) status = swiftlet::run_map_command(map_command);
   if (sim->parsed()) status = swiftlet::run_sim_command(sim_command);
   if (record->parsed()) status = swiftlet::run_record_command(record_command);
+  if (eval->parsed()) status = swiftlet::run_eval_command(eval_command);
   return status ? 0 : refuse(status.error().message);
 }
 

@@ -9,9 +9,9 @@
 
 #include "core/backend/backend.hpp"
 #include "core/base/result.hpp"
+#include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
-#include "core/mapping/trajectory_error.hpp"
 #include "daemon/stage_times.hpp"
 #include "firmware_link/sample_source.hpp"
 

@@ -30,6 +30,14 @@ TEST(InputFile, SaysWhyAPathCannotBeRead) {
   EXPECT_THAT(size_of_input_file(empty.path()).error().message, HasSubstr("is empty"));
 }
 
+TEST(InputFile, TellsACaptureByItsFirstBytes) {
+  EXPECT_TRUE(begins_like_capture(TemporaryFile("classic", "\xD4\xC3\xB2\xA1 and more").path()));
+  EXPECT_TRUE(begins_like_capture(TemporaryFile("next_generation", "\n\r\r\n").path()));
+  EXPECT_FALSE(begins_like_capture(TemporaryFile("laser_log", "FLASER 180").path()));
+  EXPECT_FALSE(begins_like_capture(TemporaryFile("short.pcap", "\xD4\xC3").path()));
+  EXPECT_FALSE(begins_like_capture("/nonexistent/a.pcap"));
+}
+
 TEST(InputFile, SaysThatItMayNotRead) {
   if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const TemporaryFile secret("secret", "x");

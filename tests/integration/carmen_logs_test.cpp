@@ -5,14 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/evaluation/relation_error.hpp"
 #include "tests/support/corrected_run.hpp"
 #include "tests/support/reference_data.hpp"
-#include "tests/support/relation_error.hpp"
+#include "tools/evaluation/relations_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -25,6 +26,12 @@ struct KnownLog {
 };
 void PrintTo(const KnownLog& known, std::ostream* out) { *out << known.name; }
 
+StampedPath stamped(const CorrectedRun& run, const std::vector<Pose2>& T_map_body) {
+  std::vector<StampedPose> poses;
+  for (std::size_t i = 0; i < T_map_body.size(); ++i) poses.push_back({run.samples[i].stamp, T_map_body[i]});
+  return StampedPath(std::move(poses));
+}
+
 class LaserLog : public testing::TestWithParam<KnownLog> {};
 
 TEST_P(LaserLog, IsCorrectedBeyondThePapersResults) {
@@ -33,18 +40,16 @@ TEST_P(LaserLog, IsCorrectedBeyondThePapersResults) {
   SWIFTLET_REQUIRE_REFERENCE(log);
   SWIFTLET_REQUIRE_REFERENCE(truth);
   const CorrectedRun run = corrected_run(log);
-  std::vector<HostTime> stamps;
-  for (const RangeSample& sample : run.samples) stamps.push_back(sample.stamp);
-  std::ifstream lines(truth);
-  const std::vector<Relation> relations = read_relations(lines);
-  ASSERT_EQ(relations.size(), GetParam().relations);
+  const Result<std::vector<Relation>> relations = read_relations_file(truth);
+  ASSERT_TRUE(relations.ok()) << relations.error().message;
+  ASSERT_EQ(relations->size(), GetParam().relations);
 
-  const RelationError corrected = relation_error(relations, stamps, run.T_map_body);
+  const RelationError corrected = relation_error(*relations, stamped(run, run.T_map_body));
   EXPECT_EQ(corrected.missed, 0U);
-  EXPECT_LE(corrected.mean_m, GetParam().mean_m);
-  EXPECT_LE(corrected.mean_deg, GetParam().mean_deg);
-  EXPECT_GT(relation_error(relations, stamps, dead_reckoned(run)).mean_m, 10.0 * GetParam().mean_m)
-      << "there is something to correct";
+  EXPECT_LE(corrected.all.translation_m.mean, GetParam().mean_m);
+  EXPECT_LE(corrected.all.rotation_deg.mean, GetParam().mean_deg);
+  const RelationError uncorrected = relation_error(*relations, stamped(run, dead_reckoned(run)));
+  EXPECT_GT(uncorrected.all.translation_m.mean, 10.0 * GetParam().mean_m) << "there is something to correct";
   EXPECT_EQ(run.counters.solver_failures, 0U);
 }
 

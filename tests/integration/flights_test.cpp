@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "core/evaluation/map_sharpness.hpp"
 #include "firmware_link/capture_reader.hpp"
 #include "firmware_link/capture_writer.hpp"
 #include "tests/support/corrected_run.hpp"
-#include "tests/support/map_sharpness.hpp"
 #include "tests/support/reference_data.hpp"
 #include "tests/support/temporary_file.hpp"
 
@@ -30,7 +30,7 @@ using testing::HasSubstr;
 std::string flight_path(const char* name) { return reference_file("flights/" + std::string(name) + ".pcap"); }
 
 std::size_t cells_hit(const CorrectedRun& run, const std::vector<Pose2>& T_map_body) {
-  return cells_hit(run.samples, T_map_body, BeamLayout::multiranger());
+  return map_sharpness(run.samples, T_map_body, BeamLayout::multiranger()).cells_20_cm;
 }
 
 double length_m(const std::vector<Pose2>& path) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mapping/trajectory_error.hpp"
+#include "core/evaluation/trajectory_error.hpp"
 #include "tests/support/corrected_run.hpp"
 
 namespace swiftlet {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/mapping/trajectory_error.hpp"
+#include "core/evaluation/trajectory_error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/base/check.hpp"
 
@@ -60,6 +62,20 @@ TrajectoryError trajectory_error(std::span<const Point2> estimate_m, std::span<c
   error.mean_m = sum / count;
   error.rmse_m = std::sqrt(sum_of_squares / count);
   return error;
+}
+
+PathError path_error(const StampedPath& estimate, const StampedPath& truth) {
+  std::vector<HostTime> stamps;
+  std::vector<Point2> estimate_m;
+  std::vector<Point2> truth_m;
+  for (const StampedPose& at : estimate.poses()) {
+    stamps.push_back(at.stamp);
+    const StampedPose* known = truth.nearest(at.stamp);
+    if (known == nullptr) continue;
+    estimate_m.push_back(at.pose.position());
+    truth_m.push_back(known->pose.position());
+  }
+  return {trajectory_error(estimate_m, truth_m), match_stamps(std::move(stamps), truth)};
 }
 
 }  // namespace swiftlet

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/evaluation/stamped_path.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace swiftlet {
@@ -23,5 +24,12 @@ struct TrajectoryError {
 /// Precondition: same size.
 [[nodiscard]] TrajectoryError trajectory_error(std::span<const Point2> estimate_m,
                                                std::span<const Point2> truth_m);
+
+/// The same of two stamped paths: each estimated position is paired with the true one stamped nearest.
+struct PathError {
+  TrajectoryError position;
+  StampMatching stamps;  ///< of the estimate, in the truth
+};
+[[nodiscard]] PathError path_error(const StampedPath& estimate, const StampedPath& truth);
 
 }  // namespace swiftlet

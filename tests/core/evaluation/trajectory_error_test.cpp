@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/mapping/trajectory_error.hpp"
+#include "core/evaluation/trajectory_error.hpp"
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <random>
 #include <vector>
 
@@ -67,6 +68,27 @@ TEST(TrajectoryError, OfOnePointIsZero) {
   const std::vector<Point2> a = {{1, 2}};
   const std::vector<Point2> b = {{5, 5}};
   EXPECT_DOUBLE_EQ(trajectory_error(a, b).rmse_m, 0.0);
+}
+
+TEST(PathError, PairsPositionsByTheirStampsAndNamesThoseWithoutTruth) {
+  const auto at = [](int ms) { return HostTime(std::chrono::milliseconds(ms)); };
+  const StampedPath truth({{at(0), Pose2(1.0, 0.0, 0.0)},
+                           {at(100), Pose2(0.0, 2.0, 0.0)},
+                           {at(150), Pose2(50.0, 50.0, 0.0)},
+                           {at(201), Pose2(-1.0, 0.0, 0.0)},
+                           {at(300), Pose2(0.0, -2.0, 0.0)}});
+  const StampedPath stretched({{at(0), Pose2(1.5, 0.0, 1.0)},
+                               {at(100), Pose2(0.0, 2.0, 1.0)},
+                               {at(200), Pose2(-1.5, 0.0, 1.0)},
+                               {at(250), Pose2(70.0, 70.0, 1.0)},
+                               {at(300), Pose2(0.0, -2.0, 1.0)}});
+  const PathError error = path_error(stretched, truth);
+  EXPECT_EQ(error.position.pairs, 4U);
+  EXPECT_NEAR(error.position.mean_m, 0.25, 1e-12);
+  EXPECT_NEAR(error.position.max_m, 0.5, 1e-12);
+  EXPECT_EQ(error.stamps.exact, 3U);
+  EXPECT_EQ(error.stamps.near, 1U);
+  EXPECT_THAT(error.stamps.unmatched, testing::ElementsAre(at(250)));
 }
 
 }  // namespace

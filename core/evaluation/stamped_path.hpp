@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/base/time.hpp"
+#include "core/geometry/stamped_pose.hpp"
+
+namespace swiftlet {
+
+/// Files round stamps: what lies closer names the same instant to the digit.
+inline constexpr Duration kExactStamp = std::chrono::microseconds(10);
+/// What lies farther off is another instant.
+inline constexpr Duration kStampTolerance = std::chrono::milliseconds(2);
+
+/// A path as it was estimated or measured: poses in order of their stamps. Immutable.
+class StampedPath {
+ public:
+  /// Sorts by stamp; poses with equal stamps keep their order, and the first of them is the one found.
+  explicit StampedPath(std::vector<StampedPose> poses);
+
+  [[nodiscard]] std::span<const StampedPose> poses() const { return poses_; }
+  /// The pose stamped nearest, the earlier of two as near; nullptr when none is within kStampTolerance.
+  /// Lives as long as the path.
+  [[nodiscard]] const StampedPose* nearest(HostTime stamp) const;
+  /// Between two poses in proportion to time, yaw the short way round; the first or last pose beyond the
+  /// ends. Precondition: not empty.
+  [[nodiscard]] Pose2 interpolated(HostTime stamp) const;
+
+ private:
+  [[nodiscard]] std::vector<StampedPose>::const_iterator not_before(HostTime stamp) const;
+
+  std::vector<StampedPose> poses_;
+};
+
+/// What became of stamps that were looked for in a path; each stamp counts once.
+struct StampMatching {
+  std::size_t exact = 0;            ///< within kExactStamp
+  std::size_t near = 0;             ///< farther off, within kStampTolerance
+  std::vector<HostTime> unmatched;  ///< ascending
+};
+[[nodiscard]] StampMatching match_stamps(std::vector<HostTime> stamps, const StampedPath& path);
+
+}  // namespace swiftlet

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+/// What `swiftlet eval` was asked to do.
+struct EvalCommand {
+  std::string trajectory;               ///< a TUM file
+  std::vector<std::string> references;  ///< of kinds that show, see recognise_reference()
+  std::vector<std::string> relations;   ///< references that are relations, whatever they look like
+  std::vector<std::string> truths;      ///< references that are TUM trajectories, whatever they look like
+  std::string json_file;                ///< empty: none; "-": to stdout, in place of the table
+};
+
+/// Holds the trajectory against each reference. The figures go to stdout, notes of a capture to stderr.
+///
+/// Errors: kInvalidInput, kNotFound: no reference given, or a file cannot be used or has no stamp in common
+/// with the trajectory; nothing was written. kDamaged: a capture is damaged after usable samples; the figures
+/// come from what came before. kOutOfSpace, kInvalidInput: the JSON file cannot be written.
+[[nodiscard]] Status run_eval_command(const EvalCommand& command);
+
+}  // namespace swiftlet

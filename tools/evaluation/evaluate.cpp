@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "tools/evaluation/evaluate.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "tools/evaluation/relations_file.hpp"
+#include "tools/evaluation/tum_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+double seconds_of(HostTime stamp) { return to_seconds(stamp.time_since_epoch()); }
+
+/// Both time spans, so that the reader sees whether clock, log or file is another. Precondition: neither is
+/// empty.
+Error nothing_in_common(const StampedPath& trajectory, const std::string& file, const char* what,
+                        const std::vector<HostTime>& stamps) {
+  const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
+  return {
+      ErrorCode::kInvalidInput,
+      fmt::format("{}: {}; its stamps are from {:.6f} to {:.6f} s, the trajectory's from {:.6f} to {:.6f} "
+                  "s; are they of one run and one clock?",
+                  file, what, seconds_of(*first), seconds_of(*last),
+                  seconds_of(trajectory.poses().front().stamp), seconds_of(trajectory.poses().back().stamp))};
+}
+
+Result<ReferenceResult> against_relations(const StampedPath& trajectory, const std::string& file) {
+  const Result<std::vector<Relation>> relations = read_relations_file(file);
+  if (!relations) return relations.error();
+  RelationError error = relation_error(*relations, trajectory);
+  if (error.all.count > 0) return ReferenceResult{file, std::move(error)};
+  std::vector<HostTime> stamps;
+  for (const Relation& relation : *relations) stamps.insert(stamps.end(), {relation.first, relation.second});
+  return nothing_in_common(trajectory, file,
+                           "of none of its relations does the trajectory have both stamps (within 2 ms)",
+                           stamps);
+}
+
+Result<ReferenceResult> against_truth(const StampedPath& trajectory, const std::string& file) {
+  Result<std::vector<StampedPose>> poses = read_tum_file(file);
+  if (!poses) return poses.error();
+  const StampedPath truth(std::move(poses).value());
+  PathError error = path_error(trajectory, truth);
+  if (error.position.pairs > 0) return ReferenceResult{file, std::move(error)};
+  return nothing_in_common(trajectory, file, "has none of the trajectory's stamps (within 2 ms)",
+                           {truth.poses().front().stamp, truth.poses().back().stamp});
+}
+
+Result<ReferenceResult> against_flight(const StampedPath& trajectory, const std::string& file) {
+  const Result<std::unique_ptr<SampleSource>> source = open_sample_source(file, {});
+  if (!source) return source.error();
+  std::vector<RangeSample> samples;
+  Result<RangeSample> sample = (*source)->next();
+  for (; sample || sample.error().code == ErrorCode::kTimeout; sample = (*source)->next())
+    if (sample) samples.push_back(*sample);
+  if (sample.error().code != ErrorCode::kEndOfRecording) return sample.error();
+  FlightSharpness sharpness = flight_sharpness(samples, trajectory, (*source)->beams());
+  if (sharpness.drawn > 0)
+    return ReferenceResult{file, FlightResult{std::move(sharpness), (*source)->report()}};
+  if (samples.empty()) return Error{ErrorCode::kInvalidInput, file + ": holds no sample"};
+  return nothing_in_common(trajectory, file, "has no sample within the trajectory's time", sharpness.outside);
+}
+
+}  // namespace
+
+Result<ReferenceResult> evaluate_against(const StampedPath& trajectory, const std::string& file,
+                                         ReferenceKind kind) {
+  SWIFTLET_CHECK(!trajectory.poses().empty(), "a trajectory to be judged has poses");
+  switch (kind) {
+    case ReferenceKind::kRelations:
+      return against_relations(trajectory, file);
+    case ReferenceKind::kTruth:
+      return against_truth(trajectory, file);
+    case ReferenceKind::kFlight:
+      break;
+  }
+  return against_flight(trajectory, file);
+}
+
+}  // namespace swiftlet
