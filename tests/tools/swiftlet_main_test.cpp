@@ -197,6 +197,36 @@ TEST_F(SwiftletCommand, SaysThatARecordingEndedEarlyAndKeepsWhatItHas) {
   EXPECT_EQ(run("map {}/flight.pcap -o {}/out").exit_code, 0);
 }
 
+TEST_F(SwiftletCommand, EvaluatesATrajectoryForPeopleAndPrograms) {
+  write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  write("motions.txt", "1 2 1.5 0 0 0 0 0\n2 9 0 0 0 0 0 0\n");
+  const Outcome people = run("eval {}/path.tum {}/motions.txt --json {}/figures.json");
+  EXPECT_EQ(people.exit_code, 0) << people.err;
+  EXPECT_THAT(people.out,
+              AllOf(HasSubstr("1 of 2 relations"), HasSubstr("not in the trajectory: 9.000000\n")));
+  EXPECT_EQ(people.err, "");
+  const Outcome programs = run("eval --relations {}/motions.txt --truth {}/path.tum {}/path.tum --json -");
+  EXPECT_EQ(programs.exit_code, 0) << programs.err;
+  EXPECT_THAT(programs.out, AllOf(StartsWith("{"), EndsWith("}\n"), HasSubstr("\"rmse_m\": 0.0")));
+  EXPECT_THAT(text_of(file("figures.json")), AllOf(StartsWith("{"), HasSubstr("\"missed\": 1")));
+}
+
+TEST_F(SwiftletCommand, NamesWhatItCannotEvaluate) {
+  write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  write("motions.txt", "1 2 1.5 0 0 0 0 0\n");
+  write("cut.relations", "1 2 1.5 0 0 0 0 0\n1 2 1.5\n");
+  write("other.relations", "11 12 1.5 0 0 0 0 0\n");
+  EXPECT_THAT(run("eval"), refuses_with("TRAJECTORY"));
+  EXPECT_THAT(run("eval {}/path.tum"), refuses_with("no reference given"));
+  EXPECT_THAT(run("eval {}/none.tum {}/motions.txt"), refuses_with("none.tum: no such file"));
+  EXPECT_THAT(run("eval {}/path.tum {}/none.pcap"), refuses_with("none.pcap: no such file"));
+  EXPECT_THAT(run("eval {}/path.tum {}/cut.relations"), refuses_with("cut.relations:2: has 3 columns"));
+  EXPECT_THAT(run("eval {}/path.tum {}/other.relations"), refuses_with("other.relations: "));
+  EXPECT_THAT(run("eval {}/motions.txt {}/path.tum"), refuses_with("motions.txt:1: "));
+  EXPECT_THAT(run("eval {}/path.tum {}/motions.txt --json {}/none/figures.json"),
+              refuses_with("none/figures.json"));
+}
+
 fs::path dataset(const std::string& name) {
   const char* folder = std::getenv("SWIFTLET_DATASETS");  // NOLINT(concurrency-*)
   return fs::path(folder != nullptr ? folder : SWIFTLET_DATASETS_BESIDE) / name;
@@ -213,6 +243,18 @@ TEST_F(SwiftletCommand, UsesACaptureUpToTheDamageAndReportsIt) {
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   EXPECT_THAT(text_of(file("out/report.json")), HasSubstr("byte"));
   EXPECT_GT(fs::file_size(file("out/trajectory.tum")), 1000U);
+}
+
+TEST_F(SwiftletCommand, EvaluatesOnACaptureUpToItsDamageAndSaysSo) {
+  const fs::path flight = dataset("flights/olsson.pcap");
+  if (!fs::exists(flight)) GTEST_SKIP() << flight << " is missing";
+  const std::string whole = text_of(flight);
+  std::ofstream(file("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 8 + 7);
+  write("path.tum", "1627252325 0 0 0 0 0 0 1\n1627252345 0 0 0 0 0 0 1\n");
+  const Outcome outcome = run("eval {}/path.tum {}/cut.pcap");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, HasSubstr(" cells of 0.2 m"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("byte"), EndsWith("the figures come from what came before\n")));
 }
 
 TEST_F(SwiftletCommand, RefusesACaptureThatIsCutBeforeItsFirstSample) {
