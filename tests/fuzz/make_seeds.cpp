@@ -123,6 +123,12 @@ variables = [
   { name = "range.front", type = "uint16" },
 ]
 )";
+constexpr std::string_view kTruth =
+    "# stamp x y z qx qy qz qw\n1627252327.515387 0.78 -0.27 0 0 0 -0.6 0.8\n1627252328 1 0 0 0 0 0 1\n";
+constexpr std::string_view kRelations =
+    "90.239599 90.719599 0.42 0 0 0 0 0.01\n90.719599 90.239599 -0.42 0 0 0 0 0\n";
+/// May be either.
+constexpr std::string_view kRelationsOrTruth = "1 2 0.5 0 0 0 0 1\n2 1 0 0 0 0 0 1\n";
 /// Two scans of the smallest known width.
 std::string laser_log() {
   std::string log = "PARAM robot_frontlaser_offset 0.0\n";
@@ -144,7 +150,9 @@ bool write_all(const std::filesystem::path& folder) {
          write(folder / "log_session/compressed", as_fuzz_bytes(compressed_session())) &&
          write(folder / "recording/radio.pcap", one_block, CaptureLinkKind::kRadio) &&
          write(folder / "recording/usb.pcap", two_blocks, CaptureLinkKind::kUsb) &&
-         write(folder / "recording/laser.clf", laser_log()) &&
+         write(folder / "recording/laser.clf", laser_log()) && write(folder / "reference/truth", kTruth) &&
+         write(folder / "reference/relations", kRelations) &&
+         write(folder / "reference/either", kRelationsOrTruth) &&
          write(folder / "block_description/one.toml", kDescription);
 }
 

@@ -27,7 +27,7 @@ struct NumberRow {
 [[nodiscard]] Result<std::vector<NumberRow>> read_number_rows(const std::string& path);
 
 /// A column in seconds as a stamp, to the microsecond: that undoes the rounding of the binary number. Errors:
-/// kInvalidInput: more than 9e9 s from 1970; `path` and the row's line are in the message.
+/// kInvalidInput: more than 4e9 s from 1970; `path` and the row's line are in the message.
 [[nodiscard]] Result<HostTime> stamp_in(const NumberRow& row, std::size_t column, const std::string& path);
 
 /// "FILE:LINE: WHAT".
