@@ -19,10 +19,7 @@ using testing::StartsWith;
 
 HostTime at(std::int64_t ms) { return HostTime(milliseconds(ms)); }
 
-const StampedPath& straight_path() {
-  static const StampedPath path({{at(1000), Pose2()}, {at(2000), Pose2(1.0, 0.0, 0.0)}});
-  return path;
-}
+StampedPath straight_path() { return StampedPath({{at(1000), Pose2()}, {at(2000), Pose2(1.0, 0.0, 0.0)}}); }
 
 TEST(Evaluate, MeasuresByTheKindOfTheReference) {
   const TemporaryFile relations("a", "1 2 1.5 0 0 0 0 0\n");
