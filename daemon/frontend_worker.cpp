@@ -33,12 +33,12 @@ StepResult FrontendWorker::step() noexcept {
 }
 
 const FrontendStep& FrontendWorker::process() noexcept {
+  static_cast<void>(correction_.load_if_new(applied_));
   const StageTimer timer(clock_, times_);
-  return frontend_.process(sample_);
+  return frontend_.process(sample_, applied_.T_map_local);
 }
 
 void FrontendWorker::report(const FrontendStep& step) noexcept {
-  static_cast<void>(correction_.load_if_new(applied_));
   if (sample_.starts_segment) ++segment_;
   // A refused pose is counted by the queue.
   static_cast<void>(publisher_->poses.try_push({.stamp = sample_.stamp,
@@ -46,7 +46,7 @@ void FrontendWorker::report(const FrontendStep& step) noexcept {
                                                 .segment = segment_,
                                                 .keyframe = step.keyframe,
                                                 .correction_version = applied_.version,
-                                                .T_map_body = applied_.T_map_local * step.T_local_body,
+                                                .T_map_body = step.T_map_body,
                                                 .T_local_body = step.T_local_body,
                                                 .T_odom_body = sample_.T_odom_body}));
   publisher_->counters.store(frontend_.counters());

@@ -71,11 +71,12 @@ void print_summary(const MapCommand& command, const RunView& run) {
               static_cast<unsigned long long>(counters.closures_accepted),
               static_cast<unsigned long long>(counters.closures_dropped), run.input.problems.size());
   const std::string directory = command.output_directory.string();
-  std::printf("files: %s: map.png map.pgm map.yaml trajectory.tum odometry.tum %sreport.json\n",
+  std::printf("files: %s: map.png map.pgm map.yaml trajectory.tum odometry.tum live.tum %sreport.json\n",
               directory.c_str(), run.truth.empty() ? "" : "ground_truth.tum ");
   if (const auto error = run_error(run.backend, run.truth))
-    std::printf("error before correction %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
-                error->odometry.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
+    std::printf(
+        "error before correction %.3f m, live %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
+        error->odometry.rmse_m, error->live.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
   std::printf("picture: %s\n", (command.output_directory / "map.png").c_str());
 }
 

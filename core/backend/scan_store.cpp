@@ -19,6 +19,7 @@ ScanIndex ScanStore::add(const FrontendStep& step) {
                   .T_odom_body = sample.T_odom_body,
                   .T_dead_body = step.T_dead_body,
                   .T_keyframe_body = step.T_keyframe_body,
+                  .T_map_live = step.T_map_body,
                   .keyframe = step.keyframe,
                   .path_m = 0.0,
                   .first_return = static_cast<std::uint32_t>(returns_.size()),

@@ -29,6 +29,7 @@ struct StoredScan {
   Pose2 T_odom_body;
   Pose2 T_dead_body;      ///< dead reckoning less its learnt drift
   Pose2 T_keyframe_body;  ///< by dead reckoning from `keyframe`
+  Pose2 T_map_live;       ///< the body in the map as it was published at the time
   KeyframeId keyframe{};  ///< the newest keyframe at the time
   double path_m = 0.0;    ///< travelled since the start of the run
   std::uint32_t first_return = 0;

@@ -89,7 +89,7 @@ Frontend::~Frontend() = default;
 const FrontendCounters& Frontend::counters() const noexcept { return state_->counters; }
 
 // Algorithm 1; its lines in the comments.
-const FrontendStep& Frontend::process(const RangeSample& sample) noexcept {
+const FrontendStep& Frontend::process(const RangeSample& sample, const Pose2& T_map_local) noexcept {
   State& s = *state_;
   ++s.counters.samples;
   s.track_motion(sample);
@@ -109,6 +109,7 @@ const FrontendStep& Frontend::process(const RangeSample& sample) noexcept {
   s.step.keyframe = s.newest;
   s.step.T_keyframe_body = s.since_keyframe.T_from_to;
   s.step.T_local_body = s.graph.poses().back().T_local_body * s.since_keyframe.T_from_to;
+  s.step.T_map_body = T_map_local * s.step.T_local_body;
   return s.step;
 }
 

@@ -36,8 +36,9 @@ class Frontend {
   Frontend(const Frontend&) = delete;
   Frontend& operator=(const Frontend&) = delete;
 
-  /// Valid until the next call.
-  const FrontendStep& process(const RangeSample& sample) noexcept;
+  /// `T_map_local`: the map's correction by now, which only FrontendStep::T_map_body follows. The answer is
+  /// valid until the next call.
+  const FrontendStep& process(const RangeSample& sample, const Pose2& T_map_local = Pose2()) noexcept;
   [[nodiscard]] const FrontendCounters& counters() const noexcept;
 
  private:

@@ -42,6 +42,7 @@ struct Keyframe {
 struct FrontendStep {
   RangeSample sample;
   Pose2 T_local_body;     ///< estimate at once, in the frontend's continuous frame
+  Pose2 T_map_body;       ///< the same in the map, as corrected by then
   Pose2 T_dead_body;      ///< dead reckoning less its learnt drift: runs on through keyframes, stands still
                           ///< where a segment starts without it
   KeyframeId keyframe{};  ///< the newest keyframe, this sample's own if it made one

@@ -44,6 +44,8 @@ Status write_trajectories(const std::filesystem::path& directory, const RunView&
   if (Status written = write_file(directory / "trajectory.tum", corrected); !written) return written;
   const std::string odometry = trajectory_text(scans, [&](ScanIndex i) { return scans[i].T_odom_body; });
   if (Status written = write_file(directory / "odometry.tum", odometry); !written) return written;
+  const std::string live = trajectory_text(scans, [&](ScanIndex i) { return scans[i].T_map_live; });
+  if (Status written = write_file(directory / "live.tum", live); !written) return written;
   if (run.truth.empty()) return {};
   std::string truth;
   for (const StampedPose& at : run.truth) append_tum_line(truth, at.stamp, at.pose);
@@ -55,6 +57,7 @@ Status write_trajectories(const std::filesystem::path& directory, const RunView&
 std::optional<RunError> run_error(const Backend& backend, const std::vector<StampedPose>& truth) {
   const ScanStore& scans = backend.scans();
   std::vector<Point2> odometry;
+  std::vector<Point2> live;
   std::vector<Point2> corrected;
   std::vector<Point2> known;
   auto at = truth.begin();
@@ -63,11 +66,13 @@ std::optional<RunError> run_error(const Backend& backend, const std::vector<Stam
     if (at == truth.end()) break;
     if (at->stamp != scans[i].stamp) continue;
     odometry.push_back(scans[i].T_odom_body.position());
+    live.push_back(scans[i].T_map_live.position());
     corrected.push_back(backend.T_map_body(i).position());
     known.push_back(at->pose.position());
   }
   if (known.empty()) return std::nullopt;
-  return RunError{trajectory_error(odometry, known), trajectory_error(corrected, known)};
+  return RunError{trajectory_error(odometry, known), trajectory_error(live, known),
+                  trajectory_error(corrected, known)};
 }
 
 Status write_run_outputs(const std::filesystem::path& directory, const RunView& run) {

@@ -29,18 +29,20 @@ struct RunView {
   SensorModel sensor;  ///< as used: with the configuration's overrides
 };
 
-/// Error of the path before and after correction, over the scans whose stamp the truth knows.
+/// Error of the path before correction, as published at the time, and after correction, over the scans whose
+/// stamp the truth knows.
 struct RunError {
   TrajectoryError odometry;
+  TrajectoryError live;
   TrajectoryError corrected;
 };
 /// nullopt when the truth knows none of the scans.
 [[nodiscard]] std::optional<RunError> run_error(const Backend& backend,
                                                 const std::vector<StampedPose>& truth);
 
-/// Writes map.png, map.pgm, map.yaml, trajectory.tum, odometry.tum, report.json and, where the truth is
-/// known, ground_truth.tum into the directory, which is created where missing. Each file is complete or not
-/// there: the first that cannot be written ends it, those before it stay.
+/// Writes map.png, map.pgm, map.yaml, trajectory.tum, odometry.tum, live.tum, report.json and, where the
+/// truth is known, ground_truth.tum into the directory, which is created where missing. Each file is complete
+/// or not there: the first that cannot be written ends it, those before it stay.
 [[nodiscard]] Status write_run_outputs(const std::filesystem::path& directory, const RunView& run);
 
 }  // namespace swiftlet

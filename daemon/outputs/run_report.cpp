@@ -120,6 +120,7 @@ std::string run_report_json(const RunView& run) {
   if (const auto error = run_error(run.backend, run.truth))
     json["absolute_trajectory_error"] = {{"samples", error->corrected.pairs},
                                          {"odometry", error_json(error->odometry)},
+                                         {"live", error_json(error->live)},
                                          {"corrected", error_json(error->corrected)}};
   json["stage_times"] = times_json(run.times);
   json["peak_memory_mb"] = peak_memory_mb();

@@ -83,6 +83,12 @@ TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {
   EXPECT_EQ(after.correction_version, 2U);
   EXPECT_DOUBLE_EQ(after.T_map_body.x_m(), after.T_local_body.x_m() + 10.0);
   EXPECT_DOUBLE_EQ(after.T_odom_body.x_m(), flight[1].T_odom_body.x_m());
+
+  const auto handed_on = std::make_unique<FrontendStep>();
+  for (const PoseUpdate& published : {before, after}) {
+    ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*handed_on));
+    EXPECT_DOUBLE_EQ(handed_on->T_map_body.x_m(), published.T_map_body.x_m());
+  }
 }
 
 TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {

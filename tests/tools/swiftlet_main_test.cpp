@@ -138,7 +138,8 @@ TEST_F(SwiftletCommand, MapsALaserLogAndSaysWhereTheFilesAre) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("150 samples"), HasSubstr("map.png")));
   EXPECT_THAT(outcome.err, testing::Not(HasSubstr("[")));  // no progress bar where there is no terminal
-  for (const char* name : {"map.png", "map.pgm", "map.yaml", "trajectory.tum", "odometry.tum", "report.json"})
+  for (const char* name :
+       {"map.png", "map.pgm", "map.yaml", "trajectory.tum", "odometry.tum", "live.tum", "report.json"})
     EXPECT_GT(fs::file_size(file("out") / name), 0U) << name;
   const std::string trajectory = text_of(file("out/trajectory.tum"));
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 150);
@@ -154,7 +155,7 @@ TEST_F(SwiftletCommand, GivesTheSameBytesTwice) {
   write("run.clf", small_log());
   for (const char* name : {"a", "b"})
     ASSERT_EQ(run("map {}/run.clf -o {}/" + std::string(name)).exit_code, 0);
-  for (const char* name : {"map.png", "map.pgm", "trajectory.tum"})
+  for (const char* name : {"map.png", "map.pgm", "trajectory.tum", "live.tum"})
     EXPECT_EQ(text_of(file("a") / name), text_of(file("b") / name)) << name;
 }
 
@@ -168,7 +169,7 @@ TEST_F(SwiftletCommand, RecordsAFlightThatMapsAsTheFlightItselfDoes) {
   EXPECT_GT(fs::file_size(file("whole.pcap")), fs::file_size(file("flight.pcap")));
   ASSERT_EQ(run("map {}/whole.pcap -o {}/replayed").exit_code, 0);
   ASSERT_EQ(run("map 'sim://corridors?seed=3' -o {}/live").exit_code, 0);
-  for (const char* name : {"map.pgm", "trajectory.tum", "odometry.tum"})
+  for (const char* name : {"map.pgm", "trajectory.tum", "odometry.tum", "live.tum"})
     EXPECT_EQ(text_of(file("replayed") / name), text_of(file("live") / name)) << name;
 }
 

@@ -34,8 +34,8 @@ TEST(RunOutputs, WritesEveryFileAndNothingElse) {
   const FinishedRun run;
   ASSERT_TRUE(write_run_outputs(directory.path() / "new", run.view(false)).ok());
   EXPECT_EQ(names_in(directory.path() / "new"),
-            (std::set<std::string>{"map.pgm", "map.png", "map.yaml", "odometry.tum", "report.json",
-                                   "trajectory.tum"}));
+            (std::set<std::string>{"live.tum", "map.pgm", "map.png", "map.yaml", "odometry.tum",
+                                   "report.json", "trajectory.tum"}));
 }
 
 TEST(RunOutputs, WritesTheTruthWhereItIsKnown) {
@@ -82,7 +82,7 @@ TEST(RunOutputs, AreTheSameBytesForTheSameRun) {
   for (const char* name : {"a", "b"})
     ASSERT_TRUE(write_run_outputs(directory.path() / name, FinishedRun().view(true)).ok());
   for (const char* file :
-       {"map.png", "map.pgm", "map.yaml", "trajectory.tum", "odometry.tum", "ground_truth.tum"})
+       {"map.png", "map.pgm", "map.yaml", "trajectory.tum", "odometry.tum", "live.tum", "ground_truth.tum"})
     EXPECT_EQ(text_of(directory.path() / "a" / file), text_of(directory.path() / "b" / file)) << file;
 }
 
