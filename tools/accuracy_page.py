@@ -221,11 +221,13 @@ with its refinement is one call at the end. [speed](speed.md) has whole runs, me
 """
 
 
-def document(results, circumstances, missing):
-    """The page. `missing`: files of data that are not there."""
+def document(results, circumstances):
+    """The page: all runs that have been made, and which data the others lack."""
     get = results.get
     rows = rows_of(get)
-    at_once = max((result["at_once"] for run in runs.runs_of(runs.PARTS) if (result := get(run))), default=1)
+    made_or_not = [(run, get(run)) for run in runs.runs_of(runs.PARTS)]
+    at_once = max((result["at_once"] for _, result in made_or_not if result is not None), default=1)
+    missing = sorted({file for run, result in made_or_not if result is None for file in run.log.missing()})
     left_out = "".join(f"\nLeft out, for it was not there: `{file}`.\n" for file in missing)
     lines = missed(rows)
     swept = "\n".join(sweep_text(sweep, get) for sweep in sweeps.SWEEPS)

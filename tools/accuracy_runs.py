@@ -6,7 +6,7 @@ import dataclasses
 import hashlib
 import json
 import os
-import subprocess
+import re
 import tempfile
 from pathlib import Path
 
@@ -130,7 +130,7 @@ class Results:
         self.program = hashlib.sha256(Path(swiftlet).read_bytes()).hexdigest()[:12]
 
     def _file(self, run):
-        name = "".join(c if c.isalnum() else "-" for c in run.title().replace(", ", "_"))
+        name = re.sub("[^A-Za-z0-9]+", "-", run.title())
         return self.folder / f"{name}_{self.program}.json"
 
     def get(self, run):
