@@ -202,6 +202,8 @@ def sweep_text(sweep, get):
 
 {sweeps.table(sweep, get)}
 
+Of the curves of translation:
+
 {bullets(sweeps.verdicts(sweep, get))}
 """
 

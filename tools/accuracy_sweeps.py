@@ -115,23 +115,23 @@ def explanation(results, errors):
     shares = shares_of_difference(results[worst]["final"], results[best]["final"])
     band = max(shares, key=shares.get)
 
-    def kept(value):
-        closures = results[value]["report"]["backend"]["closures"]
-        return closures["accepted"] - closures["dropped"]
+    def closures(value):
+        counts = results[value]["report"]["backend"]["closures"]
+        return f"{counts['accepted'] - counts['dropped']} kept and {counts['dropped']} dropped at {value}"
 
-    return (f"From {worst} to {best}, {shares[band]:.0%} of the difference is that of relations {band}; closures kept: "
-            f"{kept(worst)} at {worst}, {kept(best)} at {best}.")
+    return (f"From {worst} to {best}, {shares[band]:.0%} of the difference is that of relations {band}; closures: "
+            f"{closures(worst)}, {closures(best)}.")
 
 
 def shape(sweep, results):
     """Says whether a curve is the paper's."""
     errors = errors_of(results)
     spread = max(errors.values()) / min(errors.values()) - 1
-    contradiction = sweep.contradiction(errors)
-    if contradiction is None:
-        return f"the paper's shape; worst over best +{spread:.1%}."
     if spread < FLAT:
         return f"flat; worst over best +{spread:.1%}, so the setting hardly matters."
+    contradiction = sweep.contradiction(errors)
+    if contradiction is None:
+        return f"the paper's shape; worst over best +{spread:.0%}."
     return f"**not the paper's shape**: {contradiction}; worst over best +{spread:.0%}. {explanation(results, errors)}"
 
 

@@ -51,7 +51,7 @@ class AccuracySweeps(unittest.TestCase):
         text = sweeps.verdict(KERNEL, {1: result(0.02, 0.2, kept=90), 3: result(0.02, 0.3, kept=30),
                                        5: result(0.02, 0.31), 7: result(0.02, 0.32, kept=20)})
         for part in ("not the paper's shape", "least at 1", "From 7 to 1, 100%", "relations over 100 s",
-                     "20 at 7, 90 at 1"):
+                     "20 kept and 2 dropped at 7, 90 kept and 2 dropped at 1"):
             self.assertIn(part, text)
 
     def test_small_differences_are_called_flat(self):
