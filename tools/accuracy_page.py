@@ -196,7 +196,7 @@ def sweep_text(sweep, get):
         return f"## {sweep.heading}\n\n{NOT_MADE}\n"
     return f"""## {sweep.heading}
 
-{sweep.introduction}
+{textwrap.fill(sweep.introduction, WIDTH)}
 
 ![{sweep.heading}](accuracy/{sweep.part}.svg)
 
@@ -232,6 +232,7 @@ def document(results, circumstances):
     missing = sorted({file for run, result in made_or_not if result is None for file in run.log.missing()})
     left_out = "".join(f"\nLeft out, for it was not there: `{file}`.\n" for file in missing)
     lines = missed(rows)
+    out, points = sweeps.break_out_count(get)
     swept = "\n".join(sweep_text(sweep, get) for sweep in sweeps.SWEEPS)
     return f"""{page.head("Accuracy of mapping", "benchmark-accuracy", circumstances)}Program: sha256 \
 {results.program}..., at most {at_once} runs at once.
@@ -244,6 +245,10 @@ published; "odometry" is what the vehicle itself believed. "Without refinement" 
 Limits met: {limits_count(rows) - len(lines)} of {limits_count(rows)}. Missed:
 
 {bullets(lines)}
+
+Points of the sweeps whose error breaks out of its curve, over {sweeps.BREAK_OUT:g} times the median: {out} of {points}. \
+Axes are
+logarithmic where such a point would flatten the rest.
 
 ## The paper's table, and past it
 

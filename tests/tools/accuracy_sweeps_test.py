@@ -29,6 +29,7 @@ class AccuracySweeps(unittest.TestCase):
     def test_more_beams_must_help_and_the_first_ones_most(self):
         self.assertIsNone(sweeps.falls_ever_less({4: 0.12, 11: 0.09, 60: 0.08}))
         self.assertIn("no better at 60", sweeps.falls_ever_less({4: 0.12, 11: 0.09, 60: 0.12}))
+        self.assertIn("worse at 9 than at 4", sweeps.falls_ever_less({4: 0.12, 9: 0.2, 11: 0.09, 60: 0.08}))
         self.assertIn("gains more from 11", sweeps.falls_ever_less({4: 0.12, 11: 0.11, 60: 0.08}))
 
     def test_the_kernel_of_three_must_be_best_and_wider_ones_ever_worse(self):
@@ -64,6 +65,19 @@ class AccuracySweeps(unittest.TestCase):
         text = sweeps.verdict(BEAMS, {**results, 9: result(0.02, 5.0)})
         self.assertTrue(text.startswith("**breaks out** at 9 (1.26 m)."), text)
         self.assertIn("The others: the paper's shape", text)
+
+    def test_no_kernel_at_all_may_break_out_for_the_paper_says_that_it_is_worse(self):
+        text = sweeps.verdict(KERNEL, {1: result(0.02, 3.0, kept=1), 3: result(0.02, 0.1), 5: result(0.02, 0.12),
+                                       7: result(0.02, 0.13)})
+        self.assertTrue(text.startswith("the paper's shape, but **breaks out** at 1 (0.765 m)."), text)
+        self.assertIn("1 kept and 2 dropped at 1", text)
+
+    def test_break_outs_of_complete_curves_are_counted(self):
+        broken = sweeps.runs.Run(sweeps.runs.INTEL, beams=9)
+        made = {run: result(0.02, 5.0 if run == broken else 0.1) for run in sweeps.runs.PARTS["beams"]}
+        self.assertEqual(sweeps.break_out_count(made.get), (1, 4 * len(BEAMS.values)))
+        del made[broken]
+        self.assertEqual(sweeps.break_out_count(made.get), (0, 3 * len(BEAMS.values)))
 
     def test_nothing_is_concluded_from_a_part_of_the_runs(self):
         self.assertIn("not all runs", sweeps.verdict(KERNEL, {1: result(0.02, 0.2)}))
