@@ -246,9 +246,9 @@ Limits met: {limits_count(rows) - len(lines)} of {limits_count(rows)}. Missed:
 
 {bullets(lines)}
 
-Points of the sweeps whose error breaks out of its curve, over {sweeps.BREAK_OUT:g} times the median: {out} of {points}. \
-Axes are
-logarithmic where such a point would flatten the rest.
+Points of the sweeps that break out of their curves, with over {sweeps.BREAK_OUT:g} times the median error: {out} of \
+{points}.
+Axes are logarithmic where such a point would flatten the rest.
 
 ## The paper's table, and past it
 

@@ -72,6 +72,11 @@ class AccuracySweeps(unittest.TestCase):
         self.assertTrue(text.startswith("the paper's shape, but **breaks out** at 1 (0.765 m)."), text)
         self.assertIn("1 kept and 2 dropped at 1", text)
 
+    def test_a_break_out_elsewhere_is_never_part_of_the_paper_s_shape(self):
+        results = {value: result(0.02, 0.1 + 0.001 * abs(value - 112)) for value in MULTISCAN.values}
+        text = sweeps.verdict(MULTISCAN, {**results, 132: result(0.02, 5.0)})
+        self.assertTrue(text.startswith("**breaks out** at 132"), text)
+
     def test_break_outs_of_complete_curves_are_counted(self):
         broken = sweeps.runs.Run(sweeps.runs.INTEL, beams=9)
         made = {run: result(0.02, 5.0 if run == broken else 0.1) for run in sweeps.runs.PARTS["beams"]}
