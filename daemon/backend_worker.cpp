@@ -37,7 +37,7 @@ void BackendWorker::add_step() {
 
 void BackendWorker::run_final_pass() {
   {
-    const StageTimer timer(clock_, times_.backend);
+    const StageTimer timer(clock_, times_.final_pass);
     static_cast<void>(backend_.finish());
   }
   final_pass_done_ = true;

@@ -16,7 +16,7 @@ namespace swiftlet {
 
 /// How long one stage took over a run.
 struct StageSummary {
-  std::string name;  ///< "input", "frontend", "backend", "map"
+  std::string name;  ///< "input", "frontend", "backend", "final_pass", "map"
   std::uint64_t count = 0;
   double mean_ms = 0.0;
   double p50_ms = 0.0;
@@ -53,10 +53,11 @@ class StageHistogram {
 
 /// The stages of the pipeline; each is recorded by the one worker that runs it.
 struct StageTimes {
-  StageHistogram input;     ///< SampleSource::next()
-  StageHistogram frontend;  ///< Frontend::process()
-  StageHistogram backend;   ///< Backend::add() and finish()
-  StageHistogram map;       ///< MapBuilder::update()
+  StageHistogram input;       ///< SampleSource::next()
+  StageHistogram frontend;    ///< Frontend::process()
+  StageHistogram backend;     ///< Backend::add()
+  StageHistogram final_pass;  ///< Backend::finish()
+  StageHistogram map;         ///< MapBuilder::update()
 
   [[nodiscard]] std::vector<StageSummary> summaries() const;
 };

@@ -199,6 +199,21 @@ Fault parse_udp(std::string_view rest, InputUri& parsed) {
   return std::nullopt;
 }
 
+Fault apply_to_simulation(const Parameter& parameter, InputUri& parsed) {
+  if (parameter.key == "seed") {
+    constexpr std::uint64_t kHighest = std::numeric_limits<std::uint64_t>::max();
+    const auto seed = whole_number(parameter.value, std::uint64_t{0}, kHighest);
+    if (!seed) return "the seed must be a whole number from 0 to 18446744073709551615";
+    parsed.seed = *seed;
+    return std::nullopt;
+  }
+  if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps");
+  const auto laps = whole_number(parameter.value, 1, 20);
+  if (!laps) return "the laps must be a whole number from 1 to 20";
+  parsed.laps = *laps;
+  return std::nullopt;
+}
+
 Fault parse_simulation(std::string_view rest, InputUri& parsed) {
   parsed.kind = InputUri::Kind::kSimulation;
   std::vector<Parameter> parameters;
@@ -206,11 +221,7 @@ Fault parse_simulation(std::string_view rest, InputUri& parsed) {
   parsed.world = rest;
   if (parsed.world.empty()) return "names no world";
   for (const Parameter& parameter : parameters) {
-    if (parameter.key != "seed") return unknown_parameter(parameter.key, "seed");
-    constexpr std::uint64_t kHighest = std::numeric_limits<std::uint64_t>::max();
-    const auto seed = whole_number(parameter.value, std::uint64_t{0}, kHighest);
-    if (!seed) return "the seed must be a whole number from 0 to 18446744073709551615";
-    parsed.seed = *seed;
+    if (Fault fault = apply_to_simulation(parameter, parsed)) return fault;
   }
   return std::nullopt;
 }

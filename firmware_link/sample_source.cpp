@@ -92,7 +92,7 @@ Result<std::unique_ptr<SampleSource>> open_live(const std::string& uri, const In
 
 Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, const InputUri& parsed,
                                                       const SampleSourceOptions& options) {
-  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed);
+  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed, parsed.laps);
   if (!link) return link.error();
   LinkInput input;
   input.name = uri;

@@ -75,8 +75,8 @@ struct SampleSourceOptions {
   FrameSink* recording = nullptr;     ///< links only: hears every frame; must outlive the source
 };
 
-/// Opens `replay:FILE.pcap`, `sim://WORLD?seed=N`, or a plain path (.pcap, .clf, .clf.gz). kInvalidInput or
-/// kNotFound with one line that says what, where and what to do.
+/// Opens `replay:FILE.pcap`, `sim://WORLD?seed=N&laps=N`, or a plain path (.pcap, .clf, .clf.gz).
+/// kInvalidInput or kNotFound with one line that says what, where and what to do.
 [[nodiscard]] Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
                                                                        const SampleSourceOptions& options);
 

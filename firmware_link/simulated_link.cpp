@@ -22,10 +22,14 @@ VehicleModel on_air(VehicleModel model) {
 
 }  // namespace
 
-Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view world, std::uint64_t seed) {
+Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view world, std::uint64_t seed,
+                                                           int laps) {
   Result<SimulatedWorld> made = make_simulated_world(world);
   if (!made) return made.error();
-  return std::make_unique<SimulatedLink>(std::move(*made), VehicleModel{}, kPacketLoss, seed);
+  VehicleModel model;
+  model.pilot.laps = laps;
+  model.battery_endurance *= laps;
+  return std::make_unique<SimulatedLink>(std::move(*made), model, kPacketLoss, seed);
 }
 
 SimulatedLink::SimulatedLink(SimulatedWorld world, const VehicleModel& model, double packet_loss,

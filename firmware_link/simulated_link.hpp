@@ -22,8 +22,10 @@ namespace swiftlet {
 /// repeatable byte for byte. One thread at a time; allocates.
 class SimulatedLink final : public Link {
  public:
-  /// `world`: one of simulated_world_names(). Error: kNotFound, the message lists the worlds.
-  static Result<std::unique_ptr<SimulatedLink>> open(std::string_view world, std::uint64_t seed);
+  /// `world`: one of simulated_world_names(), its script flown `laps` times on a battery that lasts as long.
+  /// Error: kNotFound, the message lists the worlds. Precondition: laps >= 1.
+  static Result<std::unique_ptr<SimulatedLink>> open(std::string_view world, std::uint64_t seed,
+                                                     int laps = 1);
 
   /// Of log packets, the share that never arrives. Noise source: "packet_loss".
   static constexpr double kPacketLoss = 0.01;

@@ -9,6 +9,7 @@
 
 #include "daemon/configuration.hpp"
 #include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/pipeline.hpp"
 #include "firmware_link/sample_source.hpp"
@@ -108,7 +109,8 @@ Status run_map_command(const MapCommand& command) {
                     .times = pipeline.stage_times(),
                     .truth = source.ground_truth(),
                     .input_uri = command.input,
-                    .sensor = config->sensor.applied_to(source.sensor())};
+                    .sensor = config->sensor.applied_to(source.sensor()),
+                    .peak_memory_mb = peak_memory_mb()};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
   print_summary(command, run);
   return damage_of(report);

@@ -31,10 +31,9 @@ int refuse(std::string message) {
 CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
-  map->add_option(
-         "INPUT", command.input,
-         "replay:FILE.pcap, sim://WORLD?seed=N (office, maze, loop, corridors), or a path: .pcap, .clf, "
-         ".clf.gz")
+  map->add_option("INPUT", command.input,
+                  "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors), or a path: "
+                  ".pcap, .clf, .clf.gz")
       ->required();
   map->add_option("-o,--output", command.output_directory, "Directory for the outputs, created where missing")
       ->required();

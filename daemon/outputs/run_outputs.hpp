@@ -26,7 +26,8 @@ struct RunView {
   std::vector<StageSummary> times;
   std::vector<StampedPose> truth;  ///< T_world_body in order of time; empty where nobody knows it
   std::string input_uri;
-  SensorModel sensor;  ///< as used: with the configuration's overrides
+  SensorModel sensor;           ///< as used: with the configuration's overrides
+  double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 
 /// Error of the path before correction, as published at the time, and after correction, over the scans whose

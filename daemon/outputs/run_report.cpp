@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/outputs/run_report.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "daemon/outputs/peak_memory.hpp"
 
 namespace swiftlet {
 
@@ -102,12 +102,6 @@ Json error_json(const TrajectoryError& error) {
   return {{"rmse_m", error.rmse_m}, {"mean_m", error.mean_m}, {"max_m", error.max_m}};
 }
 
-double peak_memory_mb() {
-  rusage usage{};
-  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0.0;
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
 }  // namespace
 
 std::string run_report_json(const RunView& run) {
@@ -123,7 +117,8 @@ std::string run_report_json(const RunView& run) {
                                          {"live", error_json(error->live)},
                                          {"corrected", error_json(error->corrected)}};
   json["stage_times"] = times_json(run.times);
-  json["peak_memory_mb"] = peak_memory_mb();
+  json["run_peak_memory_mb"] = run.peak_memory_mb;
+  json["peak_memory_mb"] = peak_memory_mb();  // with the picture
   // Names of files may hold any bytes: what is not UTF-8 is replaced, not a reason to lose the report.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

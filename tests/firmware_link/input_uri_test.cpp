@@ -25,12 +25,14 @@ TEST(InputUri, TakesReplaysAndPlainPathsAsFiles) {
   EXPECT_EQ(parse_input_uri("radio.pcap")->kind, InputUri::Kind::kFile);
 }
 
-TEST(InputUri, TakesASimulationWithAndWithoutASeed) {
+TEST(InputUri, TakesASimulationWithAndWithoutSeedAndLaps) {
   const auto plain = parse_input_uri("sim://office");
   ASSERT_TRUE(plain.ok());
   EXPECT_EQ(plain->kind, InputUri::Kind::kSimulation);
   EXPECT_EQ(plain->world, "office");
   EXPECT_EQ(plain->seed, 1U);
+  EXPECT_EQ(plain->laps, 1);
+  EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=20")->laps, 20);
   EXPECT_EQ(parse_input_uri("sim://maze?seed=18446744073709551615")->seed, 18446744073709551615U);
 }
 
@@ -105,7 +107,7 @@ TEST(InputUri, SaysWhatIsWrongAndShowsWhatIsRight) {
       {"radio:0/80", "two slashes follow 'radio:'"},
       {"sim://", "names no world"},
       {"sim://?seed=1", "names no world"},
-      {"sim://office?speed=1", "unknown parameter 'speed', known: seed"},
+      {"sim://office?speed=1", "unknown parameter 'speed', known: seed, laps"},
       {"sim://office?", "unknown parameter ''"},
       {"sim://office?seed", "seed must be a whole number"},
       {"sim://office?seed=", "seed must be a whole number"},
@@ -113,6 +115,8 @@ TEST(InputUri, SaysWhatIsWrongAndShowsWhatIsRight) {
       {"sim://office?seed=1x", "seed must be a whole number"},
       {"sim://office?seed=18446744073709551616", "seed must be a whole number"},
       {"sim://office?seed=1&seed=2", "'seed' is given twice"},
+      {"sim://office?laps=0", "laps must be a whole number from 1 to 20"},
+      {"sim://office?laps=21", "laps must be a whole number from 1 to 20"},
       {"radio:///80", "dongle '' must be"},
       {"radio://-1", "dongle '-1' must be"},
       {"radio://0/", "channel '' must be"},

@@ -131,6 +131,13 @@ TEST(SimulatedLink, DeliversTheWholeFlightAndThenEnds) {
   EXPECT_LT(frames.size(), 5000U);
 }
 
+TEST(SimulatedLink, FliesAsManyLapsAsAskedFor) {
+  const auto two = SimulatedLink::open("loop", 1, 2);
+  ASSERT_TRUE(two.ok());
+  const std::size_t frames_of_one = frames_of("loop", 1).size();
+  EXPECT_GT(frames_of(**two).size(), 3 * frames_of_one / 2);
+}
+
 TEST(SimulatedLink, RepeatsItselfByteForByteForTheSameSeed) {
   for (const char* world : {"office", "maze", "loop", "corridors"})
     EXPECT_TRUE(same(frames_of(world, 5), frames_of(world, 5))) << world;

@@ -31,7 +31,8 @@ struct FinishedRun {
             .times = {{"frontend", 81, 0.1, 0.09, 0.4, 0.5}},
             .truth = with_truth ? truth : std::vector<StampedPose>{},
             .input_uri = "sim://room",
-            .sensor = SensorModel::crazyflie()};
+            .sensor = SensorModel::crazyflie(),
+            .peak_memory_mb = 12.5};
   }
 
   Backend backend{without_loops(), SensorModel::crazyflie(), BeamLayout::multiranger()};

@@ -29,6 +29,7 @@ TEST(RunReport, TellsWhatCameInAndWhatWasMadeOfIt) {
   EXPECT_NEAR(report["trajectory"]["odometry_length_m"].get<double>(), 8.0, 1e-9);
   EXPECT_GT(report["map"]["tiles"], 0);
   EXPECT_EQ(report["stage_times"]["frontend"]["p99_ms"], 0.4);
+  EXPECT_EQ(report["run_peak_memory_mb"], 12.5);
   EXPECT_GT(report["peak_memory_mb"].get<double>(), 1.0);
   EXPECT_FALSE(report.contains("absolute_trajectory_error"));
 }

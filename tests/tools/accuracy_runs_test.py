@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""tools/accuracy_runs.py runs what a part asks for, with its settings, once for each build."""
+
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+sys.dont_write_bytecode = True
+import accuracy_runs as runs  # noqa: E402
+
+OFFICE = runs.OFFICES[0]
+# Stands in for swiftlet: writes down how it was called, and what the real one writes but for live.tum.
+PRETENDS = """#!/bin/sh
+echo "$@" >> "$0.calls"
+if [ "$1" = map ]; then
+  while [ "$1" != -o ]; do
+    [ "$1" = --config ] && cp "$2" "$0.toml"
+    shift
+  done
+  mkdir "$2"
+  touch "$2/trajectory.tum" "$2/odometry.tum" "$2/ground_truth.tum"
+  echo '{"backend": 1}' > "$2/report.json"
+else
+  echo "{\\"references\\": [{\\"of\\": \\"$(basename "$2")\\", \\"by\\": \\"$(basename "$3")\\"}]}"
+fi
+"""
+
+
+class AccuracyRuns(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.swiftlet = Path(self.folder.name, "swiftlet")
+        self.swiftlet.write_text(PRETENDS)
+        self.swiftlet.chmod(0o755)
+
+    def results(self):
+        return runs.Results(Path(self.folder.name, "kept"), self.swiftlet)
+
+    def test_each_run_is_made_once_though_several_parts_want_it(self):
+        together = runs.runs_of(["table", "beams", "kernel", "times"])
+        self.assertEqual(len(together), len(set(together)))
+        self.assertEqual(sum(run == runs.Run(runs.INTEL, beams=11) for run in together), 1)
+        self.assertIn(runs.Run(runs.ACES, beams=4, refine=False, kernel=7), together)
+        self.assertNotIn(3, {run.kernel for run in together}, "3 is the default, and that run is there already")
+
+    def test_settings_become_a_configuration(self):
+        run = runs.Run(runs.INTEL, beams=4, refine=False, kernel=5, multiscan=92)
+        self.assertEqual(tomllib.loads(runs.configuration(run.settings())),
+                         {"frontend": {"multiscan_points": 92}, "backend": {"refine": False, "max_kernel_cells": 5}})
+        self.assertEqual(runs.configuration(runs.Run(runs.INTEL, beams=4).settings()), "")
+
+    def test_a_run_is_mapped_with_its_settings_and_each_trajectory_judged(self):
+        self.results().make(runs.Run(OFFICE, beams=6, refine=False), at_once=2)
+        result = self.results().get(runs.Run(OFFICE, beams=6, refine=False))
+        calls = Path(f"{self.swiftlet}.calls").read_text().splitlines()
+        self.assertTrue(calls[0].startswith("map sim://office?seed=1 --beams 6 --config "), calls[0])
+        self.assertEqual(Path(f"{self.swiftlet}.toml").read_text(), "[backend]\nrefine = false\n")
+        self.assertEqual(result["final"], {"of": "trajectory.tum", "by": "ground_truth.tum"})
+        self.assertEqual(result["odometry"]["of"], "odometry.tum")
+        self.assertIsNone(result["live"], "a program that writes no such file has no such figures")
+        self.assertEqual(result["report"], {"backend": 1})
+        self.assertEqual(result["at_once"], 2)
+
+    def test_results_are_kept_for_the_same_settings_of_the_same_program_only(self):
+        self.results().make(runs.Run(OFFICE), at_once=1)
+        self.assertIsNotNone(self.results().get(runs.Run(OFFICE)))
+        self.assertIsNone(self.results().get(runs.Run(OFFICE, refine=False)))
+        self.assertIsNone(self.results().get(runs.Run(runs.OFFICES[1])))
+        self.swiftlet.write_text(PRETENDS + "# another build\n")
+        self.assertIsNone(self.results().get(runs.Run(OFFICE)))
+
+    def test_a_simulation_needs_no_data_and_a_log_names_what_is_not_there(self):
+        self.assertEqual(OFFICE.missing(), [])
+        elsewhere = runs.Log("nowhere", "no/such.clf", "no/such.relations")
+        self.assertEqual(elsewhere.missing(), ["no/such.clf", "no/such.relations"])
+
+
+if __name__ == "__main__":
+    unittest.main()

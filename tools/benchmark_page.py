@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""What the tools/benchmark-* have in common: the release build, Google Benchmark's programs, and the page of results
+with its circumstances."""
+
+import datetime
+import json
+import os
+import re
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build/release"
+RESULTS = ROOT / "docs/results"
+
+
+def run(*command):
+    """What the command says on stdout. Raises OSError or subprocess.CalledProcessError."""
+    return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def build(*targets):
+    """Raises as run() does."""
+    run("cmake", "--preset", "release")
+    run("cmake", "--build", "--preset", "release", "--target", *targets)
+
+
+def google_benchmarks(program):
+    """The rows that a program of tests/benchmarks reports, as Google Benchmark has them. Raises as run() does."""
+    return json.loads(run(str(BUILD / "tests/benchmarks" / program), "--benchmark_format=json"))["benchmarks"]
+
+
+def circumstances():
+    """Date, commit and machine. To be asked before the build: what is built is what stands there, and the load is
+    not yet ours. Raises as run() does."""
+    return {"date": datetime.date.today().isoformat(), "commit": _commit(), "machine": _machine()}
+
+
+def _commit():
+    changed = run("git", "status", "--porcelain", "--untracked-files=no", "--", ":!docs/results")
+    return run("git", "rev-parse", "--short", "HEAD").strip() + (" with changes" if changed else "")
+
+
+def _machine():
+    names = re.findall(r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
+    name = names[0] if names else "unknown processor"
+    undisturbed = os.sched_getscheduler(0) in (os.SCHED_FIFO, os.SCHED_RR)
+    return (f"{os.cpu_count()} cores, {name}, load average {os.getloadavg()[0]:.1f}"
+            + (", measured at real-time priority" if undisturbed else ""))
+
+
+def head(title, tool, report):
+    """How a page begins."""
+    return (f"# {title}\n\nWritten by `tools/{tool} --record` on {report['date']}, commit {report['commit']}.\n"
+            f"Machine: {report['machine']}.\n")
+
+
+def table(columns, rows):
+    """Markdown. `columns`: headings, a trailing ':' aligns right. `rows`: texts."""
+    marks = ["---:" if column.endswith(":") else "---" for column in columns]
+    lines = [[column.rstrip(":") for column in columns], *rows]
+    texts = ["| " + " | ".join(line) + " |" for line in lines]
+    return "\n".join([texts[0], "|" + "|".join(marks) + "|", *texts[1:]])
+
+
+def record(name, text):
+    """Writes docs/results/NAME."""
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    (RESULTS / name).write_text(text, encoding="utf-8")
