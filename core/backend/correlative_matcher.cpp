@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/correlative_matcher.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +19,8 @@ constexpr double kLikelihoodPerScore = 60.0;
 // No match on these grids is better than this, whatever the scores say.
 constexpr double kFloorSigmaM = 0.05;
 constexpr double kFloorSigmaYawRad = 0.015;
-constexpr double kLeastSpreadM = 1.0;  // how far around the optimum the scores are looked at, at least
+constexpr double kLeastSpreadM = 1.0;  // how far around the optimum the scores are looked at: as far as the
+constexpr double kMostSpreadM = 4.0;   // window reaches, within these bounds
 constexpr int kSpreadStride = 2;       // cells
 constexpr int kYawSpreadSteps = 4;
 
@@ -25,6 +28,35 @@ double farthest_m(std::span<const Point2> points) {
   double farthest = 0.5;
   for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
   return farthest;
+}
+
+/// Weighted moments of steps from the optimum.
+struct Moments {
+  double weight = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  void add(double w, const Eigen::Vector3d& d) {
+    weight += w;
+    first += w * d;
+    second += w * d * d.transpose();
+  }
+  [[nodiscard]] Eigen::Vector3d mean() const { return first / weight; }
+  [[nodiscard]] Eigen::Matrix3d covariance() const { return second / weight - mean() * mean().transpose(); }
+};
+
+/// A scan can only match where the submap covers it: along a bare corridor the scores fall off at the
+/// submap's ends for no other reason, and that is no evidence. What the coverage alone would say of the
+/// position is taken out of the information.
+void take_out_coverage(const Eigen::Matrix3d& coverage, double cell_m, Eigen::Matrix3d& covariance) {
+  constexpr double kLeastInformation = 0.01;
+  Eigen::Matrix2d covered = coverage.topLeftCorner<2, 2>();
+  covered.diagonal().array() += cell_m * cell_m;
+  Eigen::Matrix3d information = covariance.inverse();
+  information.topLeftCorner<2, 2>() -= covered.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information);
+  const Eigen::Vector3d weights = solver.eigenvalues().cwiseMax(kLeastInformation);
+  covariance =
+      solver.eigenvectors() * weights.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
 }
 
 }  // namespace
@@ -78,9 +110,7 @@ double CorrelativeMatcher::block_score(const Block& block) const {
   return static_cast<double>(sum) / (255.0 * static_cast<double>(list.size()));
 }
 
-/// Mean probability over the points that fall on known cells. The score itself also rewards covering the
-/// submap: along a corridor it would draw every scan to the submap's middle and be sure of it.
-double CorrelativeMatcher::known_score(const Block& block) const {
+CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const Block& block) const {
   std::uint32_t sum = 0;
   std::size_t known = 0;
   const auto& list = cells(block.yaw);
@@ -89,7 +119,8 @@ double CorrelativeMatcher::known_score(const Block& block) const {
     sum += value;
     known += value != 0 ? 1 : 0;
   }
-  return static_cast<double>(sum) / (255.0 * static_cast<double>(std::max(known, list.size() / 2)));
+  return {static_cast<double>(sum) / (255.0 * static_cast<double>(std::max(known, list.size() / 2))),
+          static_cast<double>(known) / static_cast<double>(list.size())};
 }
 
 CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw) const {
@@ -158,36 +189,33 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 }
 
 /// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
-/// lies between the cells: the refinement below the grid's resolution. The whole search window is looked at,
-/// since along a corridor the likely poses may reach across all of it; every second cell is enough under a
+/// lies between the cells: the refinement below the grid's resolution. Every second cell is enough under a
 /// kernel of three.
 void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
   const double cell_m = submap_.pyramid.geometry().resolution_m;
-  const int reach = std::max(linear_steps_, static_cast<int>(std::lround(kLeastSpreadM / cell_m)));
+  const double reach_m = std::clamp(window_.radius_m, kLeastSpreadM, kMostSpreadM);
+  const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
   const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - kYawSpreadSteps);
   const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  double total = 0.0;
-  const double reference = known_score({0, best.steps_x, best.steps_y, best.steps_yaw, 0.0, 0.0});
-  const int even_reach = reach - reach % kSpreadStride;
+  Moments likely;
+  Moments covered;
+  const double reference = known_cells({0, best.steps_x, best.steps_y, best.steps_yaw, 0.0, 0.0}).score;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
-    for (int dy = -even_reach; dy <= even_reach; dy += kSpreadStride) {
-      for (int dx = -even_reach; dx <= even_reach; dx += kSpreadStride) {
-        const Block at{0, best.steps_x + dx, best.steps_y + dy, yaw, 0.0, 0.0};
-        const double likelihood = std::exp(kLikelihoodPerScore * (known_score(at) - reference));
+    for (int dy = -reach; dy <= reach; dy += kSpreadStride) {
+      for (int dx = -reach; dx <= reach; dx += kSpreadStride) {
+        const KnownCells at = known_cells({0, best.steps_x + dx, best.steps_y + dy, yaw, 0.0, 0.0});
         const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
-        second += likelihood * d * d.transpose();
-        first += likelihood * d;
-        total += likelihood;
+        likely.add(std::exp(kLikelihoodPerScore * (at.score - reference)), d);
+        if (at.share >= 0.5) covered.add(1.0, d);
       }
     }
   }
-  const Eigen::Vector3d mean = first / total;
-  result.covariance = second / total - mean * mean.transpose();
+  result.covariance = likely.covariance();
   result.covariance.diagonal() += Eigen::Vector3d(kFloorSigmaM * kFloorSigmaM, kFloorSigmaM * kFloorSigmaM,
                                                   kFloorSigmaYawRad * kFloorSigmaYawRad);
+  if (covered.weight > 0.0) take_out_coverage(covered.covariance(), cell_m, result.covariance);
   const Pose2 T = T_submap_scan(best);
+  const Eigen::Vector3d mean = likely.mean();
   result.T_submap_scan = Pose2(T.x_m() + mean.x(), T.y_m() + mean.y(), T.yaw_rad() + mean.z());
 }
 

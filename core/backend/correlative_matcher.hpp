@@ -23,7 +23,8 @@ struct MatchResult {
   Pose2 T_submap_scan;         ///< mean of the likely poses: between the cells where the walls
                                ///< decide, midway of the possible along a bare corridor
   double score = 0.0;          ///< mean probability under the points, kernel applied, 0..1
-  Eigen::Matrix3d covariance;  ///< of T_submap_scan's vector, from the scores around the optimum
+  Eigen::Matrix3d covariance;  ///< of T_submap_scan's vector, from the scores around the optimum, less what
+                               ///< the submap's extent alone would say
 };
 
 /// The discrete optimum of eq. 22, before refinement: exact within the window.
@@ -56,7 +57,13 @@ class CorrelativeMatcher {
   struct Block;
   [[nodiscard]] double preference(int steps_x, int steps_y, int steps_yaw) const;
   [[nodiscard]] double block_score(const Block& block) const;
-  [[nodiscard]] double known_score(const Block& block) const;
+  /// Mean probability over the points that fall on known cells, and their share. The score itself also
+  /// rewards covering the submap: along a corridor it would draw every scan to the submap's middle.
+  struct KnownCells {
+    double score = 0.0;
+    double share = 0.0;
+  };
+  [[nodiscard]] KnownCells known_cells(const Block& block) const;
   [[nodiscard]] Block make_block(int level, int x, int y, int yaw) const;
   void search(const Block& block, double min_score, DiscreteMatch& best) const;
   [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {

@@ -310,5 +310,24 @@ TEST(CorrelativeMatcher, TheAnswerStaysInItsWindow) {
   EXPECT_LE(std::abs(best->steps_y), 3);
 }
 
+TEST_F(CorrelativeMatcherInACorridor, AShortSubmapsEndsAreNoEvidenceOfThePosition) {
+  for (const std::size_t cells : {40U, 60U, 100U}) {
+    std::vector<std::string> picture(20, std::string(cells, '.'));
+    picture.front() = picture.back() = std::string(cells, '#');
+    const auto result = match(submap_of(picture), points_, Pose2(0.2, 0.1, 0.05));
+    ASSERT_TRUE(result);
+    EXPECT_GT(std::sqrt(result->covariance(0, 0)), 2.0) << cells << " cells long: it may lie anywhere along";
+    EXPECT_LT(std::sqrt(result->covariance(1, 1)), 0.15);
+  }
+}
+
+TEST(CorrelativeMatcher, ARoomsEndsAreEvidenceOfThePosition) {
+  const Submap room = submap_of(kRoom);
+  const auto result = match(room, wall_points(kRoom), Pose2(0.1, -0.1, 0.02));
+  ASSERT_TRUE(result);
+  EXPECT_LT(std::sqrt(result->covariance(0, 0)), 0.2);
+  EXPECT_LT(std::sqrt(result->covariance(1, 1)), 0.2);
+}
+
 }  // namespace
 }  // namespace swiftlet
