@@ -63,7 +63,7 @@ struct SensorModel {
                       .yaw_per_radian = 0.1,
                       .yaw_per_metre_rad = radians(2.0),
                       .drift_yaw_per_metre_rad = radians(2.0),
-                      .drift_yaw_per_radian = 0.05};
+                      .drift_yaw_per_radian = 0.02};
     return model;
   }
 };
