@@ -2,9 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/backend.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 
+#include "core/backend/heading_hold.hpp"
 #include "core/backend/keyframe_chain.hpp"
 #include "core/backend/loop_detector.hpp"
 #include "core/backend/pose_graph.hpp"
@@ -34,6 +38,7 @@ struct Backend::State {
   void carry_new_poses();
   void take_walls(const Keyframe& made);
   void finish_submaps(KeyframeId newest);
+  bool hold_heading(KeyframeId newest);
   std::uint32_t close_loops(KeyframeId newest);
   bool optimize();
   bool drop_false_closures();
@@ -44,6 +49,8 @@ struct Backend::State {
   ScanStore scans;
   KeyframeChain chain;
   LoopDetector detector;
+  HeadingHold heading_hold;
+  KeyframeId heading_sought_at{};
   PoseGraphOptimizer optimizer;
 
   std::vector<Pose2> T_local_keyframe;
@@ -125,6 +132,32 @@ void Backend::State::finish_submaps(KeyframeId newest) {
   }
 }
 
+/// Once in every few metres, by the walls around.
+bool Backend::State::hold_heading(KeyframeId newest) {
+  const double here_m = chain.path_m(newest);
+  if (!config.align_to_walls || here_m - chain.path_m(heading_sought_at) < 0.5 * config.submap_length_m)
+    return false;
+  heading_sought_at = newest;
+  std::vector<WallRun> around;
+  for (const Wall& wall : walls) {
+    if (here_m - chain.path_m(wall.anchor) > config.submap_length_m) continue;
+    const double dx_m = wall.end_keyframe.x_m - wall.start_keyframe.x_m;
+    const double dy_m = wall.end_keyframe.y_m - wall.start_keyframe.y_m;
+    const double turned_rad =
+        T_local_keyframe[index_of(wall.anchor)].yaw_rad() - T_local_keyframe[index_of(newest)].yaw_rad();
+    around.push_back({std::atan2(dy_m, dx_m) + turned_rad, std::hypot(dx_m, dy_m)});
+  }
+  const std::optional<WallAxis> axis = wall_axis(around);
+  if (!axis) return false;
+  const std::size_t before = graph.headings.size();
+  const std::size_t since = before == 0 ? index_of(newest) : index_of(graph.headings.back().keyframe);
+  double variance_rad2 = 0.0;
+  for (std::size_t k = since; k < index_of(newest); ++k)
+    variance_rad2 += graph.constraints[motion_constraint[k]].information.inverse()(2, 2);
+  heading_hold.add(newest, *axis, variance_rad2, graph);
+  return graph.headings.size() > before;
+}
+
 std::uint32_t Backend::State::close_loops(KeyframeId newest) {
   if (!config.close_loops || static_cast<int>(index_of(newest)) % config.match_every_keyframes != 0) return 0;
   std::vector<LoopClosure> found =
@@ -140,6 +173,7 @@ std::uint32_t Backend::State::close_loops(KeyframeId newest) {
 
 bool Backend::State::optimize() {
   ++counters.optimizations;
+  heading_hold.update(graph);
   if (!optimizer.optimize(graph)) {
     ++counters.solver_failures;
     return false;
@@ -180,7 +214,13 @@ bool Backend::State::refine() {
     c.to = static_cast<KeyframeId>(chain.scan_of(closures[i].to));
     believed.push_back(c);
   }
-  const Result<RefinementReport> report = refine_scan_poses(scans, sensor, believed, config, T_map_body);
+  std::vector<HeadingConstraint> headings = graph.headings;
+  for (HeadingConstraint& c : headings) {
+    c.information *= c.dcs_scale * c.dcs_scale;
+    c.keyframe = static_cast<KeyframeId>(chain.scan_of(c.keyframe));
+  }
+  const Result<RefinementReport> report =
+      refine_scan_poses(scans, sensor, believed, headings, config, T_map_body);
   if (!report) {
     ++counters.solver_failures;
     return false;
@@ -217,15 +257,16 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   if (step.made.starts_segment) s.open_submaps.clear();  // a submap is one stretch of known motion
   s.finish_submaps(step.made.id);
   s.counters.submaps = s.submaps.size();
+  const bool turned = s.hold_heading(step.made.id);
   update.new_closures = s.close_loops(step.made.id);
   s.counters.closures_accepted += update.new_closures;
-  update.poses_changed = update.new_closures > 0 && s.optimize();
+  update.poses_changed = (turned || update.new_closures > 0) && s.optimize();
   return update;
 }
 
 BackendUpdate Backend::finish() {
   BackendUpdate update;
-  if (!state_->closures.empty()) {
+  if (!state_->closures.empty() || !state_->graph.headings.empty()) {
     update.poses_changed = state_->optimize();
     while (state_->drop_false_closures()) {
     }

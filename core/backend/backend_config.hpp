@@ -23,13 +23,14 @@ struct BackendConfig {
   double multiscan_length_m = 6.0;        ///< the recent travel that is matched against submaps
   int match_every_keyframes = 2;          ///< look for loops at every n-th keyframe
   double min_travel_between_m = 12.0;     ///< travel between the two ends of a closure
-  double search_radius_m = 4.0;           ///< widest search around the predicted position
+  double search_radius_m = 8.0;           ///< widest search around the predicted position
   double search_angle_rad = radians(30);  ///< widest search around the predicted heading
   int max_candidates = 8;     ///< submaps searched per keyframe at most, the most overlapping first
   double min_score = 0.5;     ///< mean probability under the scan's points that makes a closure
   int min_match_points = 30;  ///< fewer points decide nothing
 
   // Pose graph
+  bool align_to_walls = true;     ///< hold the heading by the axis that a building's walls share
   double dcs_phi = 5.0;           ///< DCS: closures whose chi-square exceeds this are scaled down
   double drop_scale = 0.1;        ///< closures scaled below this in the final pass are dropped
   int optimizer_iterations = 20;  ///< Gauss-Newton steps at most

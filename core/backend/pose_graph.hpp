@@ -20,9 +20,18 @@ struct PoseConstraint {
   double dcs_scale = 1.0;  ///< written by the optimizer: 1 fully believed, towards 0 refused
 };
 
+/// A keyframe's heading, known by other means than motion. Subject to DCS.
+struct HeadingConstraint {
+  KeyframeId keyframe{};
+  double yaw_map_rad = 0.0;
+  double information = 1.0;  ///< 1 / rad^2
+  double dcs_scale = 1.0;    ///< as a PoseConstraint's
+};
+
 struct PoseGraph {
   std::vector<Pose2> T_map_keyframe;  ///< the first one is held fixed
   std::vector<PoseConstraint> constraints;
+  std::vector<HeadingConstraint> headings;
 };
 
 /// Eq. 10 and 24: e = z^-1 (+) (y_i^-1 (+) y_j), with its derivatives by (x, y, yaw) of both poses.

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "core/geometry/angle.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -14,6 +16,11 @@ double chi_square_of(const PoseConstraint& c, const std::vector<Pose2>& poses) {
   return r.error.dot(c.information * r.error);
 }
 
+double chi_square_of(const HeadingConstraint& c, const std::vector<Pose2>& poses) {
+  const double error_rad = wrap_angle(poses[index_of(c.keyframe)].yaw_rad() - c.yaw_map_rad);
+  return c.information * error_rad * error_rad;
+}
+
 }  // namespace
 
 double PoseGraphOptimizer::scale(const PoseConstraint& constraint, double chi_square) const {
@@ -21,8 +28,8 @@ double PoseGraphOptimizer::scale(const PoseConstraint& constraint, double chi_sq
 }
 
 /// What weights of s^2 minimise: their integral over chi-square.
-double PoseGraphOptimizer::cost(const PoseConstraint& constraint, double chi_square) const {
-  if (!constraint.is_closure || chi_square <= dcs_phi_) return chi_square;
+double PoseGraphOptimizer::robust_cost(double chi_square) const {
+  if (chi_square <= dcs_phi_) return chi_square;
   return dcs_phi_ * (3.0 * chi_square - dcs_phi_) / (dcs_phi_ + chi_square);
 }
 
@@ -38,6 +45,10 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph) {
       const double s = scale(c, chi_square_of(c, poses));
       system_.add(c, s * s, poses);
     }
+    for (const HeadingConstraint& c : graph.headings) {
+      const double s = dcs_scale(chi_square_of(c, poses), dcs_phi_);
+      system_.add(c, s * s, poses);
+    }
     const Result<double> largest = system_.step(poses);
     if (!largest) return largest.error();
     ++report.iterations;
@@ -46,7 +57,12 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph) {
   for (PoseConstraint& c : graph.constraints) {
     const double chi_square = chi_square_of(c, poses);
     c.dcs_scale = scale(c, chi_square);
-    report.chi_square += cost(c, chi_square);
+    report.chi_square += c.is_closure ? robust_cost(chi_square) : chi_square;
+  }
+  for (HeadingConstraint& c : graph.headings) {
+    const double chi_square = chi_square_of(c, poses);
+    c.dcs_scale = dcs_scale(chi_square, dcs_phi_);
+    report.chi_square += robust_cost(chi_square);
   }
   graph.T_map_keyframe = std::move(poses);
   return report;

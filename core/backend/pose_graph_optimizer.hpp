@@ -13,18 +13,18 @@ struct OptimizeReport {
   double chi_square = 0.0;  ///< robust objective at the end
 };
 
-/// Minimises eq. 23 by Gauss-Newton with DCS on the closures. Allocates. One thread at a time.
+/// Minimises eq. 23 by Gauss-Newton with DCS on closures and headings. Allocates. One thread at a time.
 class PoseGraphOptimizer {
  public:
   PoseGraphOptimizer(double dcs_phi, int max_iterations)
       : dcs_phi_(dcs_phi), max_iterations_(max_iterations) {}
 
-  /// Moves the poses and writes each closure's dcs_scale. On kSolver the graph is as it was.
+  /// Moves the poses and writes each closure's and heading's dcs_scale. On kSolver the graph is as it was.
   Result<OptimizeReport> optimize(PoseGraph& graph);
 
  private:
   [[nodiscard]] double scale(const PoseConstraint& constraint, double chi_square) const;
-  [[nodiscard]] double cost(const PoseConstraint& constraint, double chi_square) const;
+  [[nodiscard]] double robust_cost(double chi_square) const;
 
   double dcs_phi_;
   int max_iterations_;

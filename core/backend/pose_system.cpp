@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/angle.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -50,6 +52,14 @@ void PoseSystem::add(const PoseConstraint& constraint, double weight, const std:
   if (i == 0 || j == 0) return;
   const Eigen::Matrix3d H = j > i ? Eigen::Matrix3d(B * r.J_from) : Eigen::Matrix3d(A * r.J_to);
   system_.add(std::max(i, j) - 1, std::min(i, j) - 1, H.data());
+}
+
+void PoseSystem::add(const HeadingConstraint& constraint, double weight,
+                     const std::vector<Pose2>& T_map_pose) {
+  const std::uint32_t i = index_of(constraint.keyframe);
+  const double w = weight * constraint.information;
+  const double error_rad = wrap_angle(T_map_pose[i].yaw_rad() - constraint.yaw_map_rad);
+  add(i, Eigen::Vector3d(0.0, 0.0, w).asDiagonal(), Eigen::Vector3d(0.0, 0.0, -w * error_rad));
 }
 
 void PoseSystem::add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs) {

@@ -25,6 +25,7 @@ class PoseSystem {
   void set_zero() { system_.set_zero(); }
   /// Adds a constraint at the present poses, its information times `weight`.
   void add(const PoseConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose);
+  void add(const HeadingConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose);
   /// Adds to one pose alone: H of its block and -g.
   void add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
 

@@ -138,6 +138,7 @@ void add_walls(PoseSystem& system, const std::vector<PlacedReturn>& hits,
 
 Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
                                            std::span<const PoseConstraint> closures,
+                                           std::span<const HeadingConstraint> headings,
                                            const BackendConfig& config, std::vector<Pose2>& T_map_body) {
   SWIFTLET_CHECK(T_map_body.size() == scans.size(), "every scan has a pose");
   RefinementReport report;
@@ -153,6 +154,7 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
     const bool wide = report.iterations < kWideIterations;
     system.set_zero();
     for (const PoseConstraint& c : constraints) system.add(c, 1.0, T);
+    for (const HeadingConstraint& c : headings) system.add(c, 1.0, T);
     add_walls(system, hits, T, wide ? kWideRadiusM : kNarrowRadiusM);
     const Result<double> largest = system.step(T);
     if (!largest) return largest.error();

@@ -3,6 +3,7 @@
 #include "core/backend/relative_uncertainty.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -41,10 +42,27 @@ std::vector<std::vector<Step>> steps_of(const PoseGraph& graph) {
   return steps;
 }
 
+/// Variance of each keyframe's heading in the map by what the graph's headings say; infinite where nothing.
+std::vector<double> heading_variances(const PoseGraph& graph) {
+  std::vector<double> variances(graph.T_map_keyframe.size(), std::numeric_limits<double>::infinity());
+  for (const HeadingConstraint& c : graph.headings) {
+    if (c.dcs_scale >= kBelieved) variances[index_of(c.keyframe)] = 1.0 / c.information;
+  }
+  return variances;
+}
+
+/// Kalman update of a pose's covariance by its heading.
+void know_heading(double variance_rad2, Eigen::Matrix3d& covariance) {
+  if (!std::isfinite(variance_rad2)) return;
+  const Eigen::Vector3d column = covariance.col(2);
+  covariance -= column * column.transpose() / (covariance(2, 2) + variance_rad2);
+}
+
 }  // namespace
 
 std::vector<Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from) {
   const auto steps = steps_of(graph);
+  const std::vector<double> headings = heading_variances(graph);
   const std::size_t count = graph.T_map_keyframe.size();
   std::vector<double> distance(count, std::numeric_limits<double>::infinity());
   std::vector<Eigen::Matrix3d> covariance(count, Eigen::Matrix3d::Identity() * 1e6);
@@ -67,6 +85,7 @@ std::vector<Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, Keyfra
       const Eigen::Matrix3d J1 = jacobian_compose_first(T_from_here, T_here_to);
       const Eigen::Matrix3d J2 = jacobian_compose_second(T_from_here);
       covariance[step.to] = J1 * covariance[here] * J1.transpose() + J2 * step.covariance * J2.transpose();
+      know_heading(2.0 * headings[step.to], covariance[step.to]);  // that of `from` is known no better
       open.emplace(candidate, step.to);
     }
   }

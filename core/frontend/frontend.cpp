@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/frontend/building_axis.hpp"
 #include "core/frontend/chi_square.hpp"
 #include "core/frontend/landmark_association.hpp"
 #include "core/frontend/landmark_graph.hpp"
@@ -50,6 +51,8 @@ struct Frontend::State {
   void learn_drift();
   void add_line_constraints();
   void insert(const LineSegment& segment);
+  void align_newest_wall();
+  void learn_axis();
   void optimize_or_roll_back();
   void report_keyframe(const RangeSample& sample);
   void report_walls(Keyframe& keyframe) const;
@@ -60,6 +63,7 @@ struct Frontend::State {
   LineExtractor extractor;
   ChiSquareTable chi_square;
   OdometryDrift drift;
+  BuildingAxis axis;
   LandmarkGraph<kCapacity> graph;
   LandmarkGraph<kCapacity>::Checkpoint before_batch;
   LandmarkGraphSolver<kCapacity> solver;
@@ -77,6 +81,7 @@ struct Frontend::State {
   KeyframeId first_of_segment{};
   std::uint32_t next_landmark = 0;
   std::size_t associated = 0;      // observations of known walls in the present batch
+  std::size_t aligned = 0;         // new walls in it whose direction the building tells
   double chi_square_before = 0.0;  // F without it
   FrontendCounters counters;
   FrontendStep step;
@@ -102,6 +107,7 @@ const FrontendStep& Frontend::process(const RangeSample& sample, const Pose2& T_
       s.graph.save(s.before_batch);                                        // line 7
       s.add_line_constraints();                                            // lines 4-6
       s.optimize_or_roll_back();                                           // lines 8-14
+      if (s.config.align_to_walls) s.learn_axis();
     }
     s.report_keyframe(sample);
   }
@@ -149,6 +155,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
     newest = KeyframeId{index_of(newest) + 1};
     keyframe_motion = since_keyframe;
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
+    axis.turn(since_keyframe.covariance(2, 2));
     viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
     // Walls seen before say little about walls seen from here.
     if (sample.starts_segment) first_of_segment = newest;
@@ -156,6 +163,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
       // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate.
       keyframe_motion.covariance = unknown_motion().covariance;
       viewpoint_covariance.setZero();
+      axis = BuildingAxis();
     }
     learn_drift();
     if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) {
@@ -184,6 +192,7 @@ void Frontend::State::learn_drift() {
 
 void Frontend::State::add_line_constraints() {
   associated = 0;
+  aligned = 0;
   chi_square_before = graph.chi_square();
   counters.lines_extracted += segments.size();
   for (const LineSegment& segment : segments) insert(segment);
@@ -208,15 +217,36 @@ void Frontend::State::insert(const LineSegment& segment) {
   } else {
     ++next_landmark;
     ++counters.landmarks_created;
+    if (config.align_to_walls) align_newest_wall();
   }
 }
 
-// Eq. (19) on what the batch added to F: there the known walls' observations are the only degrees of freedom.
-// On F as a whole, as in the paper, one bad batch hides among many good ones, and then spoils the next.
+void Frontend::State::align_newest_wall() {
+  const Landmark& wall = graph.landmarks().back();
+  const auto prior = axis.direction_near(wall.line_local.alpha_rad, wall.covariance(1, 1));
+  if (!prior) return;
+  graph.hold_direction_of_newest(prior->yaw_rad, prior->information);
+  ++aligned;
+}
+
+void Frontend::State::learn_axis() {
+  FixedVector<WallRun, kCapacity.landmarks> walls;
+  for (const Landmark& wall : graph.landmarks()) {
+    const double length_m =
+        std::hypot(wall.end_local.x_m - wall.start_local.x_m, wall.end_local.y_m - wall.start_local.y_m);
+    const bool has_room = walls.try_push_back({wall.line_local.alpha_rad, length_m});
+    SWIFTLET_CHECK(has_room, "there are no more walls than the graph holds");
+  }
+  axis.learn(std::span(walls.begin(), walls.size()));
+}
+
+// Eq. (19) on what the batch added to F: there the known walls' observations, and new walls' directions where
+// the building tells them, are the only degrees of freedom. On F as a whole, as in the paper, one bad batch
+// hides among many good ones, and then spoils the next.
 void Frontend::State::optimize_or_roll_back() {
-  if (associated > 0) {
+  if (associated + aligned > 0) {
     const double increase = solver.optimize(graph, config.solver_iterations).chi_square - chi_square_before;
-    if (increase > chi_square.quantile(2 * associated)) {
+    if (increase > chi_square.quantile(2 * associated + aligned)) {
       graph.restore(before_batch);
       ++counters.batches_rolled_back;
     }

@@ -34,6 +34,7 @@ struct FrontendConfig {
   int association_keyframes = 16;         ///< a wall not seen within this many keyframes is not associated
 
   // Landmark graph
+  bool align_to_walls = true;           ///< new walls run along the axis that a building's walls share
   int window_keyframes = 24;            ///< fixed lag; at most kMaxKeyframeWindow
   int solver_iterations = 10;           ///< Levenberg-Marquardt steps at most
   double chi_square_confidence = 0.95;  ///< of eq. 19

@@ -91,6 +91,9 @@ class LandmarkGraph {
   [[nodiscard]] bool try_add_landmark(LandmarkId id, const LineSegment& segment);
   /// The newest pose sees a known wall. False when full.
   [[nodiscard]] bool try_observe(std::size_t landmark, const LineSegment& segment);
+  /// What is known of the direction of the newest wall, which has no prior yet, before anything was seen of
+  /// it.
+  void hold_direction_of_newest(double alpha_local_rad, double information);
 
   /// Folds what the oldest pose knows into the walls' priors and makes the next pose the gauge; walls that no
   /// pose in the window sees any more are dropped. Returns how many. Precondition: more than one pose.

@@ -53,6 +53,13 @@ bool LandmarkGraph<kCapacity>::try_observe(std::size_t landmark, const LineSegme
 }
 
 template <LandmarkGraphCapacity kCapacity>
+void LandmarkGraph<kCapacity>::hold_direction_of_newest(double alpha_local_rad, double information) {
+  LinePrior& prior = landmarks_.back().prior;
+  prior.mean_local = {landmarks_.back().line_local.rho_m, alpha_local_rad};
+  prior.information(1, 1) = information;
+}
+
+template <LandmarkGraphCapacity kCapacity>
 std::size_t LandmarkGraph<kCapacity>::retire_oldest_pose() {
   SWIFTLET_CHECK(poses_.size() > 1, "a pose remains as gauge");
   std::size_t folded = 0;

@@ -181,7 +181,7 @@ void refinement(benchmark::State& state) {
   while (state.KeepRunning()) {
     std::vector<Pose2> T_map_body = start;
     const Result<RefinementReport> report =
-        refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, {}, T_map_body);
+        refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, {}, {}, T_map_body);
     SWIFTLET_CHECK(report, "the poses can be refined");
     steps += report->iterations;
   }

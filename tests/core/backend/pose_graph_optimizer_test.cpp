@@ -304,5 +304,33 @@ TEST(PoseGraphOptimizer, ReportsTheChiSquareAfterItsLastStep) {
   EXPECT_NEAR(report->chi_square, 0.0, 1e-9);
 }
 
+TEST(PoseGraphOptimizer, HeadingsTurnTheWayTheyAreTold) {
+  std::mt19937 random(71);
+  PoseGraph graph = dead_reckoning(random, 2 * kLap, 3.0);
+  const std::vector<Pose2> truth = true_poses(2 * kLap);
+  for (std::size_t k = 5; k < truth.size(); k += 5)
+    graph.headings.push_back(
+        {.keyframe = keyframe(k), .yaw_map_rad = truth[k].yaw_rad() + 2.0 * kPi, .information = 1e6});
+  ASSERT_TRUE(PoseGraphOptimizer(1e9, kEnough).optimize(graph));
+  for (const HeadingConstraint& c : graph.headings) {
+    EXPECT_NEAR(wrap_angle(graph.T_map_keyframe[index_of(c.keyframe)].yaw_rad() - c.yaw_map_rad), 0.0, 2e-3);
+    EXPECT_EQ(c.dcs_scale, 1.0);
+  }
+}
+
+TEST(PoseGraphOptimizer, AFalseHeadingIsScaledAway) {
+  std::mt19937 random(72);
+  PoseGraph graph = dead_reckoning(random, kLap, 0.1);
+  const std::vector<Pose2> truth = true_poses(kLap);
+  for (std::size_t k = 3; k < truth.size(); k += 3)
+    graph.headings.push_back(
+        {.keyframe = keyframe(k), .yaw_map_rad = truth[k].yaw_rad(), .information = 1e3});
+  graph.headings[6].yaw_map_rad += 0.5;
+  ASSERT_TRUE(PoseGraphOptimizer(kPhi, kEnough).optimize(graph));
+  EXPECT_LT(graph.headings[6].dcs_scale, 0.1);
+  EXPECT_GT(graph.headings[5].dcs_scale, 0.9);
+  EXPECT_LT(rms_error_m(graph), 0.05);
+}
+
 }  // namespace
 }  // namespace swiftlet

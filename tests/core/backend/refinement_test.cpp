@@ -73,7 +73,7 @@ Result<RefinementReport> refine(const TestVehicle& vehicle, std::vector<Pose2>& 
                                 const std::vector<PoseConstraint>& closures = {},
                                 const SensorModel& sensor = SensorModel::crazyflie()) {
   const StoredRun run(vehicle.samples());
-  return refine_scan_poses(run.scans(), sensor, closures, {}, T_map_body);
+  return refine_scan_poses(run.scans(), sensor, closures, {}, {}, T_map_body);
 }
 
 double worst_m(const std::vector<Pose2>& estimate, const std::vector<Pose2>& truth) {
@@ -253,7 +253,8 @@ TEST(Refinement, ClosuresHoldPassesTogetherWhereNoWallDoes) {
 TEST(Refinement, TurnsAndShiftsEachScanOntoTheWallsOfTheOthers) {
   const LooksAtARoom looks = looks_at_a_room();
   std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
-  const Result<RefinementReport> report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, T_map_body);
+  const Result<RefinementReport> report =
+      refine_scan_poses(looks.scans, looks.sensor, {}, {}, {}, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report->accepted);
   // Pair by pair: only the first scan, which is held, hangs loosely on all the others.
@@ -267,7 +268,7 @@ TEST(Refinement, TurnsAndShiftsEachScanOntoTheWallsOfTheOthers) {
 TEST(Refinement, ATenthOfTheReturnsHasNoSay) {
   const auto refined = [](const LooksAtARoom& looks) {
     std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
-    const auto report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, T_map_body);
+    const auto report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, {}, T_map_body);
     EXPECT_TRUE(report && report->accepted);
     return T_map_body;
   };
@@ -283,7 +284,7 @@ TEST(Refinement, FewerThanTwoScansStayAsTheyAre) {
   for (const std::size_t scans : {0U, 1U}) {
     const StoredRun run(std::span(vehicle.samples()).first(scans));
     std::vector<Pose2> T_map_body(scans, Pose2(1.0, 2.0, 3.0));
-    const Result<RefinementReport> report = refine_scan_poses(run.scans(), {}, {}, {}, T_map_body);
+    const Result<RefinementReport> report = refine_scan_poses(run.scans(), {}, {}, {}, {}, T_map_body);
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->accepted);
     EXPECT_EQ(report->iterations, 0);
@@ -298,7 +299,7 @@ TEST(Refinement, TakesNoMoreRoundsThanItMay) {
   config.refinement_iterations = 2;
   std::vector<Pose2> T_map_body = dead_reckoned(vehicle);
   const Result<RefinementReport> report =
-      refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, config, T_map_body);
+      refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, {}, config, T_map_body);
   ASSERT_TRUE(report);
   EXPECT_EQ(report->iterations, 2);
 }

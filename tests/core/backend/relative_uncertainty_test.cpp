@@ -119,5 +119,30 @@ TEST(RelativeCovariances, WhatNothingConnectsIsUnknown) {
   EXPECT_GT(relative_covariances(graph, KeyframeId{0})[4].diagonal().minCoeff(), 1e5);
 }
 
+TEST(RelativeCovariances, AHeadingBoundsTheHeadingAndWhatItDoesToThePosition) {
+  PoseGraph graph;
+  graph.T_map_keyframe.emplace_back();
+  for (int i = 0; i < 200; ++i)
+    add_step(graph, Pose2(0.5, 0.0, 0.0), Eigen::Vector3d(1e-4, 1e-4, 4e-4).asDiagonal());
+  const Eigen::Matrix3d without = relative_covariances(graph, KeyframeId{0})[200];
+  const double variance_rad2 = 1e-3;
+  for (std::uint32_t k = 6; k <= 200; k += 6)
+    graph.headings.push_back({.keyframe = KeyframeId{k}, .information = 1.0 / variance_rad2});
+  const Eigen::Matrix3d with = relative_covariances(graph, KeyframeId{0})[200];
+  EXPECT_LT(with(2, 2), 4.0 * variance_rad2);
+  EXPECT_GT(without(2, 2), 0.07);
+  EXPECT_LT(std::sqrt(with(1, 1)), 0.25 * std::sqrt(without(1, 1)));
+  EXPECT_NEAR(with(0, 0), without(0, 0), 1e-12) << "along the way a heading tells nothing";
+}
+
+TEST(RelativeCovariances, DisbelievedHeadingsTellNothing) {
+  std::mt19937 random(66);
+  PoseGraph graph = random_chain(random, 30);
+  const std::vector<Eigen::Matrix3d> without = relative_covariances(graph, KeyframeId{0});
+  graph.headings.push_back({.keyframe = KeyframeId{20}, .information = 1e6, .dcs_scale = 0.1});
+  const std::vector<Eigen::Matrix3d> with = relative_covariances(graph, KeyframeId{0});
+  for (std::size_t k = 0; k < with.size(); ++k) EXPECT_EQ(with[k], without[k]);
+}
+
 }  // namespace
 }  // namespace swiftlet

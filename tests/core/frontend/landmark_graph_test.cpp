@@ -138,5 +138,14 @@ TEST(LandmarkGraph, SpansAWallOverAllItsObservations) {
   EXPECT_NEAR(std::max(wall.start_local.x_m, wall.end_local.x_m), 2.5, 1e-9);
 }
 
+TEST(LandmarkGraph, HoldsTheDirectionOfANewWall) {
+  TinyGraph graph = graph_of_one_pose();
+  ASSERT_TRUE(graph.try_add_landmark(LandmarkId{0}, wall_segment(0.0, 1.0)));
+  EXPECT_NEAR(graph.chi_square(), 0.0, 1e-12);
+  const double off_rad = radians(2);
+  graph.hold_direction_of_newest(kPi / 2.0 + off_rad, 100.0);
+  EXPECT_NEAR(graph.chi_square(), 100.0 * off_rad * off_rad, 1e-9);
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/heading_hold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kSigmas = 3.0;
+constexpr double kWidestRad = radians(30);  // nearer to the middle between two axes nothing can be told
+// The axis is what the first headings say of it, and stays: were it the mean of all, it would follow the drift.
+constexpr std::size_t kFirstHeadings = 12;
+constexpr double kSharedWalls =
+    3.0;  // headings a few metres apart are told by the same walls: they err together
+
+double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
+  return graph.T_map_keyframe[index_of(keyframe)].yaw_rad();
+}
+
+}  // namespace
+
+/// Mean of a quarter-turn's circle, weighted by how far each is believed.
+double HeadingHold::building_axis_rad(const PoseGraph& graph) const {
+  double x = 0.0;
+  double y = 0.0;
+  for (std::size_t i = 0; i < std::min(kFirstHeadings, axes_.size()); ++i) {
+    const HeadingConstraint& heading = graph.headings[i];
+    const double yaw_rad = 4.0 * (yaw_map_rad(graph, heading.keyframe) + axes_[i].yaw_rad);
+    const double weight = heading.dcs_scale * heading.dcs_scale * heading.information;
+    x += weight * std::cos(yaw_rad);
+    y += weight * std::sin(yaw_rad);
+  }
+  return std::atan2(y, x) / 4.0;
+}
+
+void HeadingHold::add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2, PoseGraph& graph) {
+  if (!axes_.empty()) {
+    const double off_rad = wrap_axis(yaw_map_rad(graph, keyframe) + axis.yaw_rad - building_axis_rad(graph));
+    const double sigma_rad = std::sqrt(yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad);
+    if (std::abs(off_rad) > std::min(kWidestRad, kSigmas * sigma_rad)) return;
+  }
+  axes_.push_back(axis);
+  const double variance_rad2 = kSharedWalls * axis.sigma_rad * axis.sigma_rad;
+  graph.headings.push_back({.keyframe = keyframe, .information = 1.0 / variance_rad2});
+}
+
+void HeadingHold::update(PoseGraph& graph) const {
+  const double building_rad = building_axis_rad(graph);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    HeadingConstraint& heading = graph.headings[i];
+    const double now_rad = yaw_map_rad(graph, heading.keyframe);
+    heading.yaw_map_rad = now_rad - wrap_axis(now_rad + axes_[i].yaw_rad - building_rad);
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/sensing/wall_axis.hpp"
+
+namespace swiftlet {
+
+/// The axis that the walls of a building share, in the frontend's local frame, learnt from the walls in its
+/// window. A new wall near the axis most likely runs along it, and then tells the heading, which dead
+/// reckoning alone loses at every corner. In the spirit of the heuristic drift elimination of Borenstein &
+/// Ojeda 2010. Not in the paper.
+/// @note Fixed storage. One thread at a time.
+class BuildingAxis {
+ public:
+  struct Direction {
+    double yaw_rad = 0.0;
+    double information = 0.0;  ///< 1 / rad^2
+  };
+
+  /// The heading became uncertain by this much more.
+  void turn(double yaw_variance_rad2) { heading_variance_rad2_ += yaw_variance_rad2; }
+  /// What the building says of a new wall that was seen along (or square to) `yaw_rad`: its direction near
+  /// that, or nothing where it is too far from the axis.
+  [[nodiscard]] std::optional<Direction> direction_near(double yaw_rad, double variance_rad2) const;
+  /// The walls in the window as they are estimated now. When they agree on another axis for so long that the
+  /// window holds no other, that becomes the axis.
+  void learn(std::span<const WallRun> walls);
+
+ private:
+  [[nodiscard]] double gate_rad(double variance_rad2) const;
+
+  std::optional<double> yaw_rad_;
+  double variance_rad2_ = 0.0;          // of the axis
+  double heading_variance_rad2_ = 0.0;  // of the heading against the axis
+  int other_axis_ = 0;                  // keyframes in a row at which the walls agreed on another one
+};
+
+}  // namespace swiftlet
