@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "firmware_link/simulated_world.hpp"
@@ -152,6 +153,43 @@ std::vector<Waypoint> corridors_flight() {
           {{9.0, 1.0}},   {{15.0, 1.0}}, {{9.0, 1.0}, kKeep}, {{9.0, 6.0}}};
 }
 
+constexpr double kSlantFromX = 12.0;
+constexpr double kSlant = 0.364;  // tan 20 degrees
+
+/// What lies to the right of the slant's beginning moves up the page, the farther right the more.
+Point2 slanted(const Point2& p) { return {p.x_m, p.y_m + kSlant * std::max(0.0, p.x_m - kSlantFromX)}; }
+
+/// Where a line crosses the beginning of the slant and has to bend; nothing if it does not.
+std::optional<Point2> bend_between(const Point2& a, const Point2& b) {
+  if ((a.x_m - kSlantFromX) * (b.x_m - kSlantFromX) >= 0.0) return std::nullopt;
+  const double share = (kSlantFromX - a.x_m) / (b.x_m - a.x_m);
+  return Point2{kSlantFromX, a.y_m + share * (b.y_m - a.y_m)};
+}
+
+/// The corridors, but those of the right half run 20 degrees askew: a building whose walls share no one axis.
+std::vector<WallSegment> wings_walls() {
+  std::vector<WallSegment> walls;
+  for (const WallSegment& wall : corridors_walls()) {
+    const std::optional<Point2> bend = bend_between(wall.start, wall.end);
+    walls.push_back({slanted(wall.start), bend ? *bend : slanted(wall.end)});
+    if (bend) walls.push_back({*bend, slanted(wall.end)});
+  }
+  return walls;
+}
+
+std::vector<Waypoint> wings_flight() {
+  std::vector<Waypoint> flight;
+  Point2 from = corridors_flight().front().position;
+  for (Waypoint waypoint : corridors_flight()) {
+    if (const std::optional<Point2> bend = bend_between(from, waypoint.position))
+      flight.push_back({*bend, waypoint.heading});
+    from = waypoint.position;
+    waypoint.position = slanted(waypoint.position);
+    flight.push_back(waypoint);
+  }
+  return flight;
+}
+
 constexpr double kMazeCell = 2.0;
 /// Rows alternate between the walls above a row of cells and the cells themselves.
 constexpr std::array<std::string_view, 11> kMaze{"+--+--+--+--+--+--+--+",  //
@@ -218,14 +256,15 @@ struct NamedWorld {
   std::vector<WallSegment> (*walls)();
   std::vector<Waypoint> (*flight)();
 };
-constexpr std::array<NamedWorld, 4> kWorlds{{{"office", office_walls, office_flight},
+constexpr std::array<NamedWorld, 5> kWorlds{{{"office", office_walls, office_flight},
                                              {"maze", maze_walls, maze_flight},
                                              {"loop", loop_walls, loop_flight},
-                                             {"corridors", corridors_walls, corridors_flight}}};
+                                             {"corridors", corridors_walls, corridors_flight},
+                                             {"wings", wings_walls, wings_flight}}};
 
 }  // namespace
 
-std::string_view simulated_world_names() { return "office, maze, loop, corridors"; }
+std::string_view simulated_world_names() { return "office, maze, loop, corridors, wings"; }
 
 Result<SimulatedWorld> make_simulated_world(std::string_view name) {
   for (const NamedWorld& world : kWorlds)

@@ -32,7 +32,7 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
   map->add_option("INPUT", command.input,
-                  "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors), or a path: "
+                  "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors, wings), or a path: "
                   ".pcap, .clf, .clf.gz")
       ->required();
   map->add_option("-o,--output", command.output_directory, "Directory for the outputs, created where missing")
@@ -50,7 +50,7 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
 CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
   CLI::App* sim = app.add_subcommand(
       "sim", "Put a simulated vehicle on UDP, to practise on; reads instructions from stdin, try help");
-  sim->add_option("--world", command.world, "office, maze, loop or corridors")->capture_default_str();
+  sim->add_option("--world", command.world, "office, maze, loop, corridors or wings")->capture_default_str();
   sim->add_option("--seed", command.seed, "Of all noise: the same seed is the same vehicle")
       ->capture_default_str();
   sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();

@@ -103,7 +103,7 @@ TEST(MakeSimulatedWorld, ListsTheWorldsWhenItKnowsNoSuchName) {
   ASSERT_FALSE(world.ok());
   EXPECT_EQ(world.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(world.error().message,
-            "no simulated world is called \"attic\"; choose one of: office, maze, loop, corridors");
+            "no simulated world is called \"attic\"; choose one of: office, maze, loop, corridors, wings");
 }
 
 }  // namespace

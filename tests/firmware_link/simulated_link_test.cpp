@@ -197,7 +197,7 @@ TEST(SimulatedLink, ListsTheWorldsForAnUnknownOne) {
   const Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open("cave", 1);
   ASSERT_FALSE(link.ok());
   EXPECT_EQ(link.error().message,
-            "no simulated world is called \"cave\"; choose one of: office, maze, loop, corridors");
+            "no simulated world is called \"cave\"; choose one of: office, maze, loop, corridors, wings");
 }
 
 }  // namespace
