@@ -102,6 +102,18 @@ std::string what_lacks(SystematicError error, const MotionSummary& motion, const
   return "";
 }
 
+bool is_learnt(SystematicError error, const OdometryNoise& noise) {
+  return (error == SystematicError::kYawPerMetre && noise.drift_yaw_per_metre_rad > 0.0) ||
+         (error == SystematicError::kYawPerRadian && noise.drift_yaw_per_radian > 0.0);
+}
+
+Verdict verdict_of(SystematicError error, const CalibrationFinding& finding, const SensorModel& sensor) {
+  const double difference = std::abs(finding.value - finding.present);
+  if (difference < kTellingSigmas * finding.sigma) return Verdict::kAsIs;
+  if (difference < kKinds[static_cast<std::size_t>(error)].matters) return Verdict::kNegligible;
+  return is_learnt(error, sensor.odometry) ? Verdict::kLearnt : Verdict::kMatters;
+}
+
 CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, const MotionSummary& motion,
                           const SensorModel& sensor) {
   const Kind& kind = kKinds[static_cast<std::size_t>(error)];
@@ -116,10 +128,7 @@ CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, 
                      " would say something; more such motion near walls helps";
     return finding;
   }
-  const double difference = std::abs(finding.value - finding.present);
-  finding.verdict = difference < kTellingSigmas * finding.sigma ? Verdict::kAsIs
-                    : difference < kind.matters                 ? Verdict::kNegligible
-                                                                : Verdict::kMatters;
+  finding.verdict = verdict_of(error, finding, sensor);
   return finding;
 }
 

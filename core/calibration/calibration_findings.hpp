@@ -18,6 +18,7 @@ struct CalibrationFinding {
     kNotObservable,  ///< the run cannot tell; `reason` says why
     kAsIs,           ///< what was taken so far agrees within two standard deviations
     kNegligible,     ///< it differs, but too little to matter
+    kLearnt,         ///< it differs, but the frontend learns it in each run: better left alone
     kMatters,        ///< it differs, and the map will show it
   };
   std::string setting;  ///< in the section [sensor] of a configuration file

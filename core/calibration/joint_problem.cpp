@@ -31,7 +31,8 @@ constexpr double kPatchTurnSigmaRad = 0.3;
 constexpr double kHeldInformation = 1e12;
 // Wide beams that meet a wall flatly end at its nearest point, which travels along.
 constexpr double kLeastIncidenceCosine = 0.7;
-constexpr double kNudge = 1e-4;  // of a difference quotient
+constexpr double kSamplingDoubt = 0.05;  // of an interval; as seen in simulated flights
+constexpr double kNudge = 1e-4;          // of a difference quotient
 constexpr Duration kStretch = std::chrono::seconds(10);
 
 /// What is possible at all. A gyro's heading does not go with travel, that of wheels not with time; to
@@ -365,14 +366,25 @@ void JointProblem::judge(JointEstimate& estimate) const {
 }
 
 /// Where the motion is hardly larger than its noise, an estimate hangs on how the two are weighed, and
-/// scatter does not show that: adds how far the answer moves when the noise is taken for half as large.
+/// scatter does not show that: adds how far the answer moves when the noise is taken for half or twice as
+/// large.
 Status add_doubt_of_noise(JointProblem& problem, JointEstimate& estimate) {
-  problem.scale_position_noise(0.5);
-  for (int step = 0; step < kStepsPerAssociation; ++step)
-    if (Status status = problem.step(); !status) return status;
-  const SystematicErrors shift = problem.errors() - estimate.errors;
-  estimate.sigma = (estimate.sigma.array().square() + shift.array().square()).sqrt();
+  SystematicErrors furthest = SystematicErrors::Zero();
+  for (const double scale : {0.5, 2.0}) {
+    problem.scale_position_noise(scale);
+    for (int step = 0; step < kStepsPerAssociation; ++step)
+      if (Status status = problem.step(); !status) return status;
+    furthest = furthest.cwiseMax((problem.errors() - estimate.errors).cwiseAbs());
+  }
+  estimate.sigma = (estimate.sigma.array().square() + furthest.array().square()).sqrt();
   return {};
+}
+
+/// Dead reckoning is a chord between its samples: much finer than these no time offset is known, whatever the
+/// scatter says.
+void add_doubt_of_sampling(double interval_s, JointEstimate& estimate) {
+  double& sigma_s = estimate.sigma(index_of(SystematicError::kRangeAge));
+  sigma_s = std::hypot(sigma_s, kSamplingDoubt * interval_s);
 }
 
 }  // namespace
@@ -393,6 +405,7 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
   JointEstimate estimate;
   problem.judge(estimate);
   if (Status status = add_doubt_of_noise(problem, estimate); !status) return status.error();
+  add_doubt_of_sampling(usual_interval_s(scans), estimate);
   return estimate;
 }
 

@@ -16,15 +16,6 @@ double seconds_between(const CalibrationScan& before, const CalibrationScan& aft
   return to_seconds(after.measured_at - before.measured_at);
 }
 
-double usual_interval_s(std::span<const CalibrationScan> scans) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < scans.size(); ++i) intervals.push_back(seconds_between(scans[i - 1], scans[i]));
-  if (intervals.empty()) return 0.0;
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
-}
-
 /// Central difference in the body frame of `here`.
 Eigen::Vector3d twist_between(const CalibrationScan& before, const CalibrationScan& here,
                               const CalibrationScan& after) {
@@ -41,6 +32,15 @@ Pose2 moved(const Eigen::Vector3d& twist, double seconds) {
 }
 
 }  // namespace
+
+double usual_interval_s(std::span<const CalibrationScan> scans) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < scans.size(); ++i) intervals.push_back(seconds_between(scans[i - 1], scans[i]));
+  if (intervals.empty()) return 0.0;
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
 
 SystematicMotion::SystematicMotion(std::span<const CalibrationScan> scans)
     : scans_(scans), twists_(scans.size(), Eigen::Vector3d::Zero()) {

@@ -28,6 +28,9 @@ constexpr Eigen::Index index_of(SystematicError error) { return static_cast<Eige
 /// Whether the yaw comes from wheels, whose errors go with travel; a gyro's go with time.
 inline bool yaw_goes_with_travel(const OdometryNoise& noise) { return noise.drift_yaw_per_metre_rad > 0.0; }
 
+/// Median of the times from one scan to the next; 0 for fewer than two scans.
+[[nodiscard]] double usual_interval_s(std::span<const CalibrationScan> scans);
+
 /// What dead reckoning makes of the steps between neighbouring scans, given its systematic errors. The time
 /// offset moves each scan along the twist it had, a central difference over its neighbours: so noise of a
 /// step is in no derivative of that step and cannot draw the estimate towards smoother odometry.

@@ -33,6 +33,8 @@ std::string verdict_text(Verdict verdict) {
       return "agrees with what is set";
     case Verdict::kNegligible:
       return "differs too little to matter";
+    case Verdict::kLearnt:
+      return "differs, but every run learns it anew";
     case Verdict::kMatters:
       return "MATTERS";
   }
@@ -58,6 +60,8 @@ const char* json_name(Verdict verdict) {
       return "as_is";
     case Verdict::kNegligible:
       return "negligible";
+    case Verdict::kLearnt:
+      return "learnt";
     case Verdict::kMatters:
       return "matters";
   }
@@ -78,11 +82,13 @@ Json json_of(const CalibrationFinding& finding) {
   return json;
 }
 
-std::string setting_line(const CalibrationFinding& finding) {
+std::string setting_line(const CalibrationFinding& finding, bool is_harmful) {
   if (finding.verdict == Verdict::kNotObservable)
     return fmt::format("# {}: not observable: {}\n", finding.setting, finding.reason);
   const std::string assignment = fmt::format("{} = {:.6f}", finding.setting, finding.value);
   const std::string known = fmt::format("+- {:.6f}, was {:.6g}", finding.sigma, finding.present);
+  if (finding.verdict == Verdict::kMatters && is_harmful)
+    return fmt::format("# {}  {}: the map gets worse with it\n", assignment, known);
   if (finding.verdict == Verdict::kMatters) return fmt::format("{}  # {}\n", assignment, known);
   return fmt::format("# {}  {}: {}\n", assignment, known, verdict_text(finding.verdict));
 }
@@ -107,6 +113,8 @@ std::string calibration_text(const CalibrationReport& report) {
   if (report.check)
     text += fmt::format("  returns held back lie {:.1f} mm off the walls, with what matters set {:.1f} mm\n",
                         1e3 * report.check->held_back_before_m, 1e3 * report.check->held_back_after_m);
+  if (report.check && report.check->is_worse())
+    text += "  worse than before: nothing is set; look at the maps of both before you use these figures\n";
   return text;
 }
 
@@ -122,7 +130,8 @@ std::string calibration_json(const CalibrationReport& report) {
   json["check"] = nullptr;
   if (report.check)
     json["check"] = {{"held_back_before_m", report.check->held_back_before_m},
-                     {"held_back_after_m", report.check->held_back_after_m}};
+                     {"held_back_after_m", report.check->held_back_after_m},
+                     {"is_worse", report.check->is_worse()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -130,7 +139,8 @@ std::string calibration_toml(const CalibrationReport& report) {
   std::string text =
       fmt::format("# Found by: swiftlet calibrate {}\n# in {} samples over {:.0f} s.\n\n[sensor]\n",
                   one_line(report.input_uri), report.samples, report.motion.duration_s);
-  for (const CalibrationFinding& finding : report.findings) text += setting_line(finding);
+  const bool is_harmful = report.check && report.check->is_worse();
+  for (const CalibrationFinding& finding : report.findings) text += setting_line(finding, is_harmful);
   return text;
 }
 

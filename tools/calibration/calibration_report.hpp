@@ -14,7 +14,11 @@ namespace swiftlet {
 /// How well returns that took no part in the final refinement fit the walls of other passes.
 struct CalibrationCheck {
   double held_back_before_m = 0.0;  ///< with the settings as they were
-  double held_back_after_m = 0.0;   ///< with the calibrated ones
+  double held_back_after_m = 0.0;   ///< with what matters set
+
+  /// The figure differs by some percent between runs that are equally good. More than a tenth worse is a map
+  /// in which walls lie double.
+  [[nodiscard]] bool is_worse() const { return held_back_after_m > 1.1 * held_back_before_m; }
 };
 
 /// All that a calibration has to tell.
@@ -30,7 +34,8 @@ struct CalibrationReport {
 [[nodiscard]] std::string calibration_text(const CalibrationReport& report);
 /// For programs; ends with a newline.
 [[nodiscard]] std::string calibration_json(const CalibrationReport& report);
-/// A configuration file that sets what matters; the rest stands in comments.
+/// A configuration file that sets what matters, unless the check shows that it does harm; the rest stands in
+/// comments.
 [[nodiscard]] std::string calibration_toml(const CalibrationReport& report);
 
 }  // namespace swiftlet
