@@ -42,7 +42,8 @@ struct Samples {
 
 /// One pairing of ranges with dead reckoning, and what came of it.
 struct Round {
-  Samples samples;
+  SensorModel sensor;
+  std::size_t samples = 0;
   MotionSummary motion;
   BackendCounters counters;
   std::optional<JointEstimate> estimate;  // nothing where the run has too little motion
@@ -97,10 +98,11 @@ Result<Samples> Calibration::read(std::optional<Duration> range_age) const {
 }
 
 Result<Round> Calibration::run_round(std::optional<Duration> range_age) {
-  Result<Samples> read_samples = read(range_age);
+  const Result<Samples> read_samples = read(range_age);
   if (!read_samples) return read_samples.error();
-  Round round{std::move(read_samples).value(), {}, {}, std::nullopt};
-  const Samples& samples = round.samples;
+  const Samples& samples = *read_samples;
+  if (!range_age) input_ = samples.report;
+  Round round{samples.sensor, samples.all.size(), {}, {}, std::nullopt};
   const std::vector<CalibrationScan> scans = calibration_scans(samples.all, samples.beams);
   round.motion = summarize_motion(scans);
   if (why_hopeless(round.motion)) return round;
@@ -127,39 +129,38 @@ Result<CalibrationCheck> Calibration::check(const CalibrationFindings& findings,
 
 /// Moves what was found at the last pairing's age to where the first one's stands.
 CalibrationFindings findings_of(const Round& first, const Round& last) {
-  SensorModel sensor = first.samples.sensor;
+  SensorModel sensor = first.sensor;
   if (!last.estimate) return nothing_observable(*why_hopeless(last.motion), sensor);
   JointEstimate estimate = *last.estimate;
   estimate.errors(index_of(SystematicError::kRangeAge)) +=
-      to_seconds(last.samples.sensor.range_age - sensor.range_age);
+      to_seconds(last.sensor.range_age - sensor.range_age);
   return judge_estimate(estimate, last.motion, sensor);
 }
 
 Result<CalibrationReport> Calibration::run() {
-  Result<Round> begun = run_round(std::nullopt);
+  const Result<Round> begun = run_round(std::nullopt);
   if (!begun) return begun.error();
-  const Round first = std::move(begun).value();
-  input_ = first.samples.report;
-  if (first.samples.all.size() < 2)
+  const Round& first = *begun;
+  if (first.samples < 2)
     return Error{ErrorCode::kInvalidInput, command_.input + " holds no usable run: too few samples"};
   Round last = first;
   for (int round = 1; round < kMostRounds && last.estimate; ++round) {
     const double shift_s = last.estimate->errors(index_of(SystematicError::kRangeAge));
     const Duration age =
-        std::clamp(last.samples.sensor.range_age + from_seconds(shift_s), Duration::zero(), kLongestAge);
-    if (std::chrono::abs(age - last.samples.sensor.range_age) < kSettledAge) break;
-    Result<Round> again = run_round(age);
+        std::clamp(last.sensor.range_age + from_seconds(shift_s), Duration::zero(), kLongestAge);
+    if (std::chrono::abs(age - last.sensor.range_age) < kSettledAge) break;
+    const Result<Round> again = run_round(age);
     if (!again) return again.error();
-    last = std::move(again).value();
+    last = *again;
   }
-  CalibrationReport report{command_.input, first.samples.all.size(), first.motion, findings_of(first, last),
+  CalibrationReport report{command_.input, first.samples, first.motion, findings_of(first, last),
                            std::nullopt};
   const bool changes = std::any_of(report.findings.begin(), report.findings.end(), [](const auto& finding) {
     return finding.verdict == CalibrationFinding::Verdict::kMatters;
   });
   if (!changes) return report;
   parts_begun_ = kParts - 1;
-  const Result<CalibrationCheck> checked = check(report.findings, first.samples.sensor, first.counters);
+  const Result<CalibrationCheck> checked = check(report.findings, first.sensor, first.counters);
   if (!checked) return checked.error();
   report.check = *checked;
   return report;

@@ -61,6 +61,7 @@ Pose2 SystematicMotion::measured(std::size_t i) const {
 
 Pose2 SystematicMotion::predicted(std::size_t i, const Pose2& T_previous_this,
                                   const SystematicErrors& errors) const {
+  if (measured(i).vector().isZero(0.0)) return T_previous_this;  // as OdometryCalibration has it
   const auto error = [&](SystematicError which) { return errors(index_of(which)); };
   const double age_s = error(SystematicError::kRangeAge);
   const Pose2 T_moved = moved(twists_[i - 1], age_s).inverse() * T_previous_this * moved(twists_[i], age_s);

@@ -44,7 +44,8 @@ class SystematicMotion {
   /// The step from scan `i - 1` to scan `i` as measured; i >= 1.
   [[nodiscard]] Pose2 measured(std::size_t i) const;
   /// The same step as it would be measured without noise if the vehicle truly moved by `T_previous_this`
-  /// from the time of one scan's ranges to that of the next one's.
+  /// from the time of one scan's ranges to that of the next one's. Where the dead reckoning stood, nothing is
+  /// taken for missed.
   [[nodiscard]] Pose2 predicted(std::size_t i, const Pose2& T_previous_this,
                                 const SystematicErrors& errors) const;
 

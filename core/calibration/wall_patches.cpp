@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace swiftlet {
@@ -24,7 +25,8 @@ double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.
 struct Cell {
   std::int32_t x = 0;
   std::int32_t y = 0;
-  auto operator<=>(const Cell&) const = default;
+  bool operator<(const Cell& o) const { return std::tie(x, y) < std::tie(o.x, o.y); }
+  bool operator==(const Cell& o) const { return x == o.x && y == o.y; }
 };
 
 Cell cell_of(const Point2& p) {

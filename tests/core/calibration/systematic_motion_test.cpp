@@ -62,6 +62,14 @@ TEST(SystematicMotion, StampsInBunchesMakeNoVelocity) {
   EXPECT_LT(motion.predicted(50, still, errors).vector().norm(), 1e-12);
 }
 
+TEST(SystematicMotion, AVehicleThatStandsMissesNothing) {
+  FlownScans flown = fly(noiseless());
+  flown.scans[50].T_odom_body = flown.scans[49].T_odom_body;
+  SystematicErrors errors = SystematicErrors::Zero();
+  errors(index_of(SystematicError::kYawPerSecond)) = 0.1;
+  EXPECT_EQ(SystematicMotion(flown.scans).predicted(50, Pose2(), errors).vector(), Eigen::Vector3d::Zero());
+}
+
 TEST(UsualInterval, IsTheMiddleOne) {
   EXPECT_NEAR(usual_interval_s(fly(noiseless()).scans), 0.1, 1e-9);
   EXPECT_EQ(usual_interval_s({}), 0.0);
