@@ -36,6 +36,12 @@ SensorModel SensorOverrides::applied_to(SensorModel model) const {
   model.odometry.drift_yaw_per_metre_rad =
       drift_yaw_per_metre_rad.value_or(model.odometry.drift_yaw_per_metre_rad);
   model.odometry.drift_yaw_per_radian = drift_yaw_per_radian.value_or(model.odometry.drift_yaw_per_radian);
+  OdometryCalibration& calibration = model.odometry_calibration;
+  calibration.forward_scale = odometry_forward_scale.value_or(calibration.forward_scale);
+  calibration.sideways_scale = odometry_sideways_scale.value_or(calibration.sideways_scale);
+  calibration.yaw_per_metre_rad = missed_yaw_per_metre_rad.value_or(calibration.yaw_per_metre_rad);
+  calibration.yaw_per_radian = missed_yaw_per_radian.value_or(calibration.yaw_per_radian);
+  calibration.yaw_per_second_rad = missed_yaw_per_second_rad.value_or(calibration.yaw_per_second_rad);
   return model;
 }
 

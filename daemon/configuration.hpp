@@ -25,6 +25,11 @@ struct SensorOverrides {
   std::optional<double> odometry_yaw_per_metre_rad;
   std::optional<double> drift_yaw_per_metre_rad;
   std::optional<double> drift_yaw_per_radian;
+  std::optional<double> odometry_forward_scale;
+  std::optional<double> odometry_sideways_scale;
+  std::optional<double> missed_yaw_per_metre_rad;
+  std::optional<double> missed_yaw_per_radian;
+  std::optional<double> missed_yaw_per_second_rad;
 
   /// The input's model with what is set here put in its place.
   [[nodiscard]] SensorModel applied_to(SensorModel model) const;

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 SENSING = ["core/base", "core/geometry", "core/sensing"]
-CORE = SENSING + ["core/frontend", "core/backend", "core/mapping", "core/evaluation"]
+CORE = SENSING + ["core/frontend", "core/backend", "core/mapping", "core/evaluation", "core/calibration"]
 ALLOWED = {  # folder: folders it may include from, besides itself; the longest matching folder counts
     "core/base": [],
     "core/geometry": ["core/base"],
@@ -22,6 +22,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "core/backend": SENSING,
     "core/mapping": SENSING + ["core/frontend", "core/backend"],
     "core/evaluation": SENSING,
+    "core/calibration": SENSING + ["core/frontend", "core/backend"],
     "firmware_link": SENSING,
     "daemon": CORE + ["firmware_link", "proto"],
     "tools": CORE + ["firmware_link", "proto", "daemon"],

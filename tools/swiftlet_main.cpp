@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/sensing/range_sample.hpp"
+#include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
 #include "tools/map_command.hpp"
@@ -113,6 +114,21 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
   return eval;
 }
 
+CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& command) {
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate", "Tell from one run how old its ranges are and how its dead reckoning errs");
+  calibrate
+      ->add_option("LOG", command.input,
+                   "replay:FILE.pcap, sim://WORLD?seed=N&laps=N, or a path: .pcap, .clf, .clf.gz")
+      ->required();
+  calibrate->add_option("-o,--output", command.toml_file,
+                        "Write what matters to this TOML file, for --config; it must not be there yet");
+  calibrate->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
+      ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
+  calibrate->add_flag("--json", command.json, "For programs");
+  return calibrate;
+}
+
 int run_doctor(const swiftlet::DoctorCommand& command) {
   const swiftlet::Result<bool> ready = swiftlet::run_doctor_command(command);
   if (!ready) return refuse(ready.error().message);
@@ -134,6 +150,8 @@ int run(int argc, char** argv) {
   const CLI::App* doctor = add_doctor_command(app, doctor_command);
   swiftlet::EvalCommand eval_command;
   const CLI::App* eval = add_eval_command(app, eval_command);
+  swiftlet::CalibrateCommand calibrate_command;
+  const CLI::App* calibrate = add_calibrate_command(app, calibrate_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -148,6 +166,7 @@ int run(int argc, char** argv) {
   if (sim->parsed()) status = swiftlet::run_sim_command(sim_command);
   if (record->parsed()) status = swiftlet::run_record_command(record_command);
   if (eval->parsed()) status = swiftlet::run_eval_command(eval_command);
+  if (calibrate->parsed()) status = swiftlet::run_calibrate_command(calibrate_command);
   return status ? 0 : refuse(status.error().message);
 }
 

@@ -40,6 +40,7 @@ struct Frontend::State {
   State(const FrontendConfig& config_in, const SensorModel& sensor, const BeamLayout& beams)
       : config(config_in),
         odometry_noise(sensor.odometry),
+        odometry_calibration(sensor.odometry_calibration),
         multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points)),
         extractor(config, sensor.range_sigma_m),
         chi_square(config.chi_square_confidence),
@@ -59,6 +60,7 @@ struct Frontend::State {
 
   FrontendConfig config;
   OdometryNoise odometry_noise;
+  OdometryCalibration odometry_calibration;
   Multiscan multiscan;
   LineExtractor extractor;
   ChiSquareTable chi_square;
@@ -123,7 +125,8 @@ void Frontend::State::track_motion(const RangeSample& sample) {
   UncertainMotion motion;
   if (sample.starts_segment) multiscan.restart();
   if (T_odom_previous && (!sample.starts_segment || sample.odometry_ran_on)) {
-    const Pose2 T_previous_body = between(*T_odom_previous, sample.T_odom_body);
+    const Pose2 T_previous_body = odometry_calibration.corrected(
+        between(*T_odom_previous, sample.T_odom_body), sample.measured_at - previous_at);
     const double correction_rad = drift.yaw_correction_rad(T_previous_body.x_m(), T_previous_body.yaw_rad());
     yaw_correction_rad += correction_rad;
     const Pose2 T_corrected(T_previous_body.x_m(), T_previous_body.y_m(),

@@ -7,6 +7,7 @@
 
 #include "core/base/time.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/sensing/odometry_calibration.hpp"
 #include "core/sensing/range_sample.hpp"
 
 namespace swiftlet {
@@ -43,6 +44,7 @@ struct SensorModel {
   double range_sigma_m = 0.02;  ///< standard deviation of a reading, along the beam
   Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp
   OdometryNoise odometry;
+  OdometryCalibration odometry_calibration;  ///< taken out of each motion before anything else sees it
 
   /// Crazyflie with Multiranger and flow deck. Its yaw comes from a gyro, so no error of it goes with travel.
   /// Readings are measured about 0.1 s before the packet that carries them.

@@ -32,11 +32,17 @@ Json input_json(const RunView& run) {
 }
 
 Json sensor_json(const RunView& run) {
+  const OdometryCalibration& calibration = run.sensor.odometry_calibration;
   return {{"beams", run.backend.scans().beams().count},
           {"min_range_m", run.sensor.min_range_m},
           {"max_range_m", run.sensor.max_range_m},
           {"range_sigma_m", run.sensor.range_sigma_m},
-          {"range_age_s", to_seconds(run.sensor.range_age)}};
+          {"range_age_s", to_seconds(run.sensor.range_age)},
+          {"odometry_forward_scale", calibration.forward_scale},
+          {"odometry_sideways_scale", calibration.sideways_scale},
+          {"missed_yaw_per_metre_rad", calibration.yaw_per_metre_rad},
+          {"missed_yaw_per_radian", calibration.yaw_per_radian},
+          {"missed_yaw_per_second_rad", calibration.yaw_per_second_rad}};
 }
 
 Json frontend_json(const FrontendCounters& frontend) {

@@ -173,6 +173,38 @@ TEST_F(SwiftletCommand, RecordsAFlightThatMapsAsTheFlightItselfDoes) {
     EXPECT_EQ(text_of(file("replayed") / name), text_of(file("live") / name)) << name;
 }
 
+TEST_F(SwiftletCommand, CalibratesFromASimulatedFlightAndMapsWithWhatItFound) {
+  const Outcome outcome = run("calibrate 'sim://office?seed=4' -o {}/found.toml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("age of the ranges, s"), HasSubstr("MATTERS"),
+                                 HasSubstr("not observable: "), HasSubstr("found.toml")));
+  EXPECT_EQ(outcome.err, "");
+  const std::string found = text_of(file("found.toml"));
+  const std::string setting = "\nrange_age_s = ";  // 0.173 s by the simulation, 0.1 s by default
+  ASSERT_THAT(found, HasSubstr(setting));
+  EXPECT_NEAR(std::stod(found.substr(found.find(setting) + setting.size())), 0.173, 0.02);
+  EXPECT_EQ(run("map 'sim://office?seed=4' -o {}/out --config {}/found.toml").exit_code, 0);
+  EXPECT_THAT(run("calibrate 'sim://office?seed=4' -o {}/found.toml"), refuses_with("is there already"));
+  EXPECT_EQ(text_of(file("found.toml")), found);
+}
+
+TEST_F(SwiftletCommand, CalibratesNothingFromARunWithoutTurns) {
+  write("run.clf", small_log());
+  const Outcome outcome = run("calibrate {}/run.clf --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("only 0.0 turns"), HasSubstr("\"check\": null")));
+}
+
+TEST_F(SwiftletCommand, RefusesToCalibrateFromWhatItCannot) {
+  EXPECT_THAT(run("calibrate {}/missing.pcap"), refuses_with("missing.pcap"));
+  EXPECT_THAT(run("calibrate 'sim://nowhere'"), refuses_with("nowhere"));
+  EXPECT_THAT(run("calibrate radio://0/80/2M"), refuses_with("record it first"));
+  EXPECT_THAT(run("calibrate"), refuses_with("LOG"));
+  write("empty.clf", "");
+  EXPECT_THAT(run("calibrate {}/empty.clf -o {}/found.toml"), refuses_with("empty.clf"));
+  EXPECT_FALSE(fs::exists(file("found.toml")));
+}
+
 TEST_F(SwiftletCommand, RefusesToRecordWhatItCannot) {
   write("there.pcap", "mine");
   EXPECT_THAT(run("record 'sim://office' -o {}/there.pcap"), refuses_with("there.pcap: is there already"));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <set>
 #include <vector>
 
@@ -67,6 +68,21 @@ TEST(Frontend, StartsAtTheOriginWithAKeyframe) {
   EXPECT_EQ(first.keyframe, KeyframeId{0});
   EXPECT_EQ(first.T_local_body.vector(), Eigen::Vector3d::Zero());
   EXPECT_EQ(first.made.T_local_keyframe.size(), 1U);
+}
+
+TEST(Frontend, TakesTheCalibrationOutOfItsDeadReckoning) {
+  SensorModel sensor = SensorModel::crazyflie();
+  sensor.odometry_calibration = {.forward_scale = 1.25, .yaw_per_second_rad = 0.1};
+  Frontend frontend({}, sensor, BeamLayout::multiranger());
+  RangeSample sample;
+  sample.starts_segment = true;
+  static_cast<void>(frontend.process(sample));
+  sample.starts_segment = false;
+  sample.measured_at += std::chrono::milliseconds(100);
+  sample.T_odom_body = Pose2(0.08, 0.0, 0.02);
+  const Pose2 T_dead_body = frontend.process(sample).T_dead_body;
+  EXPECT_NEAR(T_dead_body.x_m(), 0.1, 1e-12);
+  EXPECT_NEAR(T_dead_body.yaw_rad(), 0.03, 1e-12);
 }
 
 TEST(Frontend, MakesAKeyframeAfterHalfAMetreOrThirtyDegrees) {

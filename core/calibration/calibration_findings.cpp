@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/calibration/calibration_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace swiftlet {
+namespace {
+
+using Verdict = CalibrationFinding::Verdict;
+
+constexpr double kLeastPathM = 10.0;
+constexpr double kLeastTurnsRad = 4.0 * kPi;
+constexpr double kLeastDurationS = 60.0;
+constexpr std::size_t kFewestReturns = 300;
+constexpr double kTellingSigmas = 2.0;
+
+/// What sets one error apart from the others.
+struct Kind {
+  const char* setting;
+  const char* meaning;
+  const char* unit;
+  double offset;       // of the setting from the error
+  double least_known;  // a greater standard deviation is no knowledge
+  double matters;      // less makes no difference to a map
+};
+constexpr std::array<Kind, kSystematicErrors> kKinds{{
+    {"range_age_s", "age of the ranges", "s", 0.0, 0.03, 0.01},
+    {"odometry_forward_scale", "metres moved per metre measured, forward", "", 1.0, 0.02, 0.005},
+    {"odometry_sideways_scale", "the same, sideways", "", 1.0, 0.03, 0.01},
+    {"missed_yaw_per_metre_rad", "yaw missed per metre forward", "rad/m", 0.0, radians(0.5), radians(0.1)},
+    {"missed_yaw_per_radian", "share of each turn missed", "", 0.0, 0.02, 0.005},
+    {"missed_yaw_per_second_rad", "yaw missed per second", "rad/s", 0.0, radians(0.1), radians(0.02)},
+}};
+
+std::string number(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+double present_value(SystematicError error, const SensorModel& sensor) {
+  const OdometryCalibration& calibration = sensor.odometry_calibration;
+  switch (error) {
+    case SystematicError::kRangeAge:
+      return to_seconds(sensor.range_age);
+    case SystematicError::kForwardScale:
+      return calibration.forward_scale;
+    case SystematicError::kSidewaysScale:
+      return calibration.sideways_scale;
+    case SystematicError::kYawPerMetre:
+      return calibration.yaw_per_metre_rad;
+    case SystematicError::kYawPerRadian:
+      return calibration.yaw_per_radian;
+    case SystematicError::kYawPerSecond:
+      return calibration.yaw_per_second_rad;
+  }
+  return 0.0;
+}
+
+CalibrationFinding blank_finding(SystematicError error, const SensorModel& sensor) {
+  const Kind& kind = kKinds[static_cast<std::size_t>(error)];
+  CalibrationFinding finding;
+  finding.setting = kind.setting;
+  finding.meaning = kind.meaning;
+  finding.unit = kind.unit;
+  finding.present = present_value(error, sensor);
+  return finding;
+}
+
+std::string too_short(const char* what, double has_m) {
+  return number("only %.1f m of travel ", has_m) + what + number(", %.0f m are needed", kLeastPathM);
+}
+std::string too_few_turns(double turned_rad) {
+  return number("only %.1f turns of 360 degrees in all", turned_rad / (2.0 * kPi)) +
+         number(", %.0f are needed", kLeastTurnsRad / (2.0 * kPi));
+}
+
+/// What the motion lacks to tell an error; empty where it lacks nothing.
+std::string what_lacks(SystematicError error, const MotionSummary& motion, const SensorModel& sensor) {
+  const bool has_wheels = yaw_goes_with_travel(sensor.odometry);
+  switch (error) {
+    case SystematicError::kRangeAge:
+    case SystematicError::kYawPerRadian:
+      return motion.turned_rad < kLeastTurnsRad ? too_few_turns(motion.turned_rad) : "";
+    case SystematicError::kForwardScale:
+      return motion.forward_m < kLeastPathM ? too_short("forward", motion.forward_m) : "";
+    case SystematicError::kSidewaysScale:
+      if (has_wheels) return "wheels do not move sideways";
+      return motion.sideways_m < kLeastPathM ? too_short("sideways", motion.sideways_m) : "";
+    case SystematicError::kYawPerMetre:
+      if (!has_wheels) return "the yaw comes from a gyro, whose error does not go with travel";
+      return motion.forward_m < kLeastPathM ? too_short("forward", motion.forward_m) : "";
+    case SystematicError::kYawPerSecond:
+      if (has_wheels) return "the yaw comes from wheels, whose error does not go with time";
+      if (motion.duration_s < kLeastDurationS)
+        return number("only %.0f s long", motion.duration_s) + number(", %.0f s are needed", kLeastDurationS);
+      return "";
+  }
+  return "";
+}
+
+bool is_learnt(SystematicError error, const OdometryNoise& noise) {
+  return (error == SystematicError::kYawPerMetre && noise.drift_yaw_per_metre_rad > 0.0) ||
+         (error == SystematicError::kYawPerRadian && noise.drift_yaw_per_radian > 0.0);
+}
+
+Verdict verdict_of(SystematicError error, const CalibrationFinding& finding, const SensorModel& sensor) {
+  const double difference = std::abs(finding.value - finding.present);
+  if (difference < kTellingSigmas * finding.sigma) return Verdict::kAsIs;
+  if (difference < kKinds[static_cast<std::size_t>(error)].matters) return Verdict::kNegligible;
+  return is_learnt(error, sensor.odometry) ? Verdict::kLearnt : Verdict::kMatters;
+}
+
+CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, const MotionSummary& motion,
+                          const SensorModel& sensor) {
+  const Kind& kind = kKinds[static_cast<std::size_t>(error)];
+  CalibrationFinding finding = blank_finding(error, sensor);
+  finding.reason = what_lacks(error, motion, sensor);
+  if (!finding.reason.empty()) return finding;
+  const double offset = error == SystematicError::kRangeAge ? to_seconds(sensor.range_age) : kind.offset;
+  finding.value = offset + estimate.errors(index_of(error));
+  finding.sigma = estimate.sigma(index_of(error));
+  if (!(finding.sigma <= kind.least_known)) {
+    finding.reason = number("known to +- %.2g", finding.sigma) + number(" only, %.2g", kind.least_known) +
+                     " would say something; more such motion near walls helps";
+    return finding;
+  }
+  finding.verdict = verdict_of(error, finding, sensor);
+  return finding;
+}
+
+}  // namespace
+
+std::optional<std::string> why_hopeless(const MotionSummary& motion) {
+  if (std::max(motion.forward_m, motion.sideways_m) >= kLeastPathM || motion.turned_rad >= kLeastTurnsRad)
+    return std::nullopt;
+  return number("the vehicle moved only %.1f m", motion.forward_m + motion.sideways_m) +
+         number(" and turned only %.0f degrees in all", degrees(motion.turned_rad));
+}
+
+CalibrationFindings judge_estimate(const JointEstimate& estimate, const MotionSummary& motion,
+                                   const SensorModel& sensor) {
+  if (estimate.returns_on_them < kFewestReturns)
+    return nothing_observable("only " + std::to_string(estimate.returns_on_them) +
+                                  " returns lie on walls that were seen often, " +
+                                  std::to_string(kFewestReturns) + " are needed",
+                              sensor);
+  CalibrationFindings findings;
+  for (std::size_t i = 0; i < findings.size(); ++i)
+    findings[i] = judged(static_cast<SystematicError>(i), estimate, motion, sensor);
+  return findings;
+}
+
+CalibrationFindings nothing_observable(const std::string& reason, const SensorModel& sensor) {
+  CalibrationFindings findings;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    findings[i] = blank_finding(static_cast<SystematicError>(i), sensor);
+    findings[i].reason = reason;
+  }
+  return findings;
+}
+
+SensorModel calibrated(const CalibrationFindings& findings, SensorModel sensor) {
+  const auto set = [&](SystematicError error, double& place) {
+    const CalibrationFinding& finding = findings[static_cast<std::size_t>(error)];
+    if (finding.verdict == Verdict::kMatters) place = finding.value;
+  };
+  double range_age_s = to_seconds(sensor.range_age);
+  set(SystematicError::kRangeAge, range_age_s);
+  sensor.range_age = from_seconds(range_age_s);
+  OdometryCalibration& calibration = sensor.odometry_calibration;
+  set(SystematicError::kForwardScale, calibration.forward_scale);
+  set(SystematicError::kSidewaysScale, calibration.sideways_scale);
+  set(SystematicError::kYawPerMetre, calibration.yaw_per_metre_rad);
+  set(SystematicError::kYawPerRadian, calibration.yaw_per_radian);
+  set(SystematicError::kYawPerSecond, calibration.yaw_per_second_rad);
+  return sensor;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "core/calibration/calibration_scan.hpp"
+#include "core/calibration/joint_problem.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// What a calibration has to say about one setting of the sensor model.
+struct CalibrationFinding {
+  enum class Verdict {
+    kNotObservable,  ///< the run cannot tell; `reason` says why
+    kAsIs,           ///< what was taken so far agrees within two standard deviations
+    kNegligible,     ///< it differs, but too little to matter
+    kLearnt,         ///< it differs, but the frontend learns it in each run: better left alone
+    kMatters,        ///< it differs, and the map will show it
+  };
+  std::string setting;  ///< in the section [sensor] of a configuration file
+  std::string meaning;
+  std::string unit;
+  double present = 0.0;  ///< what was taken so far
+  double value = 0.0;    ///< meaningful unless not observable
+  double sigma = 0.0;    ///< its standard deviation, likewise
+  Verdict verdict = Verdict::kNotObservable;
+  std::string reason;
+};
+using CalibrationFindings = std::array<CalibrationFinding, kSystematicErrors>;
+
+/// Why a run with so little motion cannot calibrate anything; nothing where it is worth trying.
+[[nodiscard]] std::optional<std::string> why_hopeless(const MotionSummary& motion);
+
+/// `sensor`: what the run was taken with; `estimate` is relative to its range age, and to no calibration of
+/// the odometry.
+[[nodiscard]] CalibrationFindings judge_estimate(const JointEstimate& estimate, const MotionSummary& motion,
+                                                 const SensorModel& sensor);
+/// All not observable, for that reason.
+[[nodiscard]] CalibrationFindings nothing_observable(const std::string& reason, const SensorModel& sensor);
+
+/// The sensor model with what matters put in its place.
+[[nodiscard]] SensorModel calibrated(const CalibrationFindings& findings, SensorModel sensor);
+
+}  // namespace swiftlet

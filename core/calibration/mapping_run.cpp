@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/calibration/mapping_run.hpp"
+
+#include "core/frontend/frontend.hpp"
+
+namespace swiftlet {
+
+Result<MappingRun> map_samples(std::span<const RangeSample> samples, const SensorModel& sensor,
+                               const BeamLayout& beams, const GoOn& go_on) {
+  Frontend frontend(FrontendConfig{}, sensor, beams);
+  Backend backend(BackendConfig{}, sensor, beams);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const FrontendStep& step = frontend.process(samples[i]);
+    static_cast<void>(backend.add(step));
+    const double done = static_cast<double>(i) / static_cast<double>(samples.size());
+    if (step.has_keyframe && !go_on(done)) return Error{ErrorCode::kTimeout, "stopped"};
+  }
+  static_cast<void>(backend.finish());
+  MappingRun run{{}, backend.counters()};
+  for (ScanIndex i = 0; i < backend.scans().size(); ++i) run.T_map_body.push_back(backend.T_map_body(i));
+  return run;
+}
+
+}  // namespace swiftlet

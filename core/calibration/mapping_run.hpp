@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/backend/backend.hpp"
+#include "core/base/result.hpp"
+#include "core/calibration/joint_problem.hpp"
+#include "core/sensing/range_sample.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// A run through frontend and backend, the final pass included.
+struct MappingRun {
+  std::vector<Pose2> T_map_body;  ///< one per sample
+  BackendCounters counters;
+};
+
+/// Maps samples in lockstep with the default settings. Errors: kTimeout where `go_on` said no. Allocates.
+[[nodiscard]] Result<MappingRun> map_samples(std::span<const RangeSample> samples, const SensorModel& sensor,
+                                             const BeamLayout& beams, const GoOn& go_on);
+
+}  // namespace swiftlet

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/calibration/wall_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kCellM = 0.5;
+constexpr double kNeighbourM = 0.3;  // how far around a return its wall is looked for
+constexpr int kFewestNeighbours = 6;
+constexpr double kLeastLengthM2 = 0.003;  // variance along the wall: shorter stretches have no direction
+constexpr double kWidestRatio = 0.35;     // variance across to variance along: more is clutter
+constexpr double kWidestOffM = 0.12;      // of a return from its patch
+constexpr double kLeastAgreement = 0.9;   // cosine between two normals of one patch
+constexpr std::size_t kFewestReturns = 8;
+
+double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.y_m; }
+
+struct Cell {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  bool operator<(const Cell& o) const { return std::tie(x, y) < std::tie(o.x, o.y); }
+  bool operator==(const Cell& o) const { return x == o.x && y == o.y; }
+};
+
+Cell cell_of(const Point2& p) {
+  return {static_cast<std::int32_t>(std::floor(p.x_m / kCellM)),
+          static_cast<std::int32_t>(std::floor(p.y_m / kCellM))};
+}
+
+struct Located {
+  Cell cell;
+  std::uint32_t index = 0;
+};
+
+/// The returns by cell; within a cell in their own order.
+class CellIndex {
+ public:
+  explicit CellIndex(std::span<const DrawnReturn> returns) {
+    for (std::uint32_t i = 0; i < returns.size(); ++i) located_.push_back({cell_of(returns[i].p_map), i});
+    std::stable_sort(located_.begin(), located_.end(),
+                     [](const Located& a, const Located& b) { return a.cell < b.cell; });
+  }
+  /// Cells from `low` to `high` of a column of cells; they lie together.
+  [[nodiscard]] std::span<const Located> from_to(std::int32_t x, std::int32_t low, std::int32_t high) const {
+    const auto first = std::lower_bound(located_.begin(), located_.end(), Cell{x, low},
+                                        [](const Located& a, const Cell& c) { return a.cell < c; });
+    const auto last = std::upper_bound(first, located_.end(), Cell{x, high},
+                                       [](const Cell& c, const Located& a) { return c < a.cell; });
+    return {first, last};
+  }
+  [[nodiscard]] std::span<const Located> all() const { return located_; }
+
+ private:
+  std::vector<Located> located_;
+};
+
+/// Moments of the points around a place.
+struct Moments {
+  int count = 0;
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  void add(double dx, double dy) {
+    ++count;
+    x += dx;
+    y += dy;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  /// Unit normal of the line through them; nothing where they are no clear line.
+  [[nodiscard]] std::optional<Point2> normal() const {
+    if (count < kFewestNeighbours) return std::nullopt;
+    const double n = count;
+    const double cxx = xx / n - x * x / (n * n);
+    const double cxy = xy / n - x * y / (n * n);
+    const double cyy = yy / n - y * y / (n * n);
+    const double along = 0.5 * (cxx + cyy) + std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
+    const double across = cxx + cyy - along;
+    if (along < kLeastLengthM2 || across > kWidestRatio * along) return std::nullopt;
+    const double direction_rad = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);
+    return Point2{-std::sin(direction_rad), std::cos(direction_rad)};
+  }
+};
+
+/// Of the face around a return, towards who sees it.
+std::optional<Point2> normal_at(const DrawnReturn& at, std::span<const DrawnReturn> returns,
+                                const CellIndex& cells) {
+  const Cell low = cell_of({at.p_map.x_m - kNeighbourM, at.p_map.y_m - kNeighbourM});
+  const Cell high = cell_of({at.p_map.x_m + kNeighbourM, at.p_map.y_m + kNeighbourM});
+  Moments moments;
+  for (std::int32_t x = low.x; x <= high.x; ++x) {
+    for (const Located& near : cells.from_to(x, low.y, high.y)) {
+      const DrawnReturn& other = returns[near.index];
+      const double dx = other.p_map.x_m - at.p_map.x_m;
+      const double dy = other.p_map.y_m - at.p_map.y_m;
+      if (dx * dx + dy * dy > kNeighbourM * kNeighbourM) continue;
+      if (dot(other.direction_map, at.direction_map) > 0.0) moments.add(dx, dy);
+    }
+  }
+  std::optional<Point2> normal = moments.normal();
+  if (normal && dot(*normal, at.direction_map) > 0.0) normal = Point2{-normal->x_m, -normal->y_m};
+  return normal;
+}
+
+struct OnWall {
+  std::uint32_t index = 0;
+  Point2 p_map;
+  Point2 normal_map;
+};
+
+bool is_together(const OnWall& seed, const OnWall& other) {
+  const Point2 off{other.p_map.x_m - seed.p_map.x_m, other.p_map.y_m - seed.p_map.y_m};
+  return dot(seed.normal_map, other.normal_map) > kLeastAgreement &&
+         std::abs(dot(off, seed.normal_map)) < kWidestOffM;
+}
+
+WallPatch mean_of(const std::vector<OnWall>& members) {
+  Point2 center;
+  Point2 normal;
+  for (const OnWall& member : members) {
+    center = {center.x_m + member.p_map.x_m, center.y_m + member.p_map.y_m};
+    normal = {normal.x_m + member.normal_map.x_m, normal.y_m + member.normal_map.y_m};
+  }
+  const auto n = static_cast<double>(members.size());
+  const double length = std::hypot(normal.x_m, normal.y_m);
+  return {{center.x_m / n, center.y_m / n}, {normal.x_m / length, normal.y_m / length}};
+}
+
+/// The one that most others agree with.
+const OnWall& best_seed(const std::vector<OnWall>& left) {
+  std::size_t best = 0;
+  std::ptrdiff_t most = -1;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const auto together = std::count_if(left.begin(), left.end(),
+                                        [&](const OnWall& other) { return is_together(left[i], other); });
+    if (together > most) {
+      most = together;
+      best = i;
+    }
+  }
+  return left[best];
+}
+
+/// Takes the returns of one cell apart into patches, the largest first.
+void split_cell(std::vector<OnWall> left, WallPatches& result) {
+  while (left.size() >= kFewestReturns) {
+    const OnWall seed = best_seed(left);
+    const auto rest = std::stable_partition(left.begin(), left.end(),
+                                            [&](const OnWall& other) { return is_together(seed, other); });
+    const std::vector<OnWall> members(left.begin(), rest);
+    if (members.size() < kFewestReturns) return;
+    for (const OnWall& member : members)
+      result.patch_of[member.index] = static_cast<std::uint32_t>(result.patches.size());
+    result.patches.push_back(mean_of(members));
+    left.erase(left.begin(), rest);
+  }
+}
+
+}  // namespace
+
+WallPatches find_wall_patches(std::span<const DrawnReturn> returns) {
+  WallPatches result;
+  result.patch_of.assign(returns.size(), WallPatches::kNone);
+  const CellIndex cells(returns);
+  const std::span<const Located> all = cells.all();
+  for (std::size_t begin = 0; begin < all.size();) {
+    std::vector<OnWall> in_cell;
+    const Cell cell = all[begin].cell;
+    for (; begin < all.size() && all[begin].cell == cell; ++begin) {
+      const DrawnReturn& at = returns[all[begin].index];
+      if (const std::optional<Point2> normal = normal_at(at, returns, cells))
+        in_cell.push_back({all[begin].index, at.p_map, *normal});
+    }
+    split_cell(std::move(in_cell), result);
+  }
+  return result;
+}
+
+}  // namespace swiftlet
