@@ -14,6 +14,7 @@
 #include "core/backend/pose_graph.hpp"
 #include "core/backend/pose_graph_optimizer.hpp"
 #include "core/backend/refinement.hpp"
+#include "core/backend/relative_uncertainty.hpp"
 #include "core/backend/submap.hpp"
 
 namespace swiftlet {
@@ -39,6 +40,7 @@ struct Backend::State {
   void take_walls(const Keyframe& made);
   void finish_submaps(KeyframeId newest);
   bool hold_heading(KeyframeId newest);
+  [[nodiscard]] double yaw_variance_rad2(KeyframeId from, KeyframeId to) const;
   std::uint32_t close_loops(KeyframeId newest);
   bool optimize();
   bool drop_false_closures();
@@ -132,6 +134,16 @@ void Backend::State::finish_submaps(KeyframeId newest) {
   }
 }
 
+/// How uncertain the heading has become from one keyframe to a later one by motion alone, or where that lost
+/// it, as a closure may since have told.
+double Backend::State::yaw_variance_rad2(KeyframeId from, KeyframeId to) const {
+  constexpr double kLostRad2 = radians(15) * radians(15);
+  double variance_rad2 = 0.0;
+  for (std::size_t k = index_of(from); k < index_of(to); ++k)
+    variance_rad2 += graph.constraints[motion_constraint[k]].information.inverse()(2, 2);
+  return variance_rad2 < kLostRad2 ? variance_rad2 : relative_covariances(graph, from)[index_of(to)](2, 2);
+}
+
 /// Once in every few metres, by the walls around.
 bool Backend::State::hold_heading(KeyframeId newest) {
   const double here_m = chain.path_m(newest);
@@ -150,11 +162,8 @@ bool Backend::State::hold_heading(KeyframeId newest) {
   const std::optional<WallAxis> axis = wall_axis(around);
   if (!axis) return false;
   const std::size_t before = graph.headings.size();
-  const std::size_t since = before == 0 ? index_of(newest) : index_of(graph.headings.back().keyframe);
-  double variance_rad2 = 0.0;
-  for (std::size_t k = since; k < index_of(newest); ++k)
-    variance_rad2 += graph.constraints[motion_constraint[k]].information.inverse()(2, 2);
-  heading_hold.add(newest, *axis, variance_rad2, graph);
+  heading_hold.add(newest, *axis,
+                   before == 0 ? 0.0 : yaw_variance_rad2(graph.headings.back().keyframe, newest), graph);
   return graph.headings.size() > before;
 }
 

@@ -18,6 +18,10 @@ constexpr double kSigmas = 3.0;  // the window reaches this many standard deviat
 constexpr double kLeastRadiusM =
     0.5;  // ... and never less than this: the constraints' covariances are models
 constexpr double kLeastAngleRad = 0.1;
+// Where motion was not watched the prediction is a guess. Only a match near it means something: in a wide
+// window some other corridor fits.
+constexpr double kGuessSigmaM = 20.0;
+constexpr double kGuessRadiusM = 4.0;
 constexpr double kThinningM = 0.1;  // one point per cell: hovering in place must not outvote the flight
 
 }  // namespace
@@ -68,7 +72,9 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
-    c.window.radius_m = std::clamp(kSigmas * sigma_m, kLeastRadiusM, config_->search_radius_m);
+    const double widest_m =
+        sigma_m < kGuessSigmaM ? config_->search_radius_m : std::min(kGuessRadiusM, config_->search_radius_m);
+    c.window.radius_m = std::clamp(kSigmas * sigma_m, kLeastRadiusM, std::max(kLeastRadiusM, widest_m));
     c.window.angle_rad = std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastAngleRad, config_->search_angle_rad);
     std::size_t inside = 0;
     for (const Point2& p : points_query) {

@@ -26,10 +26,11 @@ double BuildingAxis::gate_rad(double variance_rad2) const {
   return std::min(kWidestRad, kSigmas * std::sqrt(variance_rad2 + variance_rad2_ + heading_variance_rad2_));
 }
 
-std::optional<BuildingAxis::Direction> BuildingAxis::direction_near(double yaw_rad) const {
+std::optional<BuildingAxis::Direction> BuildingAxis::direction_near(double yaw_rad,
+                                                                    double variance_rad2) const {
   if (!yaw_rad_) return std::nullopt;
   const double off_rad = wrap_axis(yaw_rad - *yaw_rad_);
-  const double gate = gate_rad(squared(kWallSigmaRad));
+  const double gate = gate_rad(variance_rad2);
   if (std::abs(off_rad) > gate) return std::nullopt;
   const double ratio = off_rad * kSigmas / (kRobustSigmas * gate);
   const double robust = 1.0 / squared(1.0 + ratio * ratio);

@@ -25,7 +25,7 @@ class BuildingAxis {
   void turn(double yaw_variance_rad2) { heading_variance_rad2_ += yaw_variance_rad2; }
   /// What the building says of a new wall that was seen along (or square to) `yaw_rad`: its direction near
   /// that, or nothing where it is too far from the axis.
-  [[nodiscard]] std::optional<Direction> direction_near(double yaw_rad) const;
+  [[nodiscard]] std::optional<Direction> direction_near(double yaw_rad, double variance_rad2) const;
   /// The walls in the window as they are estimated now. When they agree on another axis for so long that the
   /// window holds no other, that becomes the axis.
   void learn(std::span<const WallRun> walls);

@@ -226,7 +226,7 @@ void Frontend::State::insert(const LineSegment& segment) {
 
 void Frontend::State::align_newest_wall() {
   const Landmark& wall = graph.landmarks().back();
-  const auto prior = axis.direction_near(wall.line_local.alpha_rad);
+  const auto prior = axis.direction_near(wall.line_local.alpha_rad, wall.covariance(1, 1));
   if (!prior) return;
   graph.hold_direction_of_newest(prior->yaw_rad, prior->information);
   ++aligned;
