@@ -63,6 +63,23 @@ TEST(MapBuilder, FollowsThePosesAStepAtATimeAsIfDrawnAtOnce) {
   expect_same_map(followed, drawn_at_once);
 }
 
+TEST(MapBuilder, FollowsWhatRefinementMoves) {
+  BackendConfig config;
+  config.min_travel_between_m = 1000.0;  // no closures: whatever moves, refinement moved it
+  Backend backend(config, kSensor, BeamLayout::multiranger());
+  MapBuilder followed(MapConfig{}, kSensor);
+  std::size_t refined = 0;
+  for (const FrontendStep& step : room_flight(400, 0.004)) {
+    const BackendUpdate update = backend.add(step);
+    followed.update(backend, update.poses_changed, update.refined);
+    refined += update.refined.size();
+  }
+  EXPECT_GT(refined, 0U);
+  MapBuilder drawn_at_once(MapConfig{}, kSensor);
+  drawn_at_once.update(backend, true);
+  expect_same_map(followed, drawn_at_once);
+}
+
 TEST(MapBuilder, FollowsWhenItIsAskedOnlyNowAndThen) {
   Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
   MapBuilder seldom(MapConfig{}, kSensor);
