@@ -46,6 +46,7 @@ struct Backend::State {
   std::uint32_t close_loops(KeyframeId newest);
   bool optimize();
   bool drop_false_closures();
+  [[nodiscard]] bool refines() const { return config.refine && config.close_loops; }
   bool refine();
   void refine_live(BackendUpdate& update);
   [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
@@ -210,7 +211,7 @@ bool Backend::State::drop_false_closures() {
 
 /// Gives every scan a pose of its own; keyframes take those of their scans.
 bool Backend::State::refine() {
-  if (!config.refine || scans.size() < 2) return false;
+  if (!refines() || scans.size() < 2) return false;
   std::vector<Pose2> T_map_body;
   for (ScanIndex i = 0; i < scans.size(); ++i) T_map_body.push_back(chain.T_w_body(i, graph.T_map_keyframe));
   std::vector<PoseConstraint> believed;
@@ -246,7 +247,7 @@ bool Backend::State::refine() {
 
 /// One step of refinement, around the newest keyframe or elsewhere. Says in `update` what has moved.
 void Backend::State::refine_live(BackendUpdate& update) {
-  if (!config.refine || !config.close_loops) return;
+  if (!refines()) return;
   if (update.poses_changed) live.follow(graph.T_map_keyframe);
   for (std::size_t i = closures.size() - update.new_closures; i < closures.size(); ++i)
     live.queue_around(closures[i].from);
@@ -266,7 +267,7 @@ void Backend::State::refine_live(BackendUpdate& update) {
 Pose2 Backend::State::T_map_newest() const {
   const std::size_t newest = T_local_keyframe.size() - 1;
   const Pose2 T_map_tip = T_map_body(chain.scan_of(static_cast<KeyframeId>(newest)));
-  if (!config.refine || !T_map_refined.empty()) return T_map_tip;
+  if (!refines() || !T_map_refined.empty()) return T_map_tip;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of differences from the tip
   std::size_t count = 0;
   for (std::size_t k = newest + 1; k-- > 0 && count < kKeyframesOfCorrection;) {
@@ -323,7 +324,7 @@ BackendUpdate Backend::finish() {
     while (state_->drop_false_closures()) {
     }
   }
-  if (state_->config.close_loops && state_->refine()) update.poses_changed = true;
+  if (state_->refine()) update.poses_changed = true;
   return update;
 }
 
