@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kThinningM = 0.08;  // as in a WallMap
 constexpr ScanIndex kMostScansPerPass = 100;
+constexpr std::size_t kReturnsPerPlace = 5;    // neighbours lie in the same tile
 constexpr std::uint32_t kSamePlacePasses = 3;  // one window serves closures this close
 
 }  // namespace
@@ -106,9 +107,10 @@ WindowPoses LiveRefinement::poses_of(const ScanRange& window, std::span<const Po
 std::vector<PassPoint> LiveRefinement::walls_around(const ScanRange& window, const WindowPoses& poses,
                                                     std::span<const Pose2> T_map_keyframe) const {
   std::vector<Point2> places_map;
+  std::size_t number = 0;
   for (ScanIndex i = window.first; i < window.end; ++i) {
     for (const ScanReturn& beam : scans_->returns(i))
-      if (beam.is_hit)
+      if (beam.is_hit && number++ % kReturnsPerPlace == 0)
         places_map.push_back(poses.T_map_body[i - poses.first_scan] * scans_->point_body(beam));
   }
   const std::uint32_t first = pass_of((*scans_)[window.first]);

@@ -31,9 +31,8 @@ TEST(PassIndex, FindsThePassesWithWallsNearAPlace) {
   std::vector<std::vector<Point2>> drawn;
   for (std::uint32_t pass = 0; pass < 40; ++pass) {
     const Pose2 T_map_reference = random_pose(random, 12.0);
-    std::vector<Point2> points;
-    for (int i = 0; i < 20; ++i)
-      points.push_back({random_in(random, -2.0, 2.0), random_in(random, -2.0, 2.0)});
+    std::vector<Point2> points(20);
+    for (Point2& p : points) p = {random_in(random, -2.0, 2.0), random_in(random, -2.0, 2.0)};
     index.set(pass, walls(points), T_map_reference);
     for (Point2& p : points) p = T_map_reference * p;
     drawn.push_back(points);
