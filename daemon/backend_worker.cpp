@@ -28,7 +28,7 @@ StepResult BackendWorker::step() {
 void BackendWorker::add_step() {
   {
     const StageTimer timer(clock_, times_.backend);
-    poses_changed_ |= backend_.add(step_).poses_changed;
+    changed_ = backend_.add(step_);
   }
   if (!step_.has_keyframe) return;
   hand_on_correction();
@@ -38,18 +38,17 @@ void BackendWorker::add_step() {
 void BackendWorker::run_final_pass() {
   {
     const StageTimer timer(clock_, times_.final_pass);
-    static_cast<void>(backend_.finish());
+    changed_ = backend_.finish();
   }
   final_pass_done_ = true;
-  poses_changed_ = true;
+  changed_.poses_changed = true;
   hand_on_correction();
   draw_map();
 }
 
 void BackendWorker::draw_map() {
   const StageTimer timer(clock_, times_.map);
-  const std::vector<TileIndex> changed = map_.update(backend_, poses_changed_);
-  poses_changed_ = false;
+  const std::vector<TileIndex> changed = map_.update(backend_, changed_.poses_changed, changed_.refined);
   if (feed_) feed_->note_changes(changed);
 }
 

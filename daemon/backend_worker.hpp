@@ -38,7 +38,7 @@ class BackendWorker {
   std::optional<MapFeed> feed_;
   StageTimes& times_;
   FrontendStep step_;
-  bool poses_changed_ = false;  // since the map was drawn last
+  BackendUpdate changed_;  // by the last step; only those with keyframes change anything
   std::uint32_t correction_version_ = 0;
   bool final_pass_done_ = false;
 

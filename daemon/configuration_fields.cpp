@@ -147,7 +147,7 @@ constexpr ConfigurationField kFields[] = {
      at<&BackendConfig::drop_scale>},
     {"backend", "optimizer_iterations", "", "Gauss-Newton steps at most", 1, 1000,
      at<&BackendConfig::optimizer_iterations>},
-    {"backend", "refine", "", "false: poses between keyframes stay interpolated at the end of a run", 0, 0,
+    {"backend", "refine", "", "false: poses between keyframes stay interpolated, while flying and at the end", 0, 0,
      at<&BackendConfig::refine>},
     {"backend", "refinement_iterations", "", "rounds of walls and poses at most, at the end of a run", 1,
      1000, at<&BackendConfig::refinement_iterations>},

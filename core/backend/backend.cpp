@@ -10,6 +10,7 @@
 
 #include "core/backend/heading_hold.hpp"
 #include "core/backend/keyframe_chain.hpp"
+#include "core/backend/live_refinement.hpp"
 #include "core/backend/loop_detector.hpp"
 #include "core/backend/pose_graph.hpp"
 #include "core/backend/pose_graph_optimizer.hpp"
@@ -23,6 +24,8 @@ namespace {
 /// Of a motion that nobody measured.
 const Eigen::Matrix3d kUnknownMotionInformation = Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal();
 
+constexpr std::size_t kKeyframesOfCorrection = 4;  // about 2 m
+
 }  // namespace
 
 struct Backend::State {
@@ -32,7 +35,8 @@ struct Backend::State {
         scans(beams),
         chain(scans),
         detector(config, scans, chain),
-        optimizer(config.dcs_phi, config.optimizer_iterations) {}
+        optimizer(config.dcs_phi, config.optimizer_iterations),
+        live(scans, chain, sensor) {}
 
   void take_estimates(const Keyframe& made);
   void add_motion(const Keyframe& made);
@@ -44,7 +48,11 @@ struct Backend::State {
   std::uint32_t close_loops(KeyframeId newest);
   bool optimize();
   bool drop_false_closures();
+  [[nodiscard]] bool refines() const { return config.refine && config.close_loops; }
   bool refine();
+  void refine_live(BackendUpdate& update);
+  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
+  [[nodiscard]] Pose2 T_map_newest() const;
 
   BackendConfig config;
   SensorModel sensor;
@@ -54,6 +62,7 @@ struct Backend::State {
   HeadingHold heading_hold;
   KeyframeId heading_sought_at{};
   PoseGraphOptimizer optimizer;
+  LiveRefinement live;
 
   std::vector<Pose2> T_local_keyframe;
   PoseGraph graph;
@@ -211,7 +220,7 @@ bool Backend::State::drop_false_closures() {
 
 /// Gives every scan a pose of its own; keyframes take those of their scans.
 bool Backend::State::refine() {
-  if (!config.refine || scans.size() < 2) return false;
+  if (!refines() || scans.size() < 2) return false;
   std::vector<Pose2> T_map_body;
   for (ScanIndex i = 0; i < scans.size(); ++i) T_map_body.push_back(chain.T_w_body(i, graph.T_map_keyframe));
   std::vector<PoseConstraint> believed;
@@ -245,6 +254,48 @@ bool Backend::State::refine() {
   return true;
 }
 
+/// One step of refinement, around the newest keyframe or elsewhere. Says in `update` what has moved.
+void Backend::State::refine_live(BackendUpdate& update) {
+  if (!refines()) return;
+  if (update.poses_changed) live.follow(graph.T_map_keyframe);
+  for (std::size_t i = closures.size() - update.new_closures; i < closures.size(); ++i)
+    live.queue_around(closures[i].from);
+  const Result<ScanRange> refined = live.step(graph.T_map_keyframe, T_local_keyframe);
+  counters.windows_refined = live.windows_refined();
+  counters.windows_refused = live.windows_refused();
+  if (!refined) {
+    ++counters.solver_failures;
+    return;
+  }
+  update.refined = *refined;
+  if (update.refined.size() > 0) ++version;
+}
+
+/// Where the newest keyframe lies as the last few see it, the frontend's path from them to it being good to
+/// a centimetre: each was refined by itself, and the vehicle is not to jump with every one.
+Pose2 Backend::State::T_map_newest() const {
+  const std::size_t newest = T_local_keyframe.size() - 1;
+  const Pose2 T_map_tip = T_map_body(chain.scan_of(static_cast<KeyframeId>(newest)));
+  if (!refines() || !T_map_refined.empty()) return T_map_tip;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of differences from the tip
+  std::size_t count = 0;
+  for (std::size_t k = newest + 1; k-- > 0 && count < kKeyframesOfCorrection;) {
+    const ScanIndex scan = chain.scan_of(static_cast<KeyframeId>(k));
+    const Pose2 T_map_seen = T_map_body(scan) * between(T_local_keyframe[k], T_local_keyframe[newest]);
+    sum += Eigen::Vector3d(T_map_seen.x_m() - T_map_tip.x_m(), T_map_seen.y_m() - T_map_tip.y_m(),
+                           wrap_angle(T_map_seen.yaw_rad() - T_map_tip.yaw_rad()));
+    ++count;
+    if (scans[scan].starts_segment) break;
+  }
+  const Eigen::Vector3d mean = sum / static_cast<double>(count);
+  return {T_map_tip.x_m() + mean(0), T_map_tip.y_m() + mean(1), T_map_tip.yaw_rad() + mean(2)};
+}
+
+Pose2 Backend::State::T_map_body(ScanIndex scan) const {
+  if (!T_map_refined.empty()) return T_map_refined[scan];
+  return live.refined(scan, chain.T_w_body(scan, graph.T_map_keyframe));
+}
+
 Backend::Backend(const BackendConfig& config, const SensorModel& sensor, const BeamLayout& beams) {
   SWIFTLET_CHECK(config.validate().empty(), "the backend's configuration is valid");
   state_ = std::make_unique<State>(config, sensor, beams);
@@ -254,6 +305,7 @@ Backend::~Backend() = default;
 BackendUpdate Backend::add(const FrontendStep& step) {
   State& s = *state_;
   const ScanIndex scan = s.scans.add(step);
+  s.live.add_scan();
   s.counters.scans = s.scans.size();
   BackendUpdate update;
   if (!step.has_keyframe) return update;
@@ -270,6 +322,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   update.new_closures = s.close_loops(step.made.id);
   s.counters.closures_accepted += update.new_closures;
   update.poses_changed = (turned || update.new_closures > 0) && s.optimize();
+  s.refine_live(update);
   return update;
 }
 
@@ -280,24 +333,19 @@ BackendUpdate Backend::finish() {
     while (state_->drop_false_closures()) {
     }
   }
-  if (state_->config.close_loops && state_->refine()) update.poses_changed = true;
+  if (state_->refine()) update.poses_changed = true;
   return update;
 }
 
 const ScanStore& Backend::scans() const { return state_->scans; }
 std::size_t Backend::keyframe_count() const { return state_->chain.size(); }
-const Pose2& Backend::T_map_keyframe(KeyframeId id) const {
-  return state_->graph.T_map_keyframe[index_of(id)];
-}
-Pose2 Backend::T_map_body(ScanIndex scan) const {
-  if (!state_->T_map_refined.empty()) return state_->T_map_refined[scan];
-  return state_->chain.T_w_body(scan, state_->graph.T_map_keyframe);
-}
+Pose2 Backend::T_map_keyframe(KeyframeId id) const { return state_->T_map_body(state_->chain.scan_of(id)); }
+Pose2 Backend::T_map_body(ScanIndex scan) const { return state_->T_map_body(scan); }
 MapCorrection Backend::correction() const {
   const State& s = *state_;
   if (s.T_local_keyframe.empty()) return {};
   const auto newest = static_cast<KeyframeId>(s.T_local_keyframe.size() - 1);
-  return {newest, s.graph.T_map_keyframe.back() * s.T_local_keyframe.back().inverse(), s.version};
+  return {newest, s.T_map_newest() * s.T_local_keyframe.back().inverse(), s.version};
 }
 const std::vector<LoopClosure>& Backend::closures() const { return state_->closures; }
 const std::vector<Wall>& Backend::walls() const { return state_->walls; }

@@ -19,7 +19,7 @@ namespace swiftlet {
 struct MapCorrection {
   KeyframeId keyframe{};  ///< the keyframe it was computed at
   Pose2 T_map_local;
-  std::uint32_t version = 0;  ///< counts up whenever keyframes before this one moved
+  std::uint32_t version = 0;  ///< counts up whenever keyframes moved that were there before
 };
 
 struct LoopClosure {
@@ -49,8 +49,10 @@ struct BackendCounters {
   std::uint64_t closures_dropped = 0;
   std::uint64_t optimizations = 0;
   std::uint64_t solver_failures = 0;
-  bool refined = false;             ///< the final refinement was done and kept
-  double held_back_before_m = 0.0;  ///< what it was judged by: distance of held-back returns from walls
+  std::uint64_t windows_refined = 0;  ///< steps of refinement while flying that were kept
+  std::uint64_t windows_refused = 0;  ///< ... and that explained held-back returns worse
+  bool refined = false;               ///< the final refinement was done and kept
+  double held_back_before_m = 0.0;    ///< what it was judged by: distance of held-back returns from walls
   double held_back_after_m = 0.0;
 };
 
@@ -58,6 +60,7 @@ struct BackendCounters {
 struct BackendUpdate {
   bool poses_changed = false;      ///< poses of earlier keyframes moved: the map must follow
   std::uint32_t new_closures = 0;  ///< appended to closures()
+  ScanRange refined;               ///< scans that refinement moved, besides
 };
 
 /// Submaps, loop closing and the pose graph (Algorithm 3 of the IROS 2022 paper). The sequence of steps alone
@@ -70,7 +73,7 @@ class Backend {
   Backend(const Backend&) = delete;
   Backend& operator=(const Backend&) = delete;
 
-  /// Takes one frontend step; at keyframes looks for loops and optimises.
+  /// Takes one frontend step; at keyframes looks for loops, optimises and refines one window.
   BackendUpdate add(const FrontendStep& step);
   /// The final pass: last optimisation, false closures dropped, every scan's pose refined. Nothing may be
   /// added afterwards.
@@ -78,10 +81,11 @@ class Backend {
 
   [[nodiscard]] const ScanStore& scans() const;
   [[nodiscard]] std::size_t keyframe_count() const;
-  [[nodiscard]] const Pose2& T_map_keyframe(KeyframeId id) const;
-  /// Corrected pose of any scan: between two keyframes the correction is spread evenly; after finish() the
-  /// scan's own.
+  [[nodiscard]] Pose2 T_map_keyframe(KeyframeId id) const;
+  /// Corrected pose of any scan: between two keyframes the graph's correction is spread evenly, what
+  /// refinement found for the scan comes on top; after finish() the scan's own.
   [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
+  /// Leads to the newest keyframe; with refinement, to where the last few put it on average.
   [[nodiscard]] MapCorrection correction() const;
   [[nodiscard]] const std::vector<LoopClosure>& closures() const;
   [[nodiscard]] const std::vector<Wall>& walls() const;

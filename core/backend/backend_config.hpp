@@ -35,9 +35,9 @@ struct BackendConfig {
   double drop_scale = 0.1;        ///< closures scaled below this in the final pass are dropped
   int optimizer_iterations = 20;  ///< Gauss-Newton steps at most
 
-  // Joint refinement at the end of a run
-  bool refine = true;              ///< false: poses between keyframes stay interpolated
-  int refinement_iterations = 25;  ///< rounds of walls and poses at most
+  // Joint refinement
+  bool refine = true;  ///< false: poses between keyframes stay interpolated, while flying and at the end
+  int refinement_iterations = 25;  ///< rounds of walls and poses at most, at the end
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

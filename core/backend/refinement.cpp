@@ -7,22 +7,16 @@
 #include <utility>
 
 #include "core/backend/pose_system.hpp"
+#include "core/backend/wall_factor.hpp"
 #include "core/backend/wall_map.hpp"
-#include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
 namespace {
 
-constexpr std::uint32_t kKeyframesPerPass =
-    3;  // about 1.5 m: what lies closer in time agrees by dead reckoning anyway
-constexpr std::uint32_t kHoldBackEvery = 10;
 constexpr double kWideRadiusM = 0.5;    // first steps: walls may lie this far apart ...
 constexpr double kNarrowRadiusM = 0.3;  // ... then only what is close is the same wall
 constexpr int kWideIterations = 5;
-constexpr double kWallSigmaM = 0.05;
-constexpr double kRobustSigmas = 1.5;          // Geman-McClure: returns farther off lose their say
-constexpr double kConvergedStep = 2e-4;        // metres or radians
-constexpr double kUnknownMotionSigma = 100.0;  // where dead reckoning began anew
+constexpr double kConvergedStep = 2e-4;  // metres or radians
 
 struct PlacedReturn {
   ScanIndex scan = 0;
@@ -38,8 +32,7 @@ std::vector<PlacedReturn> hits_of(const ScanStore& scans) {
     for (const ScanReturn& beam : scans.returns(i)) {
       if (!beam.is_hit) continue;
       // 7 and 10 share no factor: every beam gives its share of held-back returns.
-      hits.push_back({i, index_of(scans[i].keyframe) / kKeyframesPerPass, (7 * count++) % kHoldBackEvery == 0,
-                      scans.point_body(beam)});
+      hits.push_back({i, pass_of(scans[i]), (7 * count++) % kHoldBackEvery == 0, scans.point_body(beam)});
     }
   }
   return hits;
@@ -56,23 +49,16 @@ std::vector<PassPoint> in_map(const std::vector<PlacedReturn>& hits, const std::
   return points;
 }
 
-double distance_to(const LocalWall& wall, const Point2& p) {
-  return (p.x_m - wall.center_map.x_m) * wall.normal_map.x_m +
-         (p.y_m - wall.center_map.y_m) * wall.normal_map.y_m;
-}
-
 /// What the held-back returns say of the poses: mean distance from the others' walls, capped; none nearby
 /// counts full.
 double held_back_error_m(const std::vector<PlacedReturn>& hits, const std::vector<Pose2>& T_map_body) {
-  constexpr double kCapM = 3.0 * kWallSigmaM;
   const WallMap walls(in_map(hits, T_map_body), kNarrowRadiusM);
   double sum = 0.0;
   std::size_t count = 0;
   for (const PlacedReturn& hit : hits) {
     if (!hit.held_back) continue;
     const PassPoint at{T_map_body[hit.scan] * hit.p_body, hit.pass};
-    const auto wall = walls.wall_near(at);
-    sum += wall ? std::min(kCapM, std::abs(distance_to(*wall, at.p_map))) : kCapM;
+    sum += judged_distance_m(walls.wall_near(at), at.p_map);
     ++count;
   }
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
@@ -85,41 +71,12 @@ std::vector<PoseConstraint> motions_of(const ScanStore& scans, const OdometryNoi
     PoseConstraint c;
     c.from = static_cast<KeyframeId>(i - 1);
     c.to = static_cast<KeyframeId>(i);
-    double sigma_m = kUnknownMotionSigma;
-    double sigma_rad = kUnknownMotionSigma;
-    if (scans[i].starts_segment && scans[i].odometry_ran_on) {
+    if (!scans[i].starts_segment || scans[i].odometry_ran_on)
       c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
-      const Duration silence = scans[i].stamp - scans[i - 1].stamp;
-      const UncertainMotion guess = unwatched_step(noise, c.T_from_to, silence);
-      sigma_m = std::sqrt(guess.covariance(0, 0));
-      sigma_rad = std::sqrt(guess.covariance(2, 2));
-    } else if (!scans[i].starts_segment) {
-      c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
-      const double distance_m = std::hypot(c.T_from_to.x_m(), c.T_from_to.y_m());
-      const double turn_rad = std::abs(c.T_from_to.yaw_rad());
-      sigma_m = noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad;
-      sigma_rad =
-          noise.yaw_floor_rad + noise.yaw_per_radian * turn_rad + noise.yaw_per_metre_rad * distance_m;
-    }
-    c.information =
-        Eigen::Vector3d(1.0 / (sigma_m * sigma_m), 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_rad * sigma_rad))
-            .asDiagonal();
+    c.information = motion_information(scans[i - 1], scans[i], noise);
     motions.push_back(c);
   }
   return motions;
-}
-
-/// A return of a scan lies `distance_m` off its wall along the normal.
-void add_wall(PoseSystem& system, ScanIndex scan, const Pose2& T_map_body, const Point2& p_body,
-              const LocalWall& wall, double distance_m) {
-  const double along_x = -T_map_body.sin_yaw() * p_body.x_m - T_map_body.cos_yaw() * p_body.y_m;
-  const double along_y = T_map_body.cos_yaw() * p_body.x_m - T_map_body.sin_yaw() * p_body.y_m;
-  const Eigen::Vector3d J(wall.normal_map.x_m, wall.normal_map.y_m,
-                          wall.normal_map.x_m * along_x + wall.normal_map.y_m * along_y);
-  const double off = distance_m / (kRobustSigmas * kWallSigmaM);
-  const double robust = 1.0 / ((1.0 + off * off) * (1.0 + off * off));  // Geman-McClure
-  const double weight = robust / (kWallSigmaM * kWallSigmaM);
-  system.add(scan, weight * J * J.transpose(), -weight * distance_m * J);
 }
 
 void add_walls(PoseSystem& system, const std::vector<PlacedReturn>& hits,
@@ -129,7 +86,8 @@ void add_walls(PoseSystem& system, const std::vector<PlacedReturn>& hits,
     if (hit.held_back) continue;
     const PassPoint at{T_map_body[hit.scan] * hit.p_body, hit.pass};
     if (const auto wall = walls.wall_near(at)) {
-      add_wall(system, hit.scan, T_map_body[hit.scan], hit.p_body, *wall, distance_to(*wall, at.p_map));
+      const WallPull pull = wall_pull(*wall, T_map_body[hit.scan], hit.p_body);
+      system.add(hit.scan, pull.H, pull.rhs);
     }
   }
 }

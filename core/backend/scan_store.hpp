@@ -16,6 +16,13 @@ namespace swiftlet {
 
 using ScanIndex = std::uint32_t;  ///< equals RangeSample::sequence when nothing was lost on the way
 
+/// Consecutive scans.
+struct ScanRange {
+  ScanIndex first = 0;
+  ScanIndex end = 0;  ///< one behind the last
+  [[nodiscard]] ScanIndex size() const { return end - first; }
+};
+
 /// One beam of a stored scan; beams without information are not stored.
 struct ScanReturn {
   float distance_m = 0.0F;  ///< hit: to the surface; no return: free up to the sensor's range

@@ -60,10 +60,12 @@ MapBuilder::MapBuilder(const MapConfig& config, const SensorModel& sensor)
 
 MapBuilder::~MapBuilder() = default;
 
-std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed) {
+std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed, ScanRange refined) {
   const auto scan_count = static_cast<ScanIndex>(backend.scans().size());
-  for (ScanIndex scan = poses_changed ? 0 : state_->first_unsettled(backend); scan < scan_count; ++scan)
+  const ScanIndex first = poses_changed ? 0 : state_->first_unsettled(backend);
+  for (ScanIndex scan = refined.first; scan < std::min(refined.end, first); ++scan)
     state_->draw(backend, scan);
+  for (ScanIndex scan = first; scan < scan_count; ++scan) state_->draw(backend, scan);
   state_->drawn_scans = scan_count;
   state_->keyframes_seen = backend.keyframe_count();
   return state_->drawing.store().publish();

@@ -23,9 +23,9 @@ class MapBuilder {
   MapBuilder(const MapBuilder&) = delete;
   MapBuilder& operator=(const MapBuilder&) = delete;
 
-  /// Draws scans added since the last call; with `poses_changed`, redraws those whose pose moved. Returns the
-  /// tiles whose published content changed, in index order.
-  std::vector<TileIndex> update(const Backend& backend, bool poses_changed);
+  /// Draws scans added since the last call and redraws, of the `refined` ones or with `poses_changed` of all,
+  /// those whose pose moved. Returns the tiles whose published content changed, in index order.
+  std::vector<TileIndex> update(const Backend& backend, bool poses_changed, ScanRange refined = {});
 
   [[nodiscard]] MapTile tile(TileIndex index) const;
   /// All tiles that hold anything, in index order.

@@ -8,8 +8,8 @@ namespace swiftlet {
 
 namespace {
 
-constexpr double kLatticePerCell = 8.0;
-constexpr double kFarthestM = 1e5;  // cells of 1 cm and lattice steps of 1/8 of it still fit an int32
+constexpr double kLatticePerCell = 4.0;
+constexpr double kFarthestM = 1e5;  // cells of 1 cm and lattice steps of 1/4 of it still fit an int32
 
 }  // namespace
 

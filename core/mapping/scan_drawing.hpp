@@ -22,7 +22,7 @@ struct BeamEnd {
 
 /// Draws scans into a tile store and can move each of them later.
 ///
-/// A scan is drawn at its pose rounded to a lattice of an eighth of a cell (in position, and in what a turn
+/// A scan is drawn at its pose rounded to a lattice of a quarter of a cell (in position, and in what a turn
 /// moves at the clearing range), far below the noise of a reading. So a correction too small to matter costs
 /// one comparison, and still what is drawn is a function of each scan's present pose alone: no history of
 /// small corrections, and no order among large ones, can leave a trace.

@@ -68,6 +68,7 @@ Json backend_json(const Backend& backend) {
             {"accepted", counters.closures_accepted},
             {"dropped", counters.closures_dropped}}},
           {"optimizations", counters.optimizations},
+          {"windows", {{"refined", counters.windows_refined}, {"refused", counters.windows_refused}}},
           {"refined", counters.refined},
           {"solver_failures", counters.solver_failures}};
 }

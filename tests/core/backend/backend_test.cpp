@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -147,7 +150,9 @@ TEST(Backend, WithoutLoopClosingTheFrontendsPathStays) {
 }
 
 TEST(Backend, EachStepSaysWhatItDid) {
-  const auto backend = make_backend();
+  BackendConfig config;
+  config.refine = false;
+  const auto backend = make_backend(config);
   DeadReckoningFrontend frontend;
   std::uint32_t version = 0;
   std::size_t closures = 0;
@@ -167,6 +172,68 @@ TEST(Backend, EachStepSaysWhatItDid) {
         << "the correction leads to the newest keyframe";
   }
   EXPECT_GT(closures, 0U);
+}
+
+TEST(Backend, NoOldPoseMovesUnannounced) {
+  const auto backend = make_backend();
+  DeadReckoningFrontend frontend;
+  std::vector<Pose2> before;
+  std::uint32_t version = 0;
+  std::size_t windows = 0;
+  for (const RangeSample& sample : two_laps().samples()) {
+    const FrontendStep step = frontend.process(sample);
+    const BackendUpdate update = backend->add(step);
+    const MapCorrection correction = backend->correction();
+    ASSERT_TRUE(step.has_keyframe || update.refined.size() == 0) << "only keyframes refine";
+    ASSERT_TRUE(update.refined.size() == 0 || correction.version > version) << "a change is announced";
+    version = correction.version;
+    if (!step.has_keyframe) continue;
+    windows += update.refined.size() > 0 ? 1U : 0U;
+    // The newest scans hung on the keyframe before and have now found their place.
+    const std::vector<Pose2> now = corrected(*backend);
+    for (ScanIndex i = 0; i + 60 < before.size() && !update.poses_changed; ++i) {
+      const bool announced = i >= update.refined.first && i < update.refined.end;
+      ASSERT_TRUE(announced || poses_near(now[i], before[i], 0.0, 0.0)) << "scan " << i;
+    }
+    before = now;
+    EXPECT_TRUE(poses_near(correction.T_map_local * step.T_local_body,
+                           backend->T_map_keyframe(correction.keyframe), 0.2, 0.05))
+        << "the correction leads to the newest keyframe, or nearly so";
+  }
+  EXPECT_GT(windows, 40U);
+  EXPECT_EQ(backend->counters().windows_refined, windows);
+  EXPECT_EQ(backend->counters().windows_refined + backend->counters().windows_refused,
+            backend->keyframe_count());
+}
+
+/// How far scans of the second half lie from where the nearest one of the first half should see them.
+double error_between_laps_m(const std::vector<Pose2>& estimate, const std::vector<Pose2>& truth) {
+  double sum_m = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = truth.size() / 2; i < truth.size(); i += 5) {
+    const auto distance_m = [&](const Pose2& pose) {
+      return std::hypot(pose.x_m() - truth[i].x_m(), pose.y_m() - truth[i].y_m());
+    };
+    const auto nearest =
+        std::min_element(truth.begin(), truth.begin() + static_cast<std::ptrdiff_t>(truth.size() / 2),
+                         [&](const Pose2& a, const Pose2& b) { return distance_m(a) < distance_m(b); });
+    const Pose2& T_map_there = estimate[static_cast<std::size_t>(nearest - truth.begin())];
+    const Pose2 off = between(between(*nearest, truth[i]), between(T_map_there, estimate[i]));
+    sum_m += std::hypot(off.x_m(), off.y_m());
+    ++count;
+  }
+  return sum_m / static_cast<double>(count);
+}
+
+TEST(Backend, RefinementBringsTheLapsTogetherWhileFlying) {
+  const auto error_m = [](bool refine) {
+    BackendConfig config;
+    config.refine = refine;
+    const auto backend = make_backend(config);
+    feed(*backend, two_laps().samples());
+    return error_between_laps_m(corrected(*backend), two_laps().T_world_body());
+  };
+  EXPECT_LT(error_m(true), 0.7 * error_m(false));
 }
 
 TEST(Backend, KeyframesLieWhereTheirScansDo) {

@@ -63,6 +63,24 @@ TEST(MapBuilder, FollowsThePosesAStepAtATimeAsIfDrawnAtOnce) {
   expect_same_map(followed, drawn_at_once);
 }
 
+TEST(MapBuilder, FollowsWhatRefinementMoves) {
+  BackendConfig config;
+  config.min_travel_between_m = 1000.0;  // no closures: whatever moves, refinement moved it
+  Backend backend(config, kSensor, BeamLayout::multiranger());
+  MapBuilder followed(MapConfig{}, kSensor);
+  std::size_t refined = 0;
+  for (const FrontendStep& step : room_flight(2000, 0.0004)) {
+    const BackendUpdate update = backend.add(step);
+    followed.update(backend, update.poses_changed, update.refined);
+    const bool is_old = update.refined.end + 64 * 5 < backend.scans().size();
+    refined += is_old ? update.refined.size() : 0;
+  }
+  EXPECT_GT(refined, 0U) << "beyond what the frontend's window may move";
+  MapBuilder drawn_at_once(MapConfig{}, kSensor);
+  drawn_at_once.update(backend, true);
+  expect_same_map(followed, drawn_at_once);
+}
+
 TEST(MapBuilder, FollowsWhenItIsAskedOnlyNowAndThen) {
   Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
   MapBuilder seldom(MapConfig{}, kSensor);

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/live_refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/backend/wall_factor.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kThinningM = 0.08;  // as in a WallMap
+constexpr ScanIndex kMostScansPerPass = 100;
+constexpr std::size_t kReturnsPerPlace = 5;    // neighbours lie in the same tile
+constexpr std::uint32_t kSamePlacePasses = 3;  // one window serves closures this close
+
+}  // namespace
+
+void LiveRefinement::add_scan() {
+  const StoredScan& scan = (*scans_)[static_cast<ScanIndex>(T_graph_refined_.size())];
+  const bool is_carried_on = !T_graph_refined_.empty() && (!scan.starts_segment || scan.odometry_ran_on);
+  T_graph_refined_.push_back(is_carried_on ? T_graph_refined_.back() : Pose2());
+}
+
+void LiveRefinement::queue_around(KeyframeId place) {
+  const std::uint32_t pass = index_of(place) / kKeyframesPerPass;
+  const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t w) {
+    return std::max(w, pass) - std::min(w, pass) < kSamePlacePasses;
+  });
+  if (waits) return;
+  if (waiting_.size() == kMostPlacesWaiting) waiting_.pop_front();
+  waiting_.push_back(pass);
+}
+
+void LiveRefinement::follow(std::span<const Pose2> T_map_keyframe) {
+  for (std::uint32_t pass = 0; pass < passes_.size(); ++pass)
+    passes_.move(pass, T_map_body(passes_[pass].reference, T_map_keyframe));
+}
+
+Pose2 LiveRefinement::T_map_body(ScanIndex scan, std::span<const Pose2> T_map_keyframe) const {
+  return refined(scan, chain_->T_w_body(scan, T_map_keyframe));
+}
+
+std::uint32_t LiveRefinement::newest_pass() const {
+  return static_cast<std::uint32_t>((chain_->size() - 1) / kKeyframesPerPass);
+}
+
+ScanRange LiveRefinement::scans_of(std::uint32_t pass) const {
+  const auto first = static_cast<KeyframeId>(pass * kKeyframesPerPass);
+  const auto next = static_cast<KeyframeId>((pass + 1) * kKeyframesPerPass);
+  return {chain_->scan_of(first),
+          pass < newest_pass() ? chain_->scan_of(next) : static_cast<ScanIndex>(scans_->size())};
+}
+
+/// Whole passes, as many as fit on both sides of the middle one; of a pass that is too long its end.
+ScanRange LiveRefinement::window_around(std::uint32_t pass) const {
+  ScanRange window = scans_of(pass);
+  if (window.size() > kMostScans) return {window.end - kMostScans, window.end};
+  std::uint32_t lowest = pass;
+  std::uint32_t highest = pass;
+  for (bool grows = true; grows;) {
+    grows = false;
+    if (lowest > 0 && window.end - scans_of(lowest - 1).first <= kMostScans) {
+      window.first = scans_of(--lowest).first;
+      grows = true;
+    }
+    if (highest < newest_pass() && scans_of(highest + 1).end - window.first <= kMostScans) {
+      window.end = scans_of(++highest).end;
+      grows = true;
+    }
+  }
+  return window;
+}
+
+/// Every other turn is the newest scans'; the rest is shared by places that wait and the sweep.
+ScanRange LiveRefinement::next_window() {
+  const std::uint32_t turn = turn_++ % 4;
+  if (turn % 2 == 0) return window_around(newest_pass());
+  if (turn == 1 && !waiting_.empty()) {
+    const std::uint32_t place = waiting_.front();
+    waiting_.pop_front();
+    return window_around(place);
+  }
+  if (swept_ >= scans_of(newest_pass()).first) swept_ = 0;
+  const ScanRange window = window_around(pass_of((*scans_)[swept_]));
+  swept_ = std::max(window.end, swept_ + 1);
+  return window;
+}
+
+WindowPoses LiveRefinement::poses_of(const ScanRange& window, std::span<const Pose2> T_map_keyframe,
+                                     std::span<const Pose2> T_local_keyframe) const {
+  WindowPoses poses;
+  poses.first_scan = window.first > 0 ? window.first - 1 : 0;
+  const ScanIndex end = std::min(window.end + 1, static_cast<ScanIndex>(scans_->size()));
+  for (ScanIndex i = poses.first_scan; i < end; ++i) {
+    poses.T_map_graph.push_back(chain_->T_w_body(i, T_map_keyframe));
+    poses.T_map_body.push_back(refined(i, poses.T_map_graph.back()));
+    poses.T_local_body.push_back(chain_->T_w_body(i, T_local_keyframe));
+  }
+  return poses;
+}
+
+/// What passes outside of the window drew where its returns lie.
+std::vector<PassPoint> LiveRefinement::walls_around(const ScanRange& window, const WindowPoses& poses,
+                                                    std::span<const Pose2> T_map_keyframe) const {
+  std::vector<Point2> places_map;
+  std::size_t number = 0;
+  for (ScanIndex i = window.first; i < window.end; ++i) {
+    for (const ScanReturn& beam : scans_->returns(i))
+      if (beam.is_hit && number++ % kReturnsPerPlace == 0)
+        places_map.push_back(poses.T_map_body[i - poses.first_scan] * scans_->point_body(beam));
+  }
+  const std::uint32_t first = pass_of((*scans_)[window.first]);
+  const std::uint32_t end = pass_of((*scans_)[window.end - 1]) + 1;
+  std::vector<PassPoint> points;
+  for (const std::uint32_t pass : passes_.near(places_map, first, end)) {
+    const Pose2 T_map_reference = T_map_body(passes_[pass].reference, T_map_keyframe);
+    for (const Point2& p_reference : passes_[pass].points_reference)
+      points.push_back({T_map_reference * p_reference, pass});
+  }
+  return points;
+}
+
+Result<ScanRange> LiveRefinement::step(std::span<const Pose2> T_map_keyframe,
+                                       std::span<const Pose2> T_local_keyframe) {
+  while (passes_.size() < newest_pass())
+    file_pass(static_cast<std::uint32_t>(passes_.size()), T_map_keyframe);
+  const ScanRange window = next_window();
+  WindowPoses poses = poses_of(window, T_map_keyframe, T_local_keyframe);
+  const Result<WindowReport> report =
+      window_refinement_.refine(window, walls_around(window, poses, T_map_keyframe), poses);
+  if (!report) return report.error();
+  last_window_ = *report;
+  if (!report->accepted) {
+    ++windows_refused_;
+    return ScanRange{};
+  }
+  ++windows_refined_;
+  take(window, poses, T_map_keyframe);
+  return window;
+}
+
+void LiveRefinement::take(const ScanRange& window, const WindowPoses& poses,
+                          std::span<const Pose2> T_map_keyframe) {
+  for (ScanIndex i = poses.first_scan + 1; i < window.end; ++i) {
+    const std::size_t at = i - poses.first_scan;
+    T_graph_refined_[i] = between(poses.T_map_graph[at], poses.T_map_body[at]);
+  }
+  const std::uint32_t last = pass_of((*scans_)[window.end - 1]);
+  for (std::uint32_t pass = pass_of((*scans_)[window.first]); pass <= last && pass < passes_.size(); ++pass)
+    file_pass(pass, T_map_keyframe);
+}
+
+void LiveRefinement::file_pass(std::uint32_t pass, std::span<const Pose2> T_map_keyframe) {
+  const ScanRange scans = scans_of(pass);
+  PassWalls walls;
+  walls.reference = scans.first + scans.size() / 2;
+  const Pose2 T_map_reference = T_map_body(walls.reference, T_map_keyframe);
+  const Pose2 T_reference_map = T_map_reference.inverse();
+  std::set<std::pair<int, int>> taken;
+  for (ScanIndex i = scans.first; i < scans.end; i += 1 + scans.size() / kMostScansPerPass) {
+    const Pose2 T_reference_body = T_reference_map * T_map_body(i, T_map_keyframe);
+    const std::span<const ScanReturn> beams = scans_->returns(i);
+    for (std::size_t k = 0; k < beams.size(); ++k) {
+      if (!beams[k].is_hit || is_held_back(*scans_, i, k)) continue;
+      const Point2 p = T_reference_body * scans_->point_body(beams[k]);
+      const std::pair<int, int> cell(static_cast<int>(std::floor(p.x_m / kThinningM)),
+                                     static_cast<int>(std::floor(p.y_m / kThinningM)));
+      if (taken.insert(cell).second) walls.points_reference.push_back(p);
+    }
+  }
+  passes_.set(pass, std::move(walls), T_map_reference);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pass_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kTileM = 2.0;
+constexpr double kMarginM =
+    0.5;  // walls this far off their places are found, less what passes moved since ...
+constexpr double kRefileM = 0.2;  // ... which is no more than this
+
+std::int32_t tile_of(double m) { return static_cast<std::int32_t>(std::floor(m / kTileM)); }
+
+template <typename T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+void PassIndex::set(std::uint32_t pass, PassWalls walls, const Pose2& T_map_reference) {
+  SWIFTLET_CHECK(pass <= passes_.size(), "passes are numbered without gaps");
+  if (pass == passes_.size()) passes_.emplace_back();
+  unfile(pass);
+  Filed& filed = passes_[pass];
+  filed.walls = std::move(walls);
+  std::vector<Point2>& points = filed.walls.points_reference;
+  if (const std::size_t count = points.size(); count > kMostPointsPerPass) {
+    for (std::size_t i = 0; i < kMostPointsPerPass; ++i) points[i] = points[i * count / kMostPointsPerPass];
+    points.resize(kMostPointsPerPass);
+  }
+  filed.reach_m = 0.0;
+  for (const Point2& p : points) filed.reach_m = std::max(filed.reach_m, std::hypot(p.x_m, p.y_m));
+  file(pass, T_map_reference);
+}
+
+void PassIndex::move(std::uint32_t pass, const Pose2& T_map_reference) {
+  const Filed& filed = passes_[pass];
+  const Pose2 moved = between(filed.T_map_reference, T_map_reference);
+  const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * filed.reach_m;
+  if (farthest_m <= kRefileM) return;
+  unfile(pass);
+  file(pass, T_map_reference);
+}
+
+void PassIndex::file(std::uint32_t pass, const Pose2& T_map_reference) {
+  Filed& filed = passes_[pass];
+  filed.T_map_reference = T_map_reference;
+  for (const Point2& p_reference : filed.walls.points_reference) {
+    const Point2 p_map = T_map_reference * p_reference;
+    filed.tiles.emplace_back(tile_of(p_map.x_m), tile_of(p_map.y_m));
+  }
+  sort_unique(filed.tiles);
+  for (const Tile& tile : filed.tiles) {
+    std::vector<std::uint32_t>& there = tiles_[tile];
+    there.insert(std::lower_bound(there.begin(), there.end(), pass), pass);
+  }
+}
+
+void PassIndex::unfile(std::uint32_t pass) {
+  for (const Tile& tile : passes_[pass].tiles) {
+    const auto at = tiles_.find(tile);
+    at->second.erase(std::lower_bound(at->second.begin(), at->second.end(), pass));
+    if (at->second.empty()) tiles_.erase(at);
+  }
+  passes_[pass].tiles.clear();
+}
+
+std::vector<std::uint32_t> PassIndex::near(std::span<const Point2> places_map, std::uint32_t excluded_first,
+                                           std::uint32_t excluded_end) const {
+  std::vector<Tile> tiles;
+  for (const Point2& p : places_map)
+    for (const double dx : {-kMarginM, kMarginM})
+      for (const double dy : {-kMarginM, kMarginM})
+        tiles.emplace_back(tile_of(p.x_m + dx), tile_of(p.y_m + dy));
+  sort_unique(tiles);
+
+  std::vector<std::vector<std::uint32_t>> choices;  // of each tile
+  for (const Tile& tile : tiles) {
+    const auto at = tiles_.find(tile);
+    if (at == tiles_.end()) continue;
+    const std::vector<std::uint32_t>& there = at->second;
+    const auto first_out = std::lower_bound(there.begin(), there.end(), excluded_first);
+    const auto first_after = std::lower_bound(first_out, there.end(), excluded_end);
+    const auto before = static_cast<std::size_t>(first_out - there.begin());
+    const auto gap = static_cast<std::size_t>(first_after - first_out);
+    const std::size_t count = there.size() - gap;
+    const std::size_t taken = std::min(count, kMostPassesPerTile);
+    std::vector<std::uint32_t>& chosen = choices.emplace_back();
+    for (std::size_t k = 0; k < taken; ++k) {
+      const std::size_t i = taken == 1 ? 0 : k * (count - 1) / (taken - 1);
+      chosen.push_back(there[i < before ? i : i + gap]);
+    }
+  }
+  std::vector<std::uint32_t> found;
+  for (std::size_t k = 0; k < kMostPassesPerTile && found.size() < kMostPassesNearby; ++k) {
+    for (const std::vector<std::uint32_t>& chosen : choices)
+      if (k < chosen.size()) found.push_back(chosen[k]);
+    sort_unique(found);
+  }
+  if (found.size() > kMostPassesNearby) found.resize(kMostPassesNearby);
+  return found;
+}
+
+}  // namespace swiftlet
