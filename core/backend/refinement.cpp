@@ -73,7 +73,7 @@ std::vector<PoseConstraint> motions_of(const ScanStore& scans, const OdometryNoi
     c.to = static_cast<KeyframeId>(i);
     if (!scans[i].starts_segment || scans[i].odometry_ran_on)
       c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
-    c.information = motion_information(scans[i - 1], scans[i], noise);
+    c.information = motion_information(scans[i - 1], scans[i], noise) / noise.steps_err_together;
     motions.push_back(c);
   }
   return motions;

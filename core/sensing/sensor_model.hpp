@@ -32,6 +32,8 @@ struct OdometryNoise {
   double yaw_floor_rad = radians(0.05);
   double yaw_per_radian = 0.05;
   double yaw_per_metre_rad = radians(1.0);
+  double steps_err_together = 1.0;  ///< so many steps in a row share their error: what joins single steps
+                                    ///< believes each that much less
   double drift_yaw_per_metre_rad =
       0.0;  ///< standard deviation of the yaw that is missed with every metre forward
   double drift_yaw_per_radian = 0.0;  ///< ... and with every radian turned
@@ -51,6 +53,7 @@ struct SensorModel {
   static SensorModel crazyflie() {
     SensorModel model;
     model.range_age = std::chrono::milliseconds(100);
+    model.odometry.steps_err_together = 4.0;  // the flow sensor's scale changes with the ground below it
     return model;
   }
   /// Laser scanners on wheeled robots as in CARMEN logs, capped at 5 m as in the IROS 2022 paper. Wheels of
