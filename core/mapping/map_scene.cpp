@@ -41,7 +41,8 @@ void add_walls(MapScene& scene, const Backend& backend) {
   for (const Wall& wall : backend.walls()) {
     const Pose2& T_map_anchor = backend.T_map_keyframe(wall.anchor);
     const MapSegment whole{T_map_anchor * wall.start_keyframe, T_map_anchor * wall.end_keyframe};
-    for (const MapSegment& part : supported_parts(whole, scene.resolution_m, std::cref(is_occupied)))
+    const MapSegment fitted = fitted_to_grid(whole, scene.resolution_m, std::cref(is_occupied));
+    for (const MapSegment& part : supported_parts(fitted, scene.resolution_m, std::cref(is_occupied)))
       scene.walls.push_back(part);
   }
   scene.walls = distinct_walls(std::move(scene.walls));

@@ -3,13 +3,19 @@
 #include "core/mapping/wall_support.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace swiftlet {
 
 namespace {
 
 constexpr double kReachM = 0.1;
+constexpr std::array<double, 3> kFitReachesM{0.25, 0.15, 0.1};  // round by round
+constexpr std::size_t kFewestCells = 6;
+constexpr double kMostTurnCos = 0.985;  // 10 degrees: farther, and it found something else
 constexpr double kBridgeM = 0.4;
 constexpr double kLeastM = 0.4;
 constexpr double kSameWallM = 0.25;
@@ -26,7 +32,70 @@ bool occupied_near(const Point2& p_map, double resolution_m,
   return false;
 }
 
+/// The centres of the occupied cells around a wall, found along its normals.
+std::vector<Point2> cells_around(const MapSegment& wall, double reach_m, double resolution_m,
+                                 const std::function<bool(CellIndex)>& is_occupied) {
+  const double dx = wall.end_map.x_m - wall.start_map.x_m;
+  const double dy = wall.end_map.y_m - wall.start_map.y_m;
+  const double length_m = std::hypot(dx, dy);
+  std::set<std::pair<int, int>> cells;
+  const int reach = static_cast<int>(std::lround(reach_m / resolution_m));
+  for (double along_m = 0.0; length_m > 0.0 && along_m <= length_m; along_m += resolution_m) {
+    for (int across = -reach; across <= reach; ++across) {
+      const double x_m = wall.start_map.x_m + (along_m * dx - across * resolution_m * dy) / length_m;
+      const double y_m = wall.start_map.y_m + (along_m * dy + across * resolution_m * dx) / length_m;
+      const CellIndex cell = cell_of({x_m / resolution_m, y_m / resolution_m});
+      if (is_occupied(cell)) cells.insert({cell.x, cell.y});
+    }
+  }
+  std::vector<Point2> centres;
+  for (const auto& [x, y] : cells) centres.push_back({(x + 0.5) * resolution_m, (y + 0.5) * resolution_m});
+  return centres;
+}
+
+/// The wall's ends, carried onto the line through the points along their main axis.
+MapSegment onto_line_through(const std::vector<Point2>& points, const MapSegment& wall) {
+  Point2 mean;
+  for (const Point2& p : points) mean = {mean.x_m + p.x_m, mean.y_m + p.y_m};
+  const auto n = static_cast<double>(points.size());
+  mean = {mean.x_m / n, mean.y_m / n};
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (const Point2& p : points) {
+    xx += (p.x_m - mean.x_m) * (p.x_m - mean.x_m);
+    xy += (p.x_m - mean.x_m) * (p.y_m - mean.y_m);
+    yy += (p.y_m - mean.y_m) * (p.y_m - mean.y_m);
+  }
+  const double yaw_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const auto project = [&](const Point2& p) {
+    const double along_m = (p.x_m - mean.x_m) * std::cos(yaw_rad) + (p.y_m - mean.y_m) * std::sin(yaw_rad);
+    return Point2{mean.x_m + along_m * std::cos(yaw_rad), mean.y_m + along_m * std::sin(yaw_rad)};
+  };
+  return {project(wall.start_map), project(wall.end_map)};
+}
+
+double cos_between(const MapSegment& a, const MapSegment& b) {
+  const double ax = a.end_map.x_m - a.start_map.x_m;
+  const double ay = a.end_map.y_m - a.start_map.y_m;
+  const double bx = b.end_map.x_m - b.start_map.x_m;
+  const double by = b.end_map.y_m - b.start_map.y_m;
+  return (ax * bx + ay * by) / (std::hypot(ax, ay) * std::hypot(bx, by));
+}
+
 }  // namespace
+
+MapSegment fitted_to_grid(const MapSegment& wall, double resolution_m,
+                          const std::function<bool(CellIndex)>& is_occupied) {
+  MapSegment fitted = wall;
+  for (const double reach_m : kFitReachesM) {
+    const std::vector<Point2> points = cells_around(fitted, reach_m, resolution_m, is_occupied);
+    if (points.size() < kFewestCells) return wall;
+    fitted = onto_line_through(points, fitted);
+    if (!(cos_between(fitted, wall) > kMostTurnCos)) return wall;
+  }
+  return fitted;
+}
 
 std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolution_m,
                                         const std::function<bool(CellIndex)>& is_occupied) {

@@ -10,6 +10,11 @@
 
 namespace swiftlet {
 
+/// The wall moved and turned onto the occupied cells within 0.25 m of it, by total least squares; as it is
+/// where there are too few. The frontend drew it before the refinement moved the scans behind it.
+[[nodiscard]] MapSegment fitted_to_grid(const MapSegment& wall, double resolution_m,
+                                        const std::function<bool(CellIndex)>& is_occupied);
+
 /// The parts of a wall along which the grid is occupied within 0.1 m of it, gaps of up to 0.4 m closed, parts
 /// shorter than 0.4 m left out. The frontend's walls know nothing of what the backend's
 /// final refinement did to the scans behind them: for a picture, the grid says how far each still holds.

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <utility>
+
 namespace swiftlet {
 namespace {
 
@@ -45,6 +47,32 @@ TEST(WallSupport, LeavesOutWhatOnlyCrossesAWall) {
 
 TEST(WallSupport, AWallWithoutLengthHasNoParts) {
   EXPECT_TRUE(supported_parts({{1.0, 0.0}, {1.0, 0.0}}, kResolutionM, row_between(-1.0, 3.0)).empty());
+}
+
+TEST(FittedToGrid, MovesAndTurnsAWallOntoTheOccupiedCells) {
+  for (const auto& [start_y_m, end_y_m] : {std::pair{0.15, 0.15}, {-0.1, 0.05}, {0.02, 0.2}}) {
+    const MapSegment fitted =
+        fitted_to_grid({{0.5, start_y_m}, {2.5, end_y_m}}, kResolutionM, row_between(-1.0, 4.0));
+    EXPECT_NEAR(fitted.start_map.y_m, 0.5 * kResolutionM, 0.02);
+    EXPECT_NEAR(fitted.end_map.y_m, 0.5 * kResolutionM, 0.02);
+    EXPECT_NEAR(fitted.start_map.x_m, 0.5, 0.02);
+    EXPECT_NEAR(fitted.end_map.x_m, 2.5, 0.02);
+  }
+}
+
+TEST(FittedToGrid, LeavesAWallAloneWithNothingNear) {
+  for (const MapSegment& wall : {MapSegment{{0.5, 0.6}, {2.5, 0.6}}, MapSegment{{1.0, 0.0}, {1.0, 0.0}}}) {
+    const MapSegment fitted = fitted_to_grid(wall, kResolutionM, row_between(-1.0, 4.0));
+    EXPECT_EQ(fitted.start_map.y_m, wall.start_map.y_m);
+    EXPECT_EQ(fitted.end_map.x_m, wall.end_map.x_m);
+  }
+}
+
+TEST(FittedToGrid, TurnsNoWallIntoOneThatItCrosses) {
+  const MapSegment wall{{1.0, -1.0}, {1.2, 1.0}};
+  const MapSegment fitted = fitted_to_grid(wall, kResolutionM, row_between(-1.0, 4.0));
+  EXPECT_EQ(fitted.start_map.x_m, wall.start_map.x_m);
+  EXPECT_EQ(fitted.end_map.x_m, wall.end_map.x_m);
 }
 
 TEST(DistinctWalls, TellAWallSeenOnEveryPassOnce) {
