@@ -49,6 +49,7 @@ std::vector<Point2> cells_around(const MapSegment& wall, double reach_m, double 
     }
   }
   std::vector<Point2> centres;
+  centres.reserve(cells.size());
   for (const auto& [x, y] : cells) centres.push_back({(x + 0.5) * resolution_m, (y + 0.5) * resolution_m});
   return centres;
 }
