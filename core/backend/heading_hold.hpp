@@ -17,9 +17,9 @@ namespace swiftlet {
 /// time.
 class HeadingHold {
  public:
-  /// The walls around `keyframe` run along `axis`, in its frame; since the last keyframe given here the
-  /// heading became uncertain by `yaw_variance_rad2`. Adds a heading to the graph, or nothing where the axis
-  /// is another one. Allocates.
+  /// The walls around `keyframe` run along `axis`, in its frame; since the last heading in the graph its own
+  /// became uncertain by `yaw_variance_rad2`. Adds a heading to the graph, or nothing where the axis is
+  /// another one or may be a quarter turn off. Allocates.
   void add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2, PoseGraph& graph);
 
   /// Writes what the building's axis, as the graph now has it, makes of each heading in the graph.
