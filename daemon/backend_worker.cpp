@@ -26,29 +26,30 @@ StepResult BackendWorker::step() {
 }
 
 void BackendWorker::add_step() {
+  BackendUpdate changed;
   {
     const StageTimer timer(clock_, times_.backend);
-    changed_ = backend_.add(step_);
+    changed = backend_.add(step_);
   }
   if (!step_.has_keyframe) return;
   hand_on_correction();
-  draw_map();
+  draw([&] { return map_.update(backend_, changed.poses_changed, changed.refined); });
 }
 
 void BackendWorker::run_final_pass() {
   {
     const StageTimer timer(clock_, times_.final_pass);
-    changed_ = backend_.finish();
+    static_cast<void>(backend_.finish());
   }
   final_pass_done_ = true;
-  changed_.poses_changed = true;
   hand_on_correction();
-  draw_map();
+  draw([&] { return map_.settle(backend_); });
 }
 
-void BackendWorker::draw_map() {
+template <typename Drawing>
+void BackendWorker::draw(Drawing drawing) {
   const StageTimer timer(clock_, times_.map);
-  const std::vector<TileIndex> changed = map_.update(backend_, changed_.poses_changed, changed_.refined);
+  const std::vector<TileIndex> changed = drawing();
   if (feed_) feed_->note_changes(changed);
 }
 

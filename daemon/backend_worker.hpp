@@ -38,13 +38,13 @@ class BackendWorker {
   std::optional<MapFeed> feed_;
   StageTimes& times_;
   FrontendStep step_;
-  BackendUpdate changed_;  // by the last step; only those with keyframes change anything
   std::uint32_t correction_version_ = 0;
   bool final_pass_done_ = false;
 
   void add_step();
   void run_final_pass();
-  void draw_map();
+  template <typename Drawing>
+  void draw(Drawing drawing);
   void hand_on_correction();
   /// False while the publisher's queues have no room for all of it.
   [[nodiscard]] bool hand_on_changes();

@@ -3,6 +3,7 @@
 #include "core/mapping/map_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -10,34 +11,86 @@
 #include "core/mapping/scan_drawing.hpp"
 
 namespace swiftlet {
+namespace {
+
+constexpr double kFollowsWithinCells = 0.5;
+
+}  // namespace
 
 struct MapBuilder::State {
   State(const MapConfig& map_config, const SensorModel& sensor)
       : config(map_config),
         max_range_m(static_cast<float>(sensor.max_range_m)),
-        drawing(map_config, std::min(map_config.clear_range_m, sensor.max_range_m)) {}
+        clear_range_m(std::min(map_config.clear_range_m, sensor.max_range_m)),
+        drawing(map_config, clear_range_m) {}
 
-  [[nodiscard]] ScanIndex first_unsettled(const Backend& backend) const;
+  /// The scans since a keyframe, and where it and the next one stood when they were drawn: those in between
+  /// hang on both.
+  struct Stretch {
+    ScanIndex first = 0;
+    Pose2 T_map_keyframe;
+    Pose2 T_map_next;
+  };
+  [[nodiscard]] Stretch stretch_now(const Backend& backend, std::size_t k) const;
+  [[nodiscard]] ScanIndex end_of(std::size_t k, const Backend& backend) const;
+  [[nodiscard]] bool has_moved(const Pose2& drawn, const Pose2& now) const;
+  void take_new_scans(const Backend& backend);
+  [[nodiscard]] std::size_t first_unsettled(const Backend& backend) const;
+  void follow(const Backend& backend, std::size_t k);
   void draw(const Backend& backend, ScanIndex scan);
 
   MapConfig config;
   float max_range_m;
+  double clear_range_m;
   ScanDrawing drawing;
-  ScanIndex drawn_scans = 0;       ///< scans before this one have been drawn
-  std::size_t keyframes_seen = 0;  ///< as of the last update
+  std::vector<Stretch> stretches;  // by keyframe
+  ScanIndex scans_seen = 0;
+  std::size_t keyframes_seen = 0;  // as of the last update
 };
+
+MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend, std::size_t k) const {
+  const std::size_t next = std::min(k + 1, backend.keyframe_count() - 1);
+  return {stretches[k].first, backend.T_map_keyframe(static_cast<KeyframeId>(k)),
+          backend.T_map_keyframe(static_cast<KeyframeId>(next))};
+}
+
+ScanIndex MapBuilder::State::end_of(std::size_t k, const Backend& backend) const {
+  return k + 1 < stretches.size() ? stretches[k + 1].first : static_cast<ScanIndex>(backend.scans().size());
+}
+
+bool MapBuilder::State::has_moved(const Pose2& drawn, const Pose2& now) const {
+  const Pose2 moved = between(drawn, now);
+  const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * clear_range_m;
+  return farthest_m > kFollowsWithinCells * config.resolution_m;
+}
+
+void MapBuilder::State::take_new_scans(const Backend& backend) {
+  const ScanStore& scans = backend.scans();
+  for (; scans_seen < scans.size(); ++scans_seen) {
+    while (stretches.size() <= index_of(scans[scans_seen].keyframe)) {
+      stretches.emplace_back().first = scans_seen;
+      stretches.back() = stretch_now(backend, stretches.size() - 1);
+    }
+    draw(backend, scans_seen);
+  }
+}
 
 /// A new keyframe brings new estimates of those in the frontend's window, and to the scans since the one
 /// before it their share of the correction; what lies farther back keeps its pose until the backend says so.
-ScanIndex MapBuilder::State::first_unsettled(const Backend& backend) const {
+std::size_t MapBuilder::State::first_unsettled(const Backend& backend) const {
   const std::size_t keyframes = backend.keyframe_count();
-  if (keyframes == keyframes_seen) return drawn_scans;
-  const std::size_t new_keyframes = keyframes - keyframes_seen;
-  const std::size_t first_changed = keyframes - std::min(keyframes, kMaxKeyframeWindow + new_keyframes);
-  const ScanStore& scans = backend.scans();
-  ScanIndex scan = drawn_scans;
-  while (scan > 0 && index_of(scans[scan - 1].keyframe) >= first_changed) --scan;
-  return scan;
+  if (keyframes == keyframes_seen) return keyframes;
+  return keyframes - std::min(keyframes, kMaxKeyframeWindow + keyframes - keyframes_seen);
+}
+
+/// Draws the scans since keyframe k anew if it or the next one has moved noticeably.
+void MapBuilder::State::follow(const Backend& backend, std::size_t k) {
+  const Stretch now = stretch_now(backend, k);
+  Stretch& drawn = stretches[k];
+  if (!has_moved(drawn.T_map_keyframe, now.T_map_keyframe) && !has_moved(drawn.T_map_next, now.T_map_next))
+    return;
+  drawn = now;
+  for (ScanIndex scan = now.first; scan < end_of(k, backend); ++scan) draw(backend, scan);
 }
 
 void MapBuilder::State::draw(const Backend& backend, ScanIndex scan) {
@@ -61,13 +114,23 @@ MapBuilder::MapBuilder(const MapConfig& config, const SensorModel& sensor)
 MapBuilder::~MapBuilder() = default;
 
 std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed, ScanRange refined) {
-  const auto scan_count = static_cast<ScanIndex>(backend.scans().size());
-  const ScanIndex first = poses_changed ? 0 : state_->first_unsettled(backend);
-  for (ScanIndex scan = refined.first; scan < std::min(refined.end, first); ++scan)
-    state_->draw(backend, scan);
-  for (ScanIndex scan = first; scan < scan_count; ++scan) state_->draw(backend, scan);
-  state_->drawn_scans = scan_count;
-  state_->keyframes_seen = backend.keyframe_count();
+  State& s = *state_;
+  s.take_new_scans(backend);
+  const std::size_t first = poses_changed ? 0 : s.first_unsettled(backend);
+  if (refined.size() > 0) {
+    const std::size_t last = index_of(backend.scans()[refined.end - 1].keyframe);
+    for (std::size_t k = index_of(backend.scans()[refined.first].keyframe); k < std::min(first, last + 1);
+         ++k)
+      s.follow(backend, k);
+  }
+  for (std::size_t k = first; k < s.stretches.size(); ++k) s.follow(backend, k);
+  s.keyframes_seen = backend.keyframe_count();
+  return s.drawing.store().publish();
+}
+
+std::vector<TileIndex> MapBuilder::settle(const Backend& backend) {
+  state_->take_new_scans(backend);
+  for (ScanIndex scan = 0; scan < backend.scans().size(); ++scan) state_->draw(backend, scan);
   return state_->drawing.store().publish();
 }
 

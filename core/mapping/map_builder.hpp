@@ -13,8 +13,9 @@ namespace swiftlet {
 
 /// Draws the occupancy map from the backend's scans at their corrected poses, and follows when poses change:
 /// each scan remembers where it was drawn, is rubbed out there exactly (cells count hits and misses as
-/// integers) and drawn anew. The result depends only on the final poses, never on the order of corrections.
-/// Allocates as the map grows. One thread at a time (the backend's).
+/// integers) and drawn anew. While flying, scans follow once they would move by half a cell; once settled,
+/// the map depends on the final poses alone, never on the order of corrections. Allocates as the map grows.
+/// One thread at a time (the backend's).
 class MapBuilder {
  public:
   /// Precondition: config.validate() is empty.
@@ -24,8 +25,10 @@ class MapBuilder {
   MapBuilder& operator=(const MapBuilder&) = delete;
 
   /// Draws scans added since the last call and redraws, of the `refined` ones or with `poses_changed` of all,
-  /// those whose pose moved. Returns the tiles whose published content changed, in index order.
+  /// those that moved noticeably. Returns the tiles whose published content changed, in index order.
   std::vector<TileIndex> update(const Backend& backend, bool poses_changed, ScanRange refined = {});
+  /// Draws every scan exactly where the backend has it. Returns as update() does.
+  std::vector<TileIndex> settle(const Backend& backend);
 
   [[nodiscard]] MapTile tile(TileIndex index) const;
   /// All tiles that hold anything, in index order.

@@ -26,6 +26,21 @@ void expect_same_map(const MapBuilder& a, const MapBuilder& b) {
     EXPECT_EQ(a.tile(index).occupancy_percent, b.tile(index).occupancy_percent);
 }
 
+int cells_that_differ(const MapBuilder& a, const MapBuilder& b) {
+  std::vector<TileIndex> indices = a.tiles();
+  const std::vector<TileIndex> of_b = b.tiles();
+  indices.insert(indices.end(), of_b.begin(), of_b.end());
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  int count = 0;
+  for (const TileIndex index : indices) {
+    const MapTile of_a = a.tile(index);
+    for (std::size_t i = 0; i < kCellsInTile; ++i)
+      count += of_a.occupancy_percent[i] != b.tile(index).occupancy_percent[i] ? 1 : 0;
+  }
+  return count;
+}
+
 TEST(MapBuilder, DrawsTheWallsOfARoomAndClearsItsMiddle) {
   Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
   MapBuilder map(MapConfig{}, kSensor);
@@ -50,16 +65,17 @@ TEST(MapBuilder, ClearsAlongBeamsWithoutReturnUpToTheSensorsRange) {
   EXPECT_EQ(percent_at(map, 3.12, 0.02), -1);
 }
 
-TEST(MapBuilder, FollowsThePosesAStepAtATimeAsIfDrawnAtOnce) {
+TEST(MapBuilder, SettlesWhereItHadBeenDrawnAtOnce) {
   Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
   MapBuilder followed(MapConfig{}, kSensor);
   for (const FrontendStep& step : room_flight(100, 0.004)) {
     const BackendUpdate update = backend.add(step);
     followed.update(backend, update.poses_changed);
   }
-  followed.update(backend, backend.finish().poses_changed);
+  backend.finish();
+  followed.settle(backend);
   MapBuilder drawn_at_once(MapConfig{}, kSensor);
-  drawn_at_once.update(backend, true);
+  drawn_at_once.settle(backend);
   expect_same_map(followed, drawn_at_once);
 }
 
@@ -67,18 +83,47 @@ TEST(MapBuilder, FollowsWhatRefinementMoves) {
   BackendConfig config;
   config.min_travel_between_m = 1000.0;  // no closures: whatever moves, refinement moved it
   Backend backend(config, kSensor, BeamLayout::multiranger());
-  MapBuilder followed(MapConfig{}, kSensor);
-  std::size_t refined = 0;
-  for (const FrontendStep& step : room_flight(2000, 0.0004)) {
+  const MapConfig fine{.resolution_m = 0.02};  // refinement moves little here
+  MapBuilder followed(fine, kSensor);
+  MapBuilder never_told(fine, kSensor);
+  for (const FrontendStep& step : room_flight(1500, 0.006)) {
     const BackendUpdate update = backend.add(step);
     followed.update(backend, update.poses_changed, update.refined);
-    const bool is_old = update.refined.end + 64 * 5 < backend.scans().size();
-    refined += is_old ? update.refined.size() : 0;
+    never_told.update(backend, update.poses_changed);
   }
-  EXPECT_GT(refined, 0U) << "beyond what the frontend's window may move";
-  MapBuilder drawn_at_once(MapConfig{}, kSensor);
-  drawn_at_once.update(backend, true);
+  MapBuilder drawn_at_once(fine, kSensor);
+  drawn_at_once.settle(backend);
+  EXPECT_GT(cells_that_differ(never_told, drawn_at_once), 1000)
+      << "refinement moves what the window does not";
+  EXPECT_LT(2 * cells_that_differ(followed, drawn_at_once), cells_that_differ(never_told, drawn_at_once));
+  followed.settle(backend);
   expect_same_map(followed, drawn_at_once);
+}
+
+TEST(MapBuilder, LeavesInPlaceWhatMovedByLessThanHalfACell) {
+  std::vector<FrontendStep> steps = room_flight(100);
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  for (const FrontendStep& step : steps) {
+    backend.add(step);
+    map.update(backend, false);
+  }
+  FrontendStep next =
+      steps.back();  // a keyframe that moves the others a little, then one that moves them more
+  for (const double shift_m : {-0.02, -0.04}) {
+    next.sample.sequence += 1;
+    next.sample.stamp += std::chrono::milliseconds(100);
+    next.has_keyframe = true;
+    next.made = steps[95].made;
+    next.made.id = next.keyframe = static_cast<KeyframeId>(index_of(next.keyframe) + 1);
+    next.made.T_local_keyframe.clear();
+    for (std::uint32_t k = 0; k <= index_of(next.keyframe); ++k)
+      (void)next.made.T_local_keyframe.try_push_back(Pose2(0.5 * k, k < 3 ? 0.0 : shift_m, 0.0));
+    const MapTile before = map.tile({0, 0});
+    backend.add(next);
+    map.update(backend, true);
+    EXPECT_EQ(before.occupancy_percent == map.tile({0, 0}).occupancy_percent, shift_m > -0.025) << shift_m;
+  }
 }
 
 TEST(MapBuilder, FollowsWhenItIsAskedOnlyNowAndThen) {
