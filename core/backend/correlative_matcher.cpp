@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace swiftlet {
@@ -28,6 +29,12 @@ double farthest_m(std::span<const Point2> points) {
   double farthest = 0.5;
   for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
   return farthest;
+}
+
+/// Enough that the whole search is a handful of blocks.
+int levels_for(int linear_steps) {
+  const auto farthest = static_cast<unsigned>(std::max(1, linear_steps - 1));
+  return 1 + static_cast<int>(std::bit_width(farthest));
 }
 
 /// Weighted moments of steps from the optimum.
@@ -72,12 +79,13 @@ struct CorrelativeMatcher::Block {
 
 CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
                                        const SearchWindow& window)
-    : submap_(submap), window_(window) {
-  const GridGeometry& grid = submap.pyramid.geometry();
+    : grid_(submap.geometry),
+      window_(window),
+      linear_steps_(static_cast<int>(std::ceil(window.radius_m / grid_.resolution_m))),
+      pyramid_(submap.geometry, submap.cells, levels_for(linear_steps_)) {
   // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
-  const double ratio = grid.resolution_m / farthest_m(points_scan);
+  const double ratio = grid_.resolution_m / farthest_m(points_scan);
   angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
-  linear_steps_ = static_cast<int>(std::ceil(window.radius_m / grid.resolution_m));
   yaw_steps_ = static_cast<int>(std::ceil(window.angle_rad / angle_step_rad_));
   cells_by_yaw_.resize(2 * static_cast<std::size_t>(yaw_steps_) + 1);
   for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
@@ -85,12 +93,12 @@ CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Poi
                   window.T_submap_scan.yaw_rad() + yaw * angle_step_rad_);
     auto& list = cells_by_yaw_[slot(yaw)];
     list.reserve(points_scan.size());
-    for (const Point2& p : points_scan) list.push_back(grid.cell(T * p));
+    for (const Point2& p : points_scan) list.push_back(grid_.cell(T * p));
   }
 }
 
 Pose2 CorrelativeMatcher::T_submap_scan(const DiscreteMatch& match) const {
-  const double cell_m = submap_.pyramid.geometry().resolution_m;
+  const double cell_m = grid_.resolution_m;
   const Pose2& predicted = window_.T_submap_scan;
   return {predicted.x_m() + match.steps_x * cell_m, predicted.y_m() + match.steps_y * cell_m,
           predicted.yaw_rad() + match.steps_yaw * angle_step_rad_};
@@ -106,7 +114,7 @@ double CorrelativeMatcher::preference(int steps_x, int steps_y, int steps_yaw) c
 double CorrelativeMatcher::block_score(const Block& block) const {
   std::uint32_t sum = 0;
   const auto& list = cells(block.yaw);
-  for (const CellIndex& c : list) sum += submap_.pyramid.max_at(block.level, c.x + block.x, c.y + block.y);
+  for (const CellIndex& c : list) sum += pyramid_.max_at(block.level, c.x + block.x, c.y + block.y);
   return static_cast<double>(sum) / (255.0 * static_cast<double>(list.size()));
 }
 
@@ -115,7 +123,7 @@ CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const Block& bloc
   std::size_t known = 0;
   const auto& list = cells(block.yaw);
   for (const CellIndex& c : list) {
-    const std::uint8_t value = submap_.pyramid.max_at(0, c.x + block.x, c.y + block.y);
+    const std::uint8_t value = pyramid_.max_at(0, c.x + block.x, c.y + block.y);
     sum += value;
     known += value != 0 ? 1 : 0;
   }
@@ -154,7 +162,7 @@ void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMa
 }
 
 std::optional<DiscreteMatch> CorrelativeMatcher::best_by_branch_and_bound(double min_score) const {
-  const int level = submap_.pyramid.levels() - 1;
+  const int level = pyramid_.levels() - 1;
   std::vector<Block> roots;
   for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
     for (int y = -linear_steps_; y <= linear_steps_; y += 1 << level) {
@@ -192,7 +200,7 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 /// lies between the cells: the refinement below the grid's resolution. Every second cell is enough under a
 /// kernel of three.
 void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
-  const double cell_m = submap_.pyramid.geometry().resolution_m;
+  const double cell_m = grid_.resolution_m;
   const double reach_m = std::clamp(window_.radius_m, kLeastSpreadM, kMostSpreadM);
   const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
   const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - kYawSpreadSteps);

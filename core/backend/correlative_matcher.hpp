@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/backend/max_pyramid.hpp"
 #include "core/backend/submap.hpp"
 #include "core/geometry/pose2.hpp"
 
@@ -75,11 +76,12 @@ class CorrelativeMatcher {
   }
   void spread_around(const DiscreteMatch& best, MatchResult& result) const;
 
-  const Submap& submap_;
+  GridGeometry grid_;
   SearchWindow window_;
   double angle_step_rad_ = 0.0;
   int linear_steps_ = 0;
   int yaw_steps_ = 0;
+  MaxPyramid pyramid_;
   std::vector<std::vector<CellIndex>> cells_by_yaw_;  // points as cells, one list for each heading
 };
 

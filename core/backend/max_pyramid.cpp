@@ -15,47 +15,42 @@ struct Size {
   int height = 0;
 };
 
+std::size_t cell_count(Size size) {
+  return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+}
+
+/// out[i] = max(out[i], in[i]); plain enough for the compiler to take many bytes at once.
+void raise(std::uint8_t* out, const std::uint8_t* in, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = std::max(out[i], in[i]);
+}
+
 /// out(x, y) = max(in(x - shift, y), in(x, y)) with out wider by `shift`, then the same along y.
-std::vector<std::uint8_t> widen(const std::vector<std::uint8_t>& in, Size size, int shift) {
-  const int wide = size.width + shift;
-  const int tall = size.height + shift;
-  const auto at = [](int stride, int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(x);
-  };
-  std::vector<std::uint8_t> rows(at(wide, 0, size.height), 0);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const std::uint8_t value = in[at(size.width, x, y)];
-      auto& left = rows[at(wide, x, y)];
-      left = std::max(left, value);
-      auto& right = rows[at(wide, x + shift, y)];
-      right = std::max(right, value);
-    }
+std::vector<std::uint8_t> widen(std::span<const std::uint8_t> in, Size size, int shift) {
+  const auto width = static_cast<std::size_t>(size.width);
+  const Size wide{size.width + shift, size.height};
+  const auto stride = static_cast<std::size_t>(wide.width);
+  std::vector<std::uint8_t> rows(cell_count(wide), 0);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(size.height); ++y) {
+    std::copy_n(in.data() + y * width, width, rows.data() + y * stride);
+    raise(rows.data() + y * stride + shift, in.data() + y * width, width);
   }
-  std::vector<std::uint8_t> out(at(wide, 0, tall), 0);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < wide; ++x) {
-      const std::uint8_t value = rows[at(wide, x, y)];
-      auto& low = out[at(wide, x, y)];
-      low = std::max(low, value);
-      auto& high = out[at(wide, x, y + shift)];
-      high = std::max(high, value);
-    }
-  }
+  std::vector<std::uint8_t> out(cell_count({wide.width, wide.height + shift}), 0);
+  std::copy(rows.begin(), rows.end(), out.begin());
+  raise(out.data() + static_cast<std::size_t>(shift) * stride, rows.data(), rows.size());
   return out;
 }
 
 }  // namespace
 
-MaxPyramid::MaxPyramid(const GridGeometry& geometry, std::vector<std::uint8_t> cells, int levels)
-    : geometry_(geometry) {
+MaxPyramid::MaxPyramid(const GridGeometry& geometry, std::span<const std::uint8_t> cells, int levels)
+    : geometry_(geometry), base_(cells) {
   SWIFTLET_CHECK(levels >= 1, "a pyramid has at least its base");
   SWIFTLET_CHECK(cells.size() == geometry.cell_count(), "the cells fill the grid");
-  grids_.push_back(std::move(cells));
+  std::span<const std::uint8_t> below = base_;
   for (int level = 1; level < levels; ++level) {
     const int reach = (1 << (level - 1)) - 1;
-    grids_.push_back(
-        widen(grids_.back(), {geometry.width + reach, geometry.height + reach}, 1 << (level - 1)));
+    above_.push_back(widen(below, {geometry.width + reach, geometry.height + reach}, 1 << (level - 1)));
+    below = above_.back();
   }
 }
 

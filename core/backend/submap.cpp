@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "core/backend/max_pyramid.hpp"
 
 namespace swiftlet {
 namespace {
@@ -87,11 +88,14 @@ Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanSt
   EvidenceGrid grid(geometry, config);
   for (const PlacedScan& scan : placed) grid.add(scans, scan);
 
-  std::vector<std::uint8_t> kernelled = max_kernel(geometry, grid.bytes(), config.max_kernel_cells);
-  // Levels enough that the widest search is a handful of blocks.
-  const double widest_cells = std::max(2.0, config.search_radius_m / config.grid_resolution_m);
-  const int levels = 1 + static_cast<int>(std::ceil(std::log2(widest_cells)));
-  return Submap{id, reference, first, last, MaxPyramid(geometry, std::move(kernelled), levels), low, high};
+  return Submap{.id = id,
+                .reference = reference,
+                .first = first,
+                .last = last,
+                .geometry = geometry,
+                .cells = max_kernel(geometry, grid.bytes(), config.max_kernel_cells),
+                .low_m = low,
+                .high_m = high};
 }
 
 }  // namespace swiftlet

@@ -4,24 +4,26 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/backend/backend_config.hpp"
+#include "core/backend/grid_geometry.hpp"
 #include "core/backend/keyframe_chain.hpp"
-#include "core/backend/max_pyramid.hpp"
 #include "core/base/ids.hpp"
 
 namespace swiftlet {
 
 /// A stretch of travel as a grid of occupancy probabilities in the frame of its reference keyframe, with the
-/// max kernel of eq. 22 applied and the maxima for branch and bound prepared. Immutable once built: shared as
-/// shared_ptr<const Submap>. A byte holds 255 * p(occupied); unknown cells hold 0.
+/// max kernel of eq. 22 applied. Immutable once built: shared as shared_ptr<const Submap>. A byte holds
+/// 255 * p(occupied); unknown cells hold 0.
 struct Submap {
   SubmapId id{};
   KeyframeId reference{};  ///< its frame: the keyframe in the middle
   KeyframeId first{};
-  KeyframeId last{};   ///< scans from `first` up to, not including, `last`
-  MaxPyramid pyramid;  ///< with the kernel
-  Point2 low_m;        ///< box around all hits and the path, in the submap's frame
+  KeyframeId last{};  ///< scans from `first` up to, not including, `last`
+  GridGeometry geometry;
+  std::vector<std::uint8_t> cells;  ///< row by row, with the kernel
+  Point2 low_m;                     ///< box around all hits and the path, in the submap's frame
   Point2 high_m;
 };
 

@@ -14,6 +14,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kFollowsWithinCells = 0.5;
+constexpr std::size_t kMostReturnsMoved = 4000;  // in one update: about a millisecond
 
 }  // namespace
 
@@ -36,7 +37,8 @@ struct MapBuilder::State {
   [[nodiscard]] bool has_moved(const Pose2& drawn, const Pose2& now) const;
   void take_new_scans(const Backend& backend);
   [[nodiscard]] std::size_t first_unsettled(const Backend& backend) const;
-  void follow(const Backend& backend, std::size_t k);
+  std::size_t follow(const Backend& backend, std::size_t k);
+  void sweep(const Backend& backend);
   void draw(const Backend& backend, ScanIndex scan);
 
   MapConfig config;
@@ -46,6 +48,8 @@ struct MapBuilder::State {
   std::vector<Stretch> stretches;  // by keyframe
   ScanIndex scans_seen = 0;
   std::size_t keyframes_seen = 0;  // as of the last update
+  std::size_t swept = 0;           // the next keyframe whose turn it is, when all may have moved ...
+  std::size_t left_to_sweep = 0;   // ... and how many have not had theirs
 };
 
 MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend, std::size_t k) const {
@@ -83,14 +87,28 @@ std::size_t MapBuilder::State::first_unsettled(const Backend& backend) const {
   return keyframes - std::min(keyframes, kMaxKeyframeWindow + keyframes - keyframes_seen);
 }
 
-/// Draws the scans since keyframe k anew if it or the next one has moved noticeably.
-void MapBuilder::State::follow(const Backend& backend, std::size_t k) {
+/// Draws the scans since keyframe k anew if it or the next one has moved noticeably. Returns how many
+/// returns that were.
+std::size_t MapBuilder::State::follow(const Backend& backend, std::size_t k) {
   const Stretch now = stretch_now(backend, k);
   Stretch& drawn = stretches[k];
   if (!has_moved(drawn.T_map_keyframe, now.T_map_keyframe) && !has_moved(drawn.T_map_next, now.T_map_next))
-    return;
+    return 0;
   drawn = now;
-  for (ScanIndex scan = now.first; scan < end_of(k, backend); ++scan) draw(backend, scan);
+  std::size_t returns = 0;
+  for (ScanIndex scan = now.first; scan < end_of(k, backend); ++scan) {
+    draw(backend, scan);
+    returns += backend.scans().returns(scan).size();
+  }
+  return returns;
+}
+
+/// A correction of everything is followed over several updates, in turn, so that none takes long.
+void MapBuilder::State::sweep(const Backend& backend) {
+  for (std::size_t moved = 0; left_to_sweep > 0 && moved < kMostReturnsMoved; --left_to_sweep) {
+    if (swept >= stretches.size()) swept = 0;
+    moved += follow(backend, swept++);
+  }
 }
 
 void MapBuilder::State::draw(const Backend& backend, ScanIndex scan) {
@@ -116,7 +134,7 @@ MapBuilder::~MapBuilder() = default;
 std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed, ScanRange refined) {
   State& s = *state_;
   s.take_new_scans(backend);
-  const std::size_t first = poses_changed ? 0 : s.first_unsettled(backend);
+  const std::size_t first = s.first_unsettled(backend);
   if (refined.size() > 0) {
     const std::size_t last = index_of(backend.scans()[refined.end - 1].keyframe);
     for (std::size_t k = index_of(backend.scans()[refined.first].keyframe); k < std::min(first, last + 1);
@@ -125,6 +143,8 @@ std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_cha
   }
   for (std::size_t k = first; k < s.stretches.size(); ++k) s.follow(backend, k);
   s.keyframes_seen = backend.keyframe_count();
+  if (poses_changed) s.left_to_sweep = s.stretches.size();
+  s.sweep(backend);
   return s.drawing.store().publish();
 }
 

@@ -24,8 +24,9 @@ class MapBuilder {
   MapBuilder(const MapBuilder&) = delete;
   MapBuilder& operator=(const MapBuilder&) = delete;
 
-  /// Draws scans added since the last call and redraws, of the `refined` ones or with `poses_changed` of all,
-  /// those that moved noticeably. Returns the tiles whose published content changed, in index order.
+  /// Draws scans added since the last call and redraws, of the `refined` ones and, when `poses_changed`, of
+  /// all in this and the next updates, those that moved noticeably. Returns the tiles whose published content
+  /// changed, in index order.
   std::vector<TileIndex> update(const Backend& backend, bool poses_changed, ScanRange refined = {});
   /// Draws every scan exactly where the backend has it. Returns as update() does.
   std::vector<TileIndex> settle(const Backend& backend);

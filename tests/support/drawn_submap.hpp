@@ -15,8 +15,7 @@ namespace swiftlet {
 /// A submap straight from a picture, without a flight: '#' occupied, '.' free, ' ' unknown, one character a
 /// cell. It stands as one reads it: x to the right, y up; the origin of its frame lies in the middle of the
 /// picture.
-inline Submap drawn_submap(const std::vector<std::string>& picture, double resolution_m, int kernel_cells,
-                           int levels) {
+inline Submap drawn_submap(const std::vector<std::string>& picture, double resolution_m, int kernel_cells) {
   GridGeometry geometry;
   geometry.resolution_m = resolution_m;
   geometry.width = static_cast<int>(picture[0].size());
@@ -28,14 +27,14 @@ inline Submap drawn_submap(const std::vector<std::string>& picture, double resol
       cells.push_back(c == '#' ? std::uint8_t{240} : c == '.' ? std::uint8_t{20} : std::uint8_t{0});
   }
   const Point2 high{-geometry.origin_m.x_m, -geometry.origin_m.y_m};
-  std::vector<std::uint8_t> kernelled = max_kernel(geometry, cells, kernel_cells);
-  return Submap{SubmapId{},
-                KeyframeId{},
-                KeyframeId{},
-                KeyframeId{},
-                MaxPyramid(geometry, std::move(kernelled), levels),
-                geometry.origin_m,
-                high};
+  return Submap{.id = {},
+                .reference = {},
+                .first = {},
+                .last = {},
+                .geometry = geometry,
+                .cells = max_kernel(geometry, cells, kernel_cells),
+                .low_m = geometry.origin_m,
+                .high_m = high};
 }
 
 }  // namespace swiftlet

@@ -18,7 +18,6 @@ namespace swiftlet {
 namespace {
 
 constexpr double kCellM = 0.1;
-constexpr int kLevels = 5;
 constexpr int kKernelCells = 3;
 constexpr double kHalfCellM = 0.5 * kCellM;
 constexpr double kYawToleranceRad = radians(1.0);
@@ -59,7 +58,7 @@ std::vector<std::string> mirrored(const std::vector<std::string>& picture) {
 }
 
 Submap submap_of(const std::vector<std::string>& picture) {
-  return drawn_submap(picture, kCellM, kKernelCells, kLevels);
+  return drawn_submap(picture, kCellM, kKernelCells);
 }
 
 bool is_wall(const std::vector<std::string>& picture, std::size_t line, std::size_t column) {
@@ -76,8 +75,8 @@ std::vector<Point2> wall_points(const std::vector<std::string>& picture) {
       const bool inside = is_wall(picture, line - 1, column) && is_wall(picture, line + 1, column) &&
                           is_wall(picture, line, column - 1) && is_wall(picture, line, column + 1);
       if (inside) continue;
-      points.push_back(submap.pyramid.geometry().center(
-          {static_cast<int>(column), static_cast<int>(picture.size() - 1 - line)}));
+      points.push_back(
+          submap.geometry.center({static_cast<int>(column), static_cast<int>(picture.size() - 1 - line)}));
     }
   }
   return points;
@@ -119,8 +118,7 @@ TEST(CorrelativeMatcher, BranchAndBoundEqualsExhaustionInRandomRooms) {
   int found = 0;
   for (int room = 0; room < 60; ++room) {
     const int kernel_cells = 2 * random_int(random, 0, 2) + 1;
-    const int levels = random_int(random, 1, 7);
-    const Submap submap = drawn_submap(random_picture(random), kCellM, kernel_cells, levels);
+    const Submap submap = drawn_submap(random_picture(random), kCellM, kernel_cells);
     std::vector<Point2> points;
     for (int i = random_int(random, 5, 40); i > 0; --i)
       points.push_back({random_in(random, -2.0, 2.0), random_in(random, -2.0, 2.0)});

@@ -81,15 +81,6 @@ INSTANTIATE_TEST_SUITE_P(OddSizes, MaxOverGrids,
                          testing::Values(GridSize{1, 1}, GridSize{1, 9}, GridSize{9, 1}, GridSize{13, 5},
                                          GridSize{17, 31}, GridSize{32, 32}));
 
-TEST(MaxPyramid, KeepsTheGeometryItWasGiven) {
-  const GridGeometry geometry{{1.5, -2.5}, 0.25, 3, 2};
-  const MaxPyramid pyramid(geometry, std::vector<std::uint8_t>(6, 7), 1);
-  EXPECT_EQ(pyramid.geometry().origin_m.x_m, 1.5);
-  EXPECT_EQ(pyramid.geometry().origin_m.y_m, -2.5);
-  EXPECT_EQ(pyramid.geometry().resolution_m, 0.25);
-  EXPECT_EQ(pyramid.max_at(0, 2, 1), 7);
-}
-
 TEST(MaxPyramidDeathTest, CellsThatDoNotFillTheGridAreABrokenPromise) {
   const GridGeometry geometry{{}, 0.1, 3, 2};
   EXPECT_DEATH(MaxPyramid(geometry, std::vector<std::uint8_t>(5, 0), 2), "broken promise.*fill the grid");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/backend/max_pyramid.hpp"
 #include "tests/support/stored_run.hpp"
 #include "tests/support/test_vehicle.hpp"
 #include "tests/support/text_room.hpp"
@@ -59,18 +60,9 @@ class SubmapTest : public testing::Test {
 };
 
 std::uint8_t occupied_at(const Submap& submap, const Point2& p_submap) {
-  const GridGeometry& grid = submap.pyramid.geometry();
+  const GridGeometry& grid = submap.geometry;
   const CellIndex c = grid.cell(p_submap);
-  return submap.pyramid.max_at(0, c.x, c.y);
-}
-
-std::vector<std::uint8_t> cells_of(const Submap& submap) {
-  const GridGeometry& grid = submap.pyramid.geometry();
-  std::vector<std::uint8_t> cells;
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) cells.push_back(submap.pyramid.max_at(0, x, y));
-  }
-  return cells;
+  return grid.contains(c) ? submap.cells[grid.offset(c)] : 0;
 }
 
 TEST_F(SubmapTest, ItsFrameIsTheKeyframeInTheMiddle) {
@@ -86,9 +78,9 @@ TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
   const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_world_to_submap = T_world_submap(run, submap).inverse();
-  const std::vector<std::uint8_t> occupied = cells_of(submap);
+  const std::vector<std::uint8_t> occupied = submap.cells;
   std::vector<std::uint8_t> is_hit(occupied.size(), 0);
-  const GridGeometry& grid = submap.pyramid.geometry();
+  const GridGeometry& grid = submap.geometry;
   std::size_t hits = 0;
   std::size_t high = 0;
   for (ScanIndex i = 0; i < run.chain().scan_of(run.newest()); ++i) {
@@ -127,7 +119,7 @@ TEST_F(SubmapTest, NothingIsKnownOutsideTheRoom) {
   const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_world = T_world_submap(run, submap);
-  const GridGeometry& grid = submap.pyramid.geometry();
+  const GridGeometry& grid = submap.geometry;
   const double width_m = static_cast<double>(kRoomPicture[0].size()) * kBlockM;
   const double height_m = static_cast<double>(kRoomPicture.size()) * kBlockM;
   const double wall_m = kBlockM - 2.0 * grid.resolution_m;  // its face may stain the cells beside it
@@ -136,7 +128,7 @@ TEST_F(SubmapTest, NothingIsKnownOutsideTheRoom) {
       const Point2 p = T_world * grid.center({x, y});
       const bool inside = p.x_m > kRoomCorner.x_m + wall_m && p.x_m < kRoomCorner.x_m + width_m - wall_m &&
                           p.y_m > kRoomCorner.y_m + wall_m && p.y_m < kRoomCorner.y_m + height_m - wall_m;
-      EXPECT_TRUE(inside || submap.pyramid.max_at(0, x, y) == 0) << p.x_m << ", " << p.y_m;
+      EXPECT_TRUE(inside || submap.cells[grid.offset({x, y})] == 0) << p.x_m << ", " << p.y_m;
     }
   }
 }
@@ -153,11 +145,11 @@ TEST_F(SubmapTest, TheBoxHoldsTheHitsTightly) {
   EXPECT_NEAR(high.y_m, kRoomCorner.y_m + 8.0 * kBlockM, 1e-6);
 }
 
-TEST_F(SubmapTest, ThePyramidIsTheGridWithTheKernel) {
+TEST_F(SubmapTest, TheKernelIsAppliedToTheGrid) {
   const StoredRun run(vehicle_.samples());
   const Submap plain = build(run, KeyframeId{0}, run.newest());
   const Submap kernelled = build(run, KeyframeId{0}, run.newest(), 3);
-  EXPECT_EQ(cells_of(kernelled), max_kernel(plain.pyramid.geometry(), cells_of(plain), 3));
+  EXPECT_EQ(kernelled.cells, max_kernel(plain.geometry, plain.cells, 3));
 }
 
 TEST_F(SubmapTest, HoldsOnlyTheScansOfItsStretch) {
@@ -177,7 +169,7 @@ TEST_F(SubmapTest, ABeamThatMeetsNothingSaysNothing) {
   blind.fly_to(room_, room_.place('b'));
   const StoredRun run(blind.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
-  const std::vector<std::uint8_t> occupied = cells_of(submap);
+  const std::vector<std::uint8_t> occupied = submap.cells;
   EXPECT_EQ(*std::max_element(occupied.begin(), occupied.end()), 0);
 }
 
