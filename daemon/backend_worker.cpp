@@ -34,6 +34,17 @@ void BackendWorker::add_step() {
   if (!step_.has_keyframe) return;
   hand_on_correction();
   draw([&] { return map_.update(backend_, changed.poses_changed, changed.refined); });
+  retire();
+}
+
+void BackendWorker::retire() {
+  const StageTimer timer(clock_, times_.retirement);
+  const Retirement retirement = backend_.next_retirement();
+  if (retirement.empty()) return;
+  if (retired_ != nullptr) retired_->take(backend_, retirement);
+  map_.retire(backend_, retirement);
+  if (feed_) feed_->retire(backend_, retirement);
+  backend_.retire(retirement);
 }
 
 void BackendWorker::run_final_pass() {

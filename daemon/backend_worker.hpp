@@ -8,6 +8,7 @@
 #include "core/mapping/map_builder.hpp"
 #include "daemon/clock.hpp"
 #include "daemon/map_feed.hpp"
+#include "daemon/outputs/retired_scans.hpp"
 #include "daemon/pipeline_queues.hpp"
 #include "daemon/stage_times.hpp"
 #include "daemon/worker.hpp"
@@ -24,6 +25,9 @@ class BackendWorker {
                 CorrectionValue& correction, const std::optional<BackendOutlet>& publisher,
                 StageTimes& times);
 
+  /// Trajectories will be written: what is retired is kept there, which must outlive the worker.
+  void keep_retired(RetiredScans& retired) { retired_ = &retired; }
+
   /// kBlocked: only the publisher's queues stand in the way; call again in a moment.
   StepResult step();
   /// Sleeps until a step waits or no more will come.
@@ -37,11 +41,13 @@ class BackendWorker {
   CorrectionValue& correction_;
   std::optional<MapFeed> feed_;
   StageTimes& times_;
+  RetiredScans* retired_ = nullptr;
   FrontendStep step_;
   std::uint32_t correction_version_ = 0;
   bool final_pass_done_ = false;
 
   void add_step();
+  void retire();
   void run_final_pass();
   template <typename Drawing>
   void draw(Drawing drawing);

@@ -151,6 +151,8 @@ constexpr ConfigurationField kFields[] = {
      0, 0, at<&BackendConfig::refine>},
     {"backend", "refinement_iterations", "", "rounds of walls and poses at most, at the end of a run", 1,
      1000, at<&BackendConfig::refinement_iterations>},
+    {"backend", "max_scans", "", "with more than these, scans of space that others know as well are forgotten",
+     1000, 100000000, at<&BackendConfig::max_scans>},
     {"map", "resolution_m", "m", "cell size of the map that is published and written", 0.01, 1,
      at<&MapConfig::resolution_m>},
     {"map", "hit_log_odds", "", "what one beam's end adds to its cell", 0.01, 10,

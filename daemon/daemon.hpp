@@ -22,6 +22,9 @@ class Daemon {
   Daemon(const Configuration& config, SampleSource& source, Clock& clock, const InputPolicy& policy,
          Publisher& publisher);
 
+  /// As Pipeline::keep_retired(). Before run().
+  void keep_retired(RetiredScans& retired) { pipeline_.keep_retired(retired); }
+
   /// Runs until the input ends or `stop` is requested; then what has been taken in is worked off, the final
   /// pass runs and everything is published. Call once. Errors: whatever ended the input before its time.
   [[nodiscard]] Status run(const std::stop_token& stop);

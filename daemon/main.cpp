@@ -11,11 +11,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "daemon/configuration_fields.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/retired_scans.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/recorder.hpp"
 #include "daemon/recording_plan.hpp"
@@ -136,7 +138,7 @@ int tell_problems(const Options& options, const Daemon& daemon, const InputRepor
 }
 
 Status write_outputs(const Options& options, const Configuration& config, const Daemon& daemon,
-                     const SampleSource& source) {
+                     const SampleSource& source, const RetiredScans* retired) {
   if (options.output_directory.empty() || daemon.pipeline().backend().scans().size() == 0) return {};
   spdlog::info("writing {}", options.output_directory);
   return write_run_outputs(options.output_directory, {.backend = daemon.pipeline().backend(),
@@ -146,7 +148,8 @@ Status write_outputs(const Options& options, const Configuration& config, const 
                                                       .times = daemon.pipeline().stage_times(),
                                                       .truth = source.ground_truth(),
                                                       .input_uri = options.input_uri,
-                                                      .sensor = config.sensor.applied_to(source.sensor())});
+                                                      .sensor = config.sensor.applied_to(source.sensor()),
+                                                      .retired = retired});
 }
 
 /// Until the recording is on the disk, too.
@@ -166,6 +169,12 @@ int run(const Options& options) {
     const Status ready = prepare_output_directory(options.output_directory);
     if (!ready) return refuse(ready.error().message);
   }
+  std::optional<RetiredScans> retired;
+  if (!options.output_directory.empty()) {
+    Result<RetiredScans> opened = RetiredScans::open(options.output_directory);
+    if (!opened) return refuse(opened.error().message);
+    retired = std::move(opened).value();
+  }
   const SignalWatcher signals;  // before the threads, libusb's too
   const Result<std::unique_ptr<Recorder>> recorder = open_recorder(options, *config);
   if (!recorder) return refuse(recorder.error().message);
@@ -178,13 +187,14 @@ int run(const Options& options) {
 
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
+  if (retired) daemon.keep_retired(*retired);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
   const Status outcome = run_recorded(daemon, recorder->get(), signals.token());
   if (signals.token().stop_requested()) spdlog::info("stopped by a signal");
   const BackendCounters& counters = daemon.pipeline().backend().counters();
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
-  const Status written = write_outputs(options, *config, daemon, **source);
+  const Status written = write_outputs(options, *config, daemon, **source, retired ? &*retired : nullptr);
   // A live vehicle's notes are the events that were told when they happened.
   const InputReport& report = (*source)->report();
   const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;

@@ -23,11 +23,13 @@ class MapFeed {
 
   /// These tiles have new content; walls and closures may have.
   void note_changes(std::span<const TileIndex> changed_tiles);
+  /// The backend is about to retire this.
+  void retire(const Backend& backend, const Retirement& retirement);
   /// Hands over what there is room for, and the backend's counters.
   void flush(const Backend& backend, const MapBuilder& map);
   /// True when the publisher has been given everything.
   [[nodiscard]] bool is_empty() const {
-    return dirty_tiles_.empty() && !walls_pending_ && !closures_pending_;
+    return dirty_tiles_.empty() && gone_walls_.empty() && !walls_pending_ && !closures_pending_;
   }
   /// Tells the publisher that nothing more will come.
   void close() { publisher_.tiles.close(); }
@@ -38,9 +40,11 @@ class MapFeed {
   bool walls_pending_ = false;
   bool closures_pending_ = false;
   std::map<LandmarkId, WallInMap> sent_walls_;
+  std::vector<LandmarkId> gone_walls_;      // of which the publisher does not know yet
   std::vector<bool> sent_closure_dropped_;  // by index in Backend::closures()
 
   void flush_tiles(const MapBuilder& map);
+  [[nodiscard]] bool flush_gone_walls();
   [[nodiscard]] bool flush_walls(const Backend& backend);
   [[nodiscard]] bool flush_closures(const Backend& backend);
 };

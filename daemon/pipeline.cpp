@@ -67,6 +67,8 @@ Pipeline::Pipeline(const Configuration& config, SampleSource& source, const Cloc
 
 Pipeline::~Pipeline() = default;
 
+void Pipeline::keep_retired(RetiredScans& retired) { state_->backend_worker.keep_retired(retired); }
+
 Result<bool> Pipeline::step() {
   state_->radio_worker.step();
   state_->frontend_worker.step();

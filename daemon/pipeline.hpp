@@ -18,6 +18,7 @@ class BackendWorker;
 class Clock;
 class FrontendWorker;
 class RadioWorker;
+class RetiredScans;
 struct InputPolicy;
 struct PipelineQueues;
 
@@ -34,6 +35,9 @@ class Pipeline {
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
+
+  /// As BackendWorker::keep_retired(). Before the first step.
+  void keep_retired(RetiredScans& retired);
 
   /// Lockstep: takes the next sample through all stages in the calling thread. False when the input has ended
   /// and the backend's final pass is done. Errors: whatever ended the input before its time, said once the

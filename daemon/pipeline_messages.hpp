@@ -46,13 +46,13 @@ struct WallInMap {
   LandmarkId id{};
   Point2 start_map{};
   Point2 end_map{};
+  bool is_gone = false;  ///< forgotten
 };
 
 /// A loop closure, when found and again when the final pass drops it.
 struct ClosureUpdate {
-  std::uint32_t index = 0;  ///< in Backend::closures()
-  LoopClosure closure{};
-  Point2 from_map{};  ///< where the two keyframes stand now
+  LoopClosure closure{};  ///< keyframes by their frontend ids
+  Point2 from_map{};      ///< where the two keyframes stand now
   Point2 to_map{};
 };
 

@@ -74,7 +74,13 @@ void PublisherWorker::take_events() {
 
 void PublisherWorker::take_walls() {
   WallInMap wall;
-  while (inlet_.walls.try_pop(wall)) walls_.insert_or_assign(wall.id, wall);
+  while (inlet_.walls.try_pop(wall)) {
+    if (wall.is_gone) {
+      walls_.erase(wall.id);
+    } else {
+      walls_.insert_or_assign(wall.id, wall);
+    }
+  }
 }
 
 void PublisherWorker::take_closures() {

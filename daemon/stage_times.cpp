@@ -65,7 +65,8 @@ double StageHistogram::percentile_ms(std::uint64_t count, double share) const no
 
 std::vector<StageSummary> StageTimes::summaries() const {
   return {input.summary("input"), frontend.summary("frontend"), backend.summary("backend"),
-          final_pass.summary("final_pass"), map.summary("map")};
+          final_pass.summary("final_pass"), map.summary("map"),
+          retirement.summary("retirement")};
 }
 
 }  // namespace swiftlet

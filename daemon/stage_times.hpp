@@ -16,7 +16,7 @@ namespace swiftlet {
 
 /// How long one stage took over a run.
 struct StageSummary {
-  std::string name;  ///< "input", "frontend", "backend", "final_pass", "map"
+  std::string name;  ///< "input", "frontend", "backend", "final_pass", "map", "retirement"
   std::uint64_t count = 0;
   double mean_ms = 0.0;
   double p50_ms = 0.0;
@@ -58,6 +58,7 @@ struct StageTimes {
   StageHistogram backend;     ///< Backend::add()
   StageHistogram final_pass;  ///< Backend::finish()
   StageHistogram map;         ///< MapBuilder::update()
+  StageHistogram retirement;  ///< choosing and forgetting redundant scans
 
   [[nodiscard]] std::vector<StageSummary> summaries() const;
 };

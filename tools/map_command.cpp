@@ -10,6 +10,7 @@
 #include "daemon/configuration.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/peak_memory.hpp"
+#include "daemon/outputs/retired_scans.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/pipeline.hpp"
 #include "firmware_link/sample_source.hpp"
@@ -67,14 +68,15 @@ Status check_usable(const MapCommand& command, const InputReport& report, const 
 void print_summary(const MapCommand& command, const RunView& run) {
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
   const BackendCounters& counters = run.backend.counters();
-  std::printf("%zu samples, %llu keyframes, %llu loop closures (%llu of them dropped), %zu input problems\n",
-              run.backend.scans().size(), static_cast<unsigned long long>(counters.keyframes),
+  std::printf("%llu samples, %llu keyframes, %llu loop closures (%llu of them dropped), %zu input problems\n",
+              static_cast<unsigned long long>(counters.scans),
+              static_cast<unsigned long long>(counters.keyframes),
               static_cast<unsigned long long>(counters.closures_accepted),
               static_cast<unsigned long long>(counters.closures_dropped), run.input.problems.size());
   const std::string directory = command.output_directory.string();
   std::printf("files: %s: map.png map.pgm map.yaml trajectory.tum odometry.tum live.tum %sreport.json\n",
               directory.c_str(), run.truth.empty() ? "" : "ground_truth.tum ");
-  if (const auto error = run_error(run.backend, run.truth))
+  if (const auto error = run_error(run))
     std::printf(
         "error before correction %.3f m, live %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
         error->odometry.rmse_m, error->live.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
@@ -99,7 +101,10 @@ Status run_map_command(const MapCommand& command) {
   SampleSource& source = **opened;
   if (Status ready = prepare_output_directory(command.output_directory); !ready) return ready;
 
+  Result<RetiredScans> retired = RetiredScans::open(command.output_directory);
+  if (!retired) return retired.error();
   Pipeline pipeline(*config, source);
+  pipeline.keep_retired(*retired);
   const InputReport report = run_to_end(pipeline, source);
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const RunView run{.backend = pipeline.backend(),
@@ -110,6 +115,7 @@ Status run_map_command(const MapCommand& command) {
                     .truth = source.ground_truth(),
                     .input_uri = command.input,
                     .sensor = config->sensor.applied_to(source.sensor()),
+                    .retired = &*retired,
                     .peak_memory_mb = peak_memory_mb()};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
   print_summary(command, run);

@@ -8,75 +8,22 @@
 #include <optional>
 #include <span>
 
-#include "core/backend/heading_hold.hpp"
-#include "core/backend/keyframe_chain.hpp"
-#include "core/backend/live_refinement.hpp"
-#include "core/backend/loop_detector.hpp"
-#include "core/backend/pose_graph.hpp"
-#include "core/backend/pose_graph_optimizer.hpp"
+#include "core/backend/backend_state.hpp"
 #include "core/backend/refinement.hpp"
 #include "core/backend/relative_uncertainty.hpp"
-#include "core/backend/submap.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// Of a motion that nobody measured.
-const Eigen::Matrix3d kUnknownMotionInformation = Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal();
-
 constexpr std::size_t kKeyframesOfCorrection = 4;  // about 2 m
 
+// While flying, news that the graph had expected waits for others ...
+constexpr double kExpectedChiSquare = 1.0;
+constexpr std::uint32_t kMostKeyframesWaiting = 8;
+// ... and solutions need not be finer than this, in metres and radians: the next is at hand.
+constexpr double kLiveConvergedStep = 1e-3;
+
 }  // namespace
-
-struct Backend::State {
-  State(const BackendConfig& backend_config, const SensorModel& sensor_model, const BeamLayout& beams)
-      : config(backend_config),
-        sensor(sensor_model),
-        scans(beams),
-        chain(scans),
-        detector(config, scans, chain),
-        optimizer(config.dcs_phi, config.optimizer_iterations),
-        live(scans, chain, sensor) {}
-
-  void take_estimates(const Keyframe& made);
-  void add_motion(const Keyframe& made);
-  void carry_new_poses();
-  void take_walls(const Keyframe& made);
-  void finish_submaps(KeyframeId newest);
-  bool hold_heading(KeyframeId newest);
-  [[nodiscard]] double yaw_variance_rad2(KeyframeId from, KeyframeId to) const;
-  std::uint32_t close_loops(KeyframeId newest);
-  bool optimize();
-  bool drop_false_closures();
-  [[nodiscard]] bool refines() const { return config.refine && config.close_loops; }
-  bool refine();
-  void refine_live(BackendUpdate& update);
-  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
-  [[nodiscard]] Pose2 T_map_newest() const;
-
-  BackendConfig config;
-  SensorModel sensor;
-  ScanStore scans;
-  KeyframeChain chain;
-  LoopDetector detector;
-  HeadingHold heading_hold;
-  KeyframeId heading_sought_at{};
-  PoseGraphOptimizer optimizer;
-  LiveRefinement live;
-
-  std::vector<Pose2> T_local_keyframe;
-  PoseGraph graph;
-  std::vector<Pose2> T_map_refined;             // of every scan, after finish(); empty before
-  std::vector<std::size_t> motion_constraint;   // of the step to keyframe i (i >= 1), by i - 1
-  std::vector<std::size_t> closure_constraint;  // of closure i
-  KeyframeId optimized_upto{};                  // later keyframes hang on by their motion
-  std::vector<KeyframeId> open_submaps;         // where the ones being travelled begin
-  std::vector<std::shared_ptr<const Submap>> submaps;
-  std::vector<LoopClosure> closures;
-  std::vector<Wall> walls;
-  std::uint32_t version = 0;
-  BackendCounters counters;
-};
 
 /// State copying (eq. 20): the frontend's window holds the latest word on its keyframes.
 void Backend::State::take_estimates(const Keyframe& made) {
@@ -103,7 +50,7 @@ void Backend::State::add_motion(const Keyframe& made) {
   step.to = made.id;
   step.T_from_to = between(T_local_keyframe[index_of(step.from)], T_local_keyframe[index_of(step.to)]);
   step.information = made.starts_segment && !made.odometry_ran_on
-                         ? kUnknownMotionInformation
+                         ? unknown_motion_information()
                          : residual_information(step.T_from_to, made.motion_covariance.matrix());
   motion_constraint.push_back(graph.constraints.size());
   graph.constraints.push_back(step);
@@ -136,7 +83,7 @@ void Backend::State::finish_submaps(KeyframeId newest) {
     open_submaps.push_back(newest);
   }
   while (here_m - chain.path_m(open_submaps.front()) >= config.submap_length_m) {
-    submaps.push_back(std::make_shared<const Submap>(build_submap(static_cast<SubmapId>(submaps.size()),
+    submaps.push_back(std::make_shared<const Submap>(build_submap(static_cast<SubmapId>(counters.submaps++),
                                                                   open_submaps.front(), newest, scans, chain,
                                                                   T_local_keyframe, config)));
     open_submaps.erase(open_submaps.begin());
@@ -180,7 +127,8 @@ std::uint32_t Backend::State::close_loops(KeyframeId newest) {
   if (!config.close_loops || static_cast<int>(index_of(newest)) % config.match_every_keyframes != 0) return 0;
   std::vector<LoopClosure> found =
       detector.find(newest, submaps, graph, T_local_keyframe, counters.candidates_matched);
-  for (const LoopClosure& closure : found) {
+  for (LoopClosure& closure : found) {
+    closure.number = static_cast<std::uint32_t>(counters.closures_accepted++);
     closure_constraint.push_back(graph.constraints.size());
     graph.constraints.push_back({closure.from, closure.to, closure.T_from_to,
                                  residual_information(closure.T_from_to, closure.covariance.matrix()), true});
@@ -189,10 +137,26 @@ std::uint32_t Backend::State::close_loops(KeyframeId newest) {
   return static_cast<std::uint32_t>(found.size());
 }
 
-bool Backend::State::optimize() {
+/// Whether what is new disagrees with the graph, or something that does not has waited long enough.
+bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId newest) {
+  news_waits |= turned || new_closures > 0;
+  if (!news_waits) return false;
+  if (index_of(newest) - index_of(optimized_upto) >= kMostKeyframesWaiting) return true;
+  if (turned) {
+    heading_hold.update(graph);
+    if (chi_square(graph.headings.back(), graph.T_map_keyframe) > kExpectedChiSquare) return true;
+  }
+  const auto first_new = closure_constraint.end() - static_cast<std::ptrdiff_t>(new_closures);
+  return std::any_of(first_new, closure_constraint.end(), [&](std::size_t at) {
+    return chi_square(graph.constraints[at], graph.T_map_keyframe) > kExpectedChiSquare;
+  });
+}
+
+bool Backend::State::optimize(double converged_step) {
   ++counters.optimizations;
+  news_waits = false;
   heading_hold.update(graph);
-  if (!optimizer.optimize(graph)) {
+  if (!optimizer.optimize(graph, converged_step)) {
     ++counters.solver_failures;
     return false;
   }
@@ -224,12 +188,11 @@ bool Backend::State::refine() {
   std::vector<Pose2> T_map_body;
   for (ScanIndex i = 0; i < scans.size(); ++i) T_map_body.push_back(chain.T_w_body(i, graph.T_map_keyframe));
   std::vector<PoseConstraint> believed;
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    if (closures[i].dropped) continue;
-    PoseConstraint c = graph.constraints[closure_constraint[i]];
+  for (PoseConstraint c : graph.constraints) {
+    if (!c.is_closure || c.information.isZero(0.0)) continue;
     c.information *= c.dcs_scale * c.dcs_scale;
-    c.from = static_cast<KeyframeId>(chain.scan_of(closures[i].from));
-    c.to = static_cast<KeyframeId>(chain.scan_of(closures[i].to));
+    c.from = static_cast<KeyframeId>(chain.scan_of(c.from));
+    c.to = static_cast<KeyframeId>(chain.scan_of(c.to));
     believed.push_back(c);
   }
   std::vector<HeadingConstraint> headings = graph.headings;
@@ -306,22 +269,23 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   State& s = *state_;
   const ScanIndex scan = s.scans.add(step);
   s.live.add_scan();
-  s.counters.scans = s.scans.size();
+  ++s.counters.scans;
   BackendUpdate update;
   if (!step.has_keyframe) return update;
+  Keyframe made = step.made;
+  made.id = s.scans[scan].keyframe;  // as numbered here
   s.chain.add(scan);
-  s.counters.keyframes = s.chain.size();
-  s.take_estimates(step.made);
-  s.add_motion(step.made);
+  s.frontend_ids.push_back(step.made.id);
+  ++s.counters.keyframes;
+  s.take_estimates(made);
+  s.add_motion(made);
   s.carry_new_poses();
-  s.take_walls(step.made);
-  if (step.made.starts_segment) s.open_submaps.clear();  // a submap is one stretch of known motion
-  s.finish_submaps(step.made.id);
-  s.counters.submaps = s.submaps.size();
-  const bool turned = s.hold_heading(step.made.id);
-  update.new_closures = s.close_loops(step.made.id);
-  s.counters.closures_accepted += update.new_closures;
-  update.poses_changed = (turned || update.new_closures > 0) && s.optimize();
+  s.take_walls(made);
+  if (made.starts_segment) s.open_submaps.clear();  // a submap is one stretch of known motion
+  s.finish_submaps(made.id);
+  const bool turned = s.hold_heading(made.id);
+  update.new_closures = s.close_loops(made.id);
+  update.poses_changed = s.is_due(turned, update.new_closures, made.id) && s.optimize(kLiveConvergedStep);
   s.refine_live(update);
   return update;
 }
@@ -340,12 +304,18 @@ BackendUpdate Backend::finish() {
 const ScanStore& Backend::scans() const { return state_->scans; }
 std::size_t Backend::keyframe_count() const { return state_->chain.size(); }
 Pose2 Backend::T_map_keyframe(KeyframeId id) const { return state_->T_map_body(state_->chain.scan_of(id)); }
+KeyframeId Backend::frontend_id(KeyframeId id) const { return state_->frontend_ids[index_of(id)]; }
+KeyframeId Backend::keyframe_of(KeyframeId frontend_id) const {
+  const std::vector<KeyframeId>& ids = state_->frontend_ids;
+  const auto at = std::lower_bound(ids.begin(), ids.end(), frontend_id);
+  SWIFTLET_CHECK(at != ids.end() && *at == frontend_id, "the keyframe was not retired");
+  return static_cast<KeyframeId>(at - ids.begin());
+}
 Pose2 Backend::T_map_body(ScanIndex scan) const { return state_->T_map_body(scan); }
 MapCorrection Backend::correction() const {
   const State& s = *state_;
   if (s.T_local_keyframe.empty()) return {};
-  const auto newest = static_cast<KeyframeId>(s.T_local_keyframe.size() - 1);
-  return {newest, s.T_map_newest() * s.T_local_keyframe.back().inverse(), s.version};
+  return {s.frontend_ids.back(), s.T_map_newest() * s.T_local_keyframe.back().inverse(), s.version};
 }
 const std::vector<LoopClosure>& Backend::closures() const { return state_->closures; }
 const std::vector<Wall>& Backend::walls() const { return state_->walls; }

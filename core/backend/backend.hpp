@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/backend/backend_config.hpp"
+#include "core/backend/retirement.hpp"
 #include "core/backend/scan_store.hpp"
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/sensor_model.hpp"
@@ -17,14 +18,15 @@ namespace swiftlet {
 /// Carries the frontend's continuous frame into the map: T_map_body = T_map_local * T_local_body. Plain
 /// struct: crosses threads through a LatestValue.
 struct MapCorrection {
-  KeyframeId keyframe{};  ///< the keyframe it was computed at
+  KeyframeId keyframe{};  ///< the keyframe it was computed at, by its frontend id
   Pose2 T_map_local;
   std::uint32_t version = 0;  ///< counts up whenever keyframes moved that were there before
 };
 
 struct LoopClosure {
-  KeyframeId from{};  ///< the submap's reference keyframe
-  KeyframeId to{};    ///< the keyframe that was matched
+  std::uint32_t number = 0;  ///< counts all of the run
+  KeyframeId from{};         ///< the submap's reference keyframe
+  KeyframeId to{};           ///< the keyframe that was matched
   Pose2 T_from_to;
   Covariance3 covariance;  ///< of T_from_to, in the frame of `from`
   double score = 0.0;      ///< mean probability under the matched points
@@ -42,6 +44,7 @@ struct Wall {
 
 struct BackendCounters {
   std::uint64_t scans = 0;
+  std::uint64_t scans_retired = 0;  ///< of those, forgotten
   std::uint64_t keyframes = 0;
   std::uint64_t submaps = 0;
   std::uint64_t candidates_matched = 0;  ///< submaps searched
@@ -65,6 +68,10 @@ struct BackendUpdate {
 
 /// Submaps, loop closing and the pose graph (Algorithm 3 of the IROS 2022 paper). The sequence of steps alone
 /// decides the result. One thread at a time; may allocate; no clock, no I/O.
+///
+/// Whoever wants memory and time per step to stay bounded in known space asks for the next retirement after
+/// each step, takes what it still needs of those scans, and has them retired. Keyframes and scans are
+/// numbered from 0 without gaps: what is retired gives way, and later ones move up.
 class Backend {
  public:
   /// Precondition: config.validate() is empty.
@@ -75,6 +82,11 @@ class Backend {
 
   /// Takes one frontend step; at keyframes looks for loops, optimises and refines one window.
   BackendUpdate add(const FrontendStep& step);
+  /// What is to be forgotten now; mostly empty, and always until there are config.max_scans scans. After
+  /// finish() never asked for.
+  [[nodiscard]] Retirement next_retirement();
+  /// Forgets it. Precondition: nothing was added since it was asked for.
+  void retire(const Retirement& retirement);
   /// The final pass: last optimisation, false closures dropped, every scan's pose refined. Nothing may be
   /// added afterwards.
   BackendUpdate finish();
@@ -82,6 +94,10 @@ class Backend {
   [[nodiscard]] const ScanStore& scans() const;
   [[nodiscard]] std::size_t keyframe_count() const;
   [[nodiscard]] Pose2 T_map_keyframe(KeyframeId id) const;
+  /// The frontend's id of a keyframe, which stays the same through retirements.
+  [[nodiscard]] KeyframeId frontend_id(KeyframeId id) const;
+  /// The other way. Precondition: it was not retired.
+  [[nodiscard]] KeyframeId keyframe_of(KeyframeId frontend_id) const;
   /// Corrected pose of any scan: between two keyframes the graph's correction is spread evenly, what
   /// refinement found for the scan comes on top; after finish() the scan's own.
   [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;

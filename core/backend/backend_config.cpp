@@ -30,6 +30,7 @@ std::vector<std::string> BackendConfig::validate() const {
   require(drop_scale >= 0.0 && drop_scale < 1.0, "backend.drop_scale must lie in 0..1");
   require(optimizer_iterations >= 1, "backend.optimizer_iterations must be at least 1");
   require(refinement_iterations >= 1, "backend.refinement_iterations must be at least 1");
+  require(max_scans >= 1000, "backend.max_scans must be at least 1000");
   return problems;
 }
 

@@ -39,6 +39,10 @@ struct BackendConfig {
   bool refine = true;  ///< false: poses between keyframes stay interpolated, while flying and at the end
   int refinement_iterations = 25;  ///< rounds of walls and poses at most, at the end
 
+  // Known space
+  int max_scans =
+      20000;  ///< with more than these, what others know as well is forgotten: 33 minutes at 10 Hz
+
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;
 };

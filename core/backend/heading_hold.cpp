@@ -47,6 +47,17 @@ void HeadingHold::add(KeyframeId keyframe, const WallAxis& axis, double yaw_vari
   graph.headings.push_back({.keyframe = keyframe, .information = 1.0 / variance_rad2});
 }
 
+void HeadingHold::remove(const IndexRemoval& keyframes, PoseGraph& graph) {
+  IndexRemoval gone;
+  for (std::uint32_t i = 0; i < graph.headings.size(); ++i) {
+    KeyframeId& keyframe = graph.headings[i].keyframe;
+    if (keyframes.removes(index_of(keyframe))) gone.add({i, i + 1});
+    keyframe = static_cast<KeyframeId>(keyframes.new_index(index_of(keyframe)));
+  }
+  gone.apply(graph.headings);
+  gone.apply(axes_);
+}
+
 void HeadingHold::update(PoseGraph& graph) const {
   const double building_rad = building_axis_rad(graph);
   for (std::size_t i = 0; i < axes_.size(); ++i) {

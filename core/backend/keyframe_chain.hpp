@@ -18,6 +18,11 @@ class KeyframeChain {
 
   /// The next keyframe (ids are consecutive) was made by this scan.
   void add(ScanIndex scan) { scan_of_keyframe_.push_back(scan); }
+  /// Follows the scan store, from which the same were removed.
+  void remove(const IndexRemoval& scans, const IndexRemoval& keyframes) {
+    keyframes.apply(scan_of_keyframe_);
+    for (ScanIndex& scan : scan_of_keyframe_) scan = scans.new_index(scan);
+  }
   [[nodiscard]] std::size_t size() const { return scan_of_keyframe_.size(); }
   [[nodiscard]] ScanIndex scan_of(KeyframeId id) const { return scan_of_keyframe_[index_of(id)]; }
   /// Travelled from the start of the run to the keyframe.

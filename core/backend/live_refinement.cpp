@@ -35,6 +35,17 @@ void LiveRefinement::queue_around(KeyframeId place) {
   waiting_.push_back(pass);
 }
 
+void LiveRefinement::remove(const IndexRemoval& scans, const IndexRemoval& keyframes) {
+  IndexRemoval passes;
+  for (const IndexRange& hole : keyframes.ranges())
+    passes.add({hole.first / kKeyframesPerPass, hole.end / kKeyframesPerPass});
+  scans.apply(T_graph_refined_);
+  passes_.remove(passes, scans);
+  std::erase_if(waiting_, [&](std::uint32_t pass) { return passes.removes(pass); });
+  for (std::uint32_t& pass : waiting_) pass = passes.new_index(pass);
+  swept_ = scans.new_index(swept_);
+}
+
 void LiveRefinement::follow(std::span<const Pose2> T_map_keyframe) {
   for (std::uint32_t pass = 0; pass < passes_.size(); ++pass)
     passes_.move(pass, T_map_body(passes_[pass].reference, T_map_keyframe));

@@ -30,6 +30,8 @@ class LiveRefinement {
   /// A loop has closed there: scans around it are refined in due course. With the most places waiting, the
   /// one that waits longest is given up.
   void queue_around(KeyframeId place);
+  /// Follows the store and the chain, from which the same whole passes were removed.
+  void remove(const IndexRemoval& scans, const IndexRemoval& keyframes);
   /// The graph was optimised.
   void follow(std::span<const Pose2> T_map_keyframe);
   /// After each keyframe: refines the newest scans or, every other time, elsewhere: around a place that

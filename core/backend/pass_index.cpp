@@ -41,6 +41,16 @@ void PassIndex::set(std::uint32_t pass, PassWalls walls, const Pose2& T_map_refe
   file(pass, T_map_reference);
 }
 
+void PassIndex::remove(const IndexRemoval& passes, const IndexRemoval& scans) {
+  passes.apply(passes_);
+  tiles_.clear();
+  for (std::uint32_t pass = 0; pass < passes_.size(); ++pass) {
+    Filed& filed = passes_[pass];
+    filed.walls.reference = scans.new_index(filed.walls.reference);
+    for (const Tile& tile : filed.tiles) tiles_[tile].push_back(pass);
+  }
+}
+
 void PassIndex::move(std::uint32_t pass, const Pose2& T_map_reference) {
   const Filed& filed = passes_[pass];
   const Pose2 moved = between(filed.T_map_reference, T_map_reference);

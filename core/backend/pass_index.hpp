@@ -31,6 +31,8 @@ class PassIndex {
   /// Files a pass, or files it anew. Passes are numbered from 0 without gaps. More than the most points: some
   /// are left out, evenly.
   void set(std::uint32_t pass, PassWalls walls, const Pose2& T_map_reference);
+  /// Forgets passes; their scans were removed too.
+  void remove(const IndexRemoval& passes, const IndexRemoval& scans);
   /// The pass is now there; nothing to do unless it left its tiles.
   void move(std::uint32_t pass, const Pose2& T_map_reference);
 

@@ -42,6 +42,11 @@ struct PoseResidual {
 };
 PoseResidual pose_residual(const Pose2& T_from_to, const Pose2& T_map_from, const Pose2& T_map_to);
 
+/// How far the poses are from what is measured, in units of the measurement's noise.
+[[nodiscard]] double chi_square(const PoseConstraint& constraint, const std::vector<Pose2>& T_map_keyframe);
+[[nodiscard]] double chi_square(const HeadingConstraint& constraint,
+                                const std::vector<Pose2>& T_map_keyframe);
+
 /// The covariance of a composition's vector (x, y, yaw of T_from_to, in the frame of `from`), as the
 /// information of eq. 24's error, which is expressed in the frame of `to`.
 Eigen::Matrix3d residual_information(const Pose2& T_from_to, const Eigen::Matrix3d& covariance);

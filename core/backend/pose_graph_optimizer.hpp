@@ -16,11 +16,14 @@ struct OptimizeReport {
 /// Minimises eq. 23 by Gauss-Newton with DCS on closures and headings. Allocates. One thread at a time.
 class PoseGraphOptimizer {
  public:
+  static constexpr double kConvergedStep = 1e-5;
+
   PoseGraphOptimizer(double dcs_phi, int max_iterations)
       : dcs_phi_(dcs_phi), max_iterations_(max_iterations) {}
 
-  /// Moves the poses and writes each closure's and heading's dcs_scale. On kSolver the graph is as it was.
-  Result<OptimizeReport> optimize(PoseGraph& graph);
+  /// Moves the poses and writes each closure's and heading's dcs_scale, until no step is larger than
+  /// `converged_step` (metres or radians, largest component). On kSolver the graph is as it was.
+  Result<OptimizeReport> optimize(PoseGraph& graph, double converged_step = kConvergedStep);
 
  private:
   [[nodiscard]] double scale(const PoseConstraint& constraint, double chi_square) const;

@@ -40,6 +40,8 @@ struct MapBuilder::State {
   std::size_t follow(const Backend& backend, std::size_t k);
   void sweep(const Backend& backend);
   void draw(const Backend& backend, ScanIndex scan);
+  using Beams = FixedVector<BeamEnd, kMaxBeams>;
+  [[nodiscard]] Beams beams_of(const Backend& backend, ScanIndex scan) const;
 
   MapConfig config;
   float max_range_m;
@@ -111,16 +113,21 @@ void MapBuilder::State::sweep(const Backend& backend) {
   }
 }
 
-void MapBuilder::State::draw(const Backend& backend, ScanIndex scan) {
-  const Pose2 T_map_body = backend.T_map_body(scan);
-  if (!drawing.needs_drawing(scan, T_map_body)) return;
+MapBuilder::State::Beams MapBuilder::State::beams_of(const Backend& backend, ScanIndex scan) const {
   const ScanStore& scans = backend.scans();
-  FixedVector<BeamEnd, kMaxBeams> beams;
+  Beams beams;
   for (ScanReturn r : scans.returns(scan)) {
     if (!r.is_hit) r.distance_m = max_range_m;
     const bool fits = beams.try_push_back({scans.point_body(r), r.is_hit});
     SWIFTLET_CHECK(fits, "a scan has at most kMaxBeams returns");
   }
+  return beams;
+}
+
+void MapBuilder::State::draw(const Backend& backend, ScanIndex scan) {
+  const Pose2 T_map_body = backend.T_map_body(scan);
+  if (!drawing.needs_drawing(scan, T_map_body)) return;
+  const Beams beams = beams_of(backend, scan);
   drawing.draw(scan, T_map_body, std::span<const BeamEnd>(beams.data(), beams.size()));
 }
 
@@ -152,6 +159,23 @@ std::vector<TileIndex> MapBuilder::settle(const Backend& backend) {
   state_->take_new_scans(backend);
   for (ScanIndex scan = 0; scan < backend.scans().size(); ++scan) state_->draw(backend, scan);
   return state_->drawing.store().publish();
+}
+
+void MapBuilder::retire(const Backend& backend, const Retirement& retirement) {
+  State& s = *state_;
+  s.take_new_scans(backend);
+  for (const ScanRange& scans : retirement.scans.ranges()) {
+    for (ScanIndex scan = scans.first; scan < scans.end; ++scan) {
+      const State::Beams beams = s.beams_of(backend, scan);
+      s.drawing.rub_out(scan, std::span<const BeamEnd>(beams.data(), beams.size()));
+    }
+  }
+  s.drawing.remove(retirement.scans);
+  retirement.keyframes.apply(s.stretches);
+  for (State::Stretch& stretch : s.stretches) stretch.first = retirement.scans.new_index(stretch.first);
+  s.scans_seen -= retirement.scans.size();
+  s.keyframes_seen -= retirement.keyframes.size();
+  s.left_to_sweep = std::min(s.left_to_sweep, s.stretches.size());
 }
 
 MapTile MapBuilder::tile(TileIndex index) const { return state_->drawing.store().tile(index); }

@@ -35,11 +35,17 @@ bool ScanDrawing::needs_drawing(std::size_t scan, const Pose2& T_map_body) const
 
 void ScanDrawing::draw(std::size_t scan, const Pose2& T_map_body, std::span<const BeamEnd> beams) {
   if (!needs_drawing(scan, T_map_body)) return;
+  rub_out(scan, beams);
+  std::optional<LatticePose>& drawn = drawn_[scan];
+  drawn = rounded(T_map_body);
+  if (drawn) apply(*drawn, beams, TileStore::Change::kCount);
+}
+
+void ScanDrawing::rub_out(std::size_t scan, std::span<const BeamEnd> beams) {
   if (scan >= drawn_.size()) drawn_.resize(scan + 1);
   std::optional<LatticePose>& drawn = drawn_[scan];
   if (drawn) apply(*drawn, beams, TileStore::Change::kTakeBack);
-  drawn = rounded(T_map_body);
-  if (drawn) apply(*drawn, beams, TileStore::Change::kCount);
+  drawn.reset();
 }
 
 void ScanDrawing::apply(const LatticePose& pose, std::span<const BeamEnd> beams, TileStore::Change change) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/index_removal.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/mapping/map_config.hpp"
 #include "core/mapping/tile_store.hpp"
@@ -38,6 +39,11 @@ class ScanDrawing {
   /// Draws `scan` here; where it was drawn elsewhere before, it is rubbed out there first. `beams` must be
   /// the same at every call for one scan. A pose that is not finite, or over 100 km away, draws nothing.
   void draw(std::size_t scan, const Pose2& T_map_body, std::span<const BeamEnd> beams);
+
+  /// Rubs a scan out.
+  void rub_out(std::size_t scan, std::span<const BeamEnd> beams);
+  /// Forgets scans, which were rubbed out.
+  void remove(const IndexRemoval& scans) { scans.apply(drawn_); }
 
   [[nodiscard]] TileStore& store() { return store_; }
   [[nodiscard]] const TileStore& store() const { return store_; }

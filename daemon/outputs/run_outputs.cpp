@@ -16,12 +16,6 @@ namespace swiftlet {
 
 namespace {
 
-std::string trajectory_text(const ScanStore& scans, const std::function<Pose2(ScanIndex)>& pose_of) {
-  std::string text;
-  for (ScanIndex i = 0; i < scans.size(); ++i) append_tum_line(text, scans[i].stamp, pose_of(i));
-  return text;
-}
-
 Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map) {
   std::vector<MapTile> tiles;
   for (const TileIndex index : map.tiles()) tiles.push_back(map.tile(index));
@@ -38,13 +32,17 @@ Status write_picture(const std::filesystem::path& directory, const RunView& run)
 }
 
 Status write_trajectories(const std::filesystem::path& directory, const RunView& run) {
-  const ScanStore& scans = run.backend.scans();
-  const std::string corrected =
-      trajectory_text(scans, [&](ScanIndex i) { return run.backend.T_map_body(i); });
+  std::string corrected;
+  std::string odometry;
+  std::string live;
+  const Status visited = for_each_scan(run.backend, run.retired, [&](const TrajectoryPoint& at) {
+    append_tum_line(corrected, at.stamp, at.T_map_body);
+    append_tum_line(odometry, at.stamp, at.T_odom_body);
+    append_tum_line(live, at.stamp, at.T_map_live);
+  });
+  if (!visited) return visited;
   if (Status written = write_file(directory / "trajectory.tum", corrected); !written) return written;
-  const std::string odometry = trajectory_text(scans, [&](ScanIndex i) { return scans[i].T_odom_body; });
   if (Status written = write_file(directory / "odometry.tum", odometry); !written) return written;
-  const std::string live = trajectory_text(scans, [&](ScanIndex i) { return scans[i].T_map_live; });
   if (Status written = write_file(directory / "live.tum", live); !written) return written;
   if (run.truth.empty()) return {};
   std::string truth;
@@ -54,23 +52,21 @@ Status write_trajectories(const std::filesystem::path& directory, const RunView&
 
 }  // namespace
 
-std::optional<RunError> run_error(const Backend& backend, const std::vector<StampedPose>& truth) {
-  const ScanStore& scans = backend.scans();
+std::optional<RunError> run_error(const RunView& run) {
   std::vector<Point2> odometry;
   std::vector<Point2> live;
   std::vector<Point2> corrected;
   std::vector<Point2> known;
-  auto at = truth.begin();
-  for (ScanIndex i = 0; i < scans.size(); ++i) {
-    while (at != truth.end() && at->stamp < scans[i].stamp) ++at;
-    if (at == truth.end()) break;
-    if (at->stamp != scans[i].stamp) continue;
-    odometry.push_back(scans[i].T_odom_body.position());
-    live.push_back(scans[i].T_map_live.position());
-    corrected.push_back(backend.T_map_body(i).position());
-    known.push_back(at->pose.position());
-  }
-  if (known.empty()) return std::nullopt;
+  auto truth = run.truth.begin();
+  const Status visited = for_each_scan(run.backend, run.retired, [&](const TrajectoryPoint& at) {
+    while (truth != run.truth.end() && truth->stamp < at.stamp) ++truth;
+    if (truth == run.truth.end() || truth->stamp != at.stamp) return;
+    odometry.push_back(at.T_odom_body.position());
+    live.push_back(at.T_map_live.position());
+    corrected.push_back(at.T_map_body.position());
+    known.push_back(truth->pose.position());
+  });
+  if (!visited || known.empty()) return std::nullopt;
   return RunError{trajectory_error(odometry, known), trajectory_error(live, known),
                   trajectory_error(corrected, known)};
 }

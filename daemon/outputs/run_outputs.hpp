@@ -12,6 +12,7 @@
 #include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
+#include "daemon/outputs/retired_scans.hpp"
 #include "daemon/stage_times.hpp"
 #include "firmware_link/sample_source.hpp"
 
@@ -26,7 +27,8 @@ struct RunView {
   std::vector<StageSummary> times;
   std::vector<StampedPose> truth;  ///< T_world_body in order of time; empty where nobody knows it
   std::string input_uri;
-  SensorModel sensor;           ///< as used: with the configuration's overrides
+  SensorModel sensor;                     ///< as used: with the configuration's overrides
+  const RetiredScans* retired = nullptr;  ///< where the backend may have retired scans
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 
@@ -38,8 +40,7 @@ struct RunError {
   TrajectoryError corrected;
 };
 /// nullopt when the truth knows none of the scans.
-[[nodiscard]] std::optional<RunError> run_error(const Backend& backend,
-                                                const std::vector<StampedPose>& truth);
+[[nodiscard]] std::optional<RunError> run_error(const RunView& run);
 
 /// Writes map.png, map.pgm, map.yaml, trajectory.tum, odometry.tum, live.tum, report.json and, where the
 /// truth is known, ground_truth.tum into the directory, which is created where missing. Each file is complete

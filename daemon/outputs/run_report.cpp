@@ -60,6 +60,7 @@ Json frontend_json(const FrontendCounters& frontend) {
 Json backend_json(const Backend& backend) {
   const BackendCounters& counters = backend.counters();
   return {{"scans", counters.scans},
+          {"scans_retired", counters.scans_retired},
           {"keyframes", counters.keyframes},
           {"submaps", counters.submaps},
           {"walls", backend.walls().size()},
@@ -118,7 +119,7 @@ std::string run_report_json(const RunView& run) {
             {"backend", backend_json(run.backend)},
             {"trajectory", trajectory_json(run.backend)},
             {"map", map_json(run.map)}};
-  if (const auto error = run_error(run.backend, run.truth))
+  if (const auto error = run_error(run))
     json["absolute_trajectory_error"] = {{"samples", error->corrected.pairs},
                                          {"odometry", error_json(error->odometry)},
                                          {"live", error_json(error->live)},

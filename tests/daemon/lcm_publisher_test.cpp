@@ -140,8 +140,8 @@ TEST_F(LcmPublisherTest, NoWallsAreSaidToo) {
 
 TEST_F(LcmPublisherTest, AClosureCarriesItsUncertaintyAndItsEnds) {
   publish([](LcmPublisher& publisher) {
-    publisher.publish_closure(kNow, {.index = 2,
-                                     .closure = {.from = KeyframeId{10},
+    publisher.publish_closure(kNow, {.closure = {.number = 2,
+                                                 .from = KeyframeId{10},
                                                  .to = KeyframeId{90},
                                                  .T_from_to = Pose2(0.5, -0.25, 0.1),
                                                  .covariance = {.xx = 0.04, .yy = 0.09, .yaw_yaw = 0.0001},

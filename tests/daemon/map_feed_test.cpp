@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
+#include <set>
 
 #include "core/frontend/frontend.hpp"
+#include "tests/support/forgetful_run.hpp"
 #include "tests/support/scripted_sample_source.hpp"
 
 namespace swiftlet {
@@ -93,6 +96,38 @@ TEST(MapFeed, SendsEachWallAtItsPlaceInTheMapAndAgainOnlyWhenItMoved) {
   bench.feed.note_changes({});
   bench.feed.flush(bench.backend, bench.map);
   EXPECT_TRUE(bench.take_walls().empty());
+}
+
+TEST(MapFeed, TakesBackTheWallsThatGoWithWhatIsRetiredAndSendsNoClosureTwice) {
+  ForgetfulRun run;
+  const MapBuilder map(MapConfig{}, run.sensor);
+  const auto queues = std::make_unique<PublisherQueues>();
+  MapFeed feed(queues->backend_outlet());
+  std::map<LandmarkId, WallInMap> known;
+  std::set<std::uint32_t> closures;
+  std::size_t gone = 0;
+  const auto receive = [&] {
+    feed.note_changes({});
+    feed.flush(run.backend, map);
+    WallInMap wall;
+    while (queues->walls.consumer().try_pop(wall)) {
+      gone += wall.is_gone ? 1U : 0U;
+      if (wall.is_gone) {
+        EXPECT_EQ(known.erase(wall.id), 1U);
+      } else {
+        known[wall.id] = wall;
+      }
+    }
+    ClosureUpdate closure;
+    while (queues->closures.consumer().try_pop(closure))
+      EXPECT_TRUE(closures.insert(closure.closure.number).second) << closure.closure.number;
+  };
+  run.fly([&](const Retirement& retirement) { feed.retire(run.backend, retirement); },
+          [&](const BackendUpdate&) { receive(); });
+  receive();
+  EXPECT_GT(gone, 0U);
+  EXPECT_EQ(known.size(), run.backend.walls().size());
+  EXPECT_EQ(closures.size(), run.backend.counters().closures_accepted);
 }
 
 TEST(MapFeed, HandsOverTheCountersWithEachFlush) {

@@ -99,6 +99,17 @@ TEST(PublisherWorker, SaysHowItIsGoingOnceAPeriodWithMapAndWalls) {
   EXPECT_EQ(status.stages[0].count, 3U);
 }
 
+TEST(PublisherWorker, ForgetsAWallThatIsGone) {
+  Bench bench;
+  auto walls = bench.queues->to_publisher.walls.producer();
+  ASSERT_TRUE(walls.try_push({.id = LandmarkId{1}}));
+  ASSERT_TRUE(walls.try_push({.id = LandmarkId{2}}));
+  ASSERT_TRUE(walls.try_push({.id = LandmarkId{1}, .is_gone = true}));
+  bench.ticks(1);
+  ASSERT_EQ(bench.published.walls.size(), 1U);
+  EXPECT_EQ(bench.published.walls[0].id, LandmarkId{2});
+}
+
 TEST(PublisherWorker, MakesRatesOfTheLinksCounts) {
   Bench bench;
   InputStatus input;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/core/mapping/room_flight.hpp"
+#include "tests/support/forgetful_run.hpp"
 
 namespace swiftlet {
 namespace {
@@ -155,6 +156,20 @@ TEST(MapBuilder, ReportsExactlyTheTilesWhoseContentChanged) {
       EXPECT_EQ(same, tile.version == map.tile(tile.index).version);
     }
   }
+}
+
+TEST(MapBuilder, RubsOutWhatIsRetired) {
+  ForgetfulRun run;
+  MapBuilder followed(MapConfig{}, run.sensor);
+  run.fly([&](const Retirement& retirement) { followed.retire(run.backend, retirement); },
+          [&](const BackendUpdate& update) {
+            followed.update(run.backend, update.poses_changed, update.refined);
+          });
+  ASSERT_GT(run.retired_scans, 1000U);
+  followed.settle(run.backend);
+  MapBuilder drawn_at_once(MapConfig{}, run.sensor);
+  drawn_at_once.settle(run.backend);
+  expect_same_map(followed, drawn_at_once);
 }
 
 TEST(MapBuilder, HoldsNothingBeforeTheFirstScan) {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/backend/backend.hpp"
+#include "core/backend/heading_hold.hpp"
+#include "core/backend/keyframe_chain.hpp"
+#include "core/backend/live_refinement.hpp"
+#include "core/backend/loop_detector.hpp"
+#include "core/backend/pose_graph.hpp"
+#include "core/backend/pose_graph_optimizer.hpp"
+#include "core/backend/submap.hpp"
+
+// What only the backend's own files may know.
+namespace swiftlet {
+
+/// Of a motion that nobody measured.
+[[nodiscard]] inline Eigen::Matrix3d unknown_motion_information() {
+  return Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal();
+}
+
+struct Backend::State {
+  State(const BackendConfig& backend_config, const SensorModel& sensor_model, const BeamLayout& beams)
+      : config(backend_config),
+        sensor(sensor_model),
+        scans(beams),
+        chain(scans),
+        detector(config, scans, chain),
+        optimizer(config.dcs_phi, config.optimizer_iterations),
+        live(scans, chain, sensor),
+        retires_at(static_cast<std::size_t>(config.max_scans)) {}
+
+  void take_estimates(const Keyframe& made);
+  void add_motion(const Keyframe& made);
+  void carry_new_poses();
+  void take_walls(const Keyframe& made);
+  void finish_submaps(KeyframeId newest);
+  bool hold_heading(KeyframeId newest);
+  [[nodiscard]] double yaw_variance_rad2(KeyframeId from, KeyframeId to) const;
+  std::uint32_t close_loops(KeyframeId newest);
+  [[nodiscard]] bool is_due(bool turned, std::uint32_t new_closures, KeyframeId newest);
+  bool optimize(double converged_step = PoseGraphOptimizer::kConvergedStep);
+  bool drop_false_closures();
+  [[nodiscard]] bool refines() const { return config.refine && config.close_loops; }
+  bool refine();
+  void refine_live(BackendUpdate& update);
+  [[nodiscard]] KeyframeId first_recent() const;
+  [[nodiscard]] std::vector<PoseConstraint> ties_around(const Retirement& retirement) const;
+  void remove_constraints(const IndexRemoval& keyframes);
+  void remove_motions(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
+  void remove_closures(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
+  void remove_submaps(const IndexRemoval& keyframes);
+  void remove_walls(const IndexRemoval& keyframes);
+  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
+  [[nodiscard]] Pose2 T_map_newest() const;
+
+  BackendConfig config;
+  SensorModel sensor;
+  ScanStore scans;
+  KeyframeChain chain;
+  LoopDetector detector;
+  HeadingHold heading_hold;
+  KeyframeId heading_sought_at{};
+  PoseGraphOptimizer optimizer;
+  LiveRefinement live;
+
+  std::vector<KeyframeId> frontend_ids;
+  std::vector<KeyframeId> anchors;  // of what was retired: they stay
+  std::vector<Pose2> T_local_keyframe;
+  PoseGraph graph;
+  std::vector<Pose2> T_map_refined;             // of every scan, after finish(); empty before
+  std::vector<std::size_t> motion_constraint;   // of the step to keyframe i (i >= 1), by i - 1
+  std::vector<std::size_t> closure_constraint;  // of closure i
+  bool news_waits = false;
+  KeyframeId optimized_upto{};           // later keyframes hang on by their motion
+  std::vector<KeyframeId> open_submaps;  // where the ones being travelled begin
+  std::vector<std::shared_ptr<const Submap>> submaps;
+  std::vector<LoopClosure> closures;
+  std::vector<Wall> walls;
+  std::uint32_t version = 0;
+  std::size_t retires_at = 0;  // that many scans
+  BackendCounters counters;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/retirement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/backend/wall_factor.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kTileM = 2.0;
+constexpr std::size_t kReturnsPerPass = 64;  // tell where a pass was
+constexpr double kShareOfReturns = 0.9;      // decides: the rest are glances through doors
+constexpr std::size_t kOldestKept = 3;       // passes in each tile, and ...
+constexpr std::size_t kNewestKept = 3;       // ... as many again
+constexpr std::size_t kShortestRun = 4;      // passes: every hole needs ties on both sides
+
+using Tile = std::pair<std::int32_t, std::int32_t>;
+
+struct SeenTile {
+  std::size_t number = 0;
+  double share = 0.0;  // of the pass's returns
+};
+
+struct Pass {
+  IndexRange keyframes;
+  IndexRange scans;
+  Point2 middle_map;
+  double path_m = 0.0;
+  std::vector<SeenTile> tiles;
+  bool stays_for_good = false;  // one of the oldest where it was
+  bool is_redundant = false;    // neither that nor one of the newest
+};
+
+/// Which passes saw which tiles.
+class Coverage {
+ public:
+  Coverage(const ScanStore& scans, const KeyframeChain& chain, std::span<const Pose2> T_map_keyframe,
+           std::span<const KeyframeId> anchors)
+      : scans_(scans), chain_(chain), T_map_keyframe_(T_map_keyframe) {
+    const auto count = static_cast<std::uint32_t>(chain.size() / kKeyframesPerPass);
+    for (std::uint32_t p = 0; p < count; ++p) passes_.push_back(make_pass(p));
+    judge();
+    if (!passes_.empty()) keep(0);  // it holds the map's frame
+    for (const KeyframeId anchor : anchors) keep(index_of(anchor) / kKeyframesPerPass);
+  }
+
+  [[nodiscard]] const std::vector<Pass>& passes() const { return passes_; }
+  [[nodiscard]] std::optional<KeyframeId> anchor_of(const Pass& pass, double other_time_m) const;
+
+ private:
+  [[nodiscard]] Pass make_pass(std::uint32_t number);
+  void judge();
+  void keep(std::uint32_t pass) {
+    passes_[pass].stays_for_good = true;
+    passes_[pass].is_redundant = false;
+  }
+
+  const ScanStore& scans_;
+  const KeyframeChain& chain_;
+  std::span<const Pose2> T_map_keyframe_;
+  std::vector<Pass> passes_;
+  std::map<Tile, std::size_t> number_of_;
+  std::vector<std::size_t> passes_in_;  // of each tile
+};
+
+Pass Coverage::make_pass(std::uint32_t number) {
+  Pass pass;
+  pass.keyframes = {number * kKeyframesPerPass, (number + 1) * kKeyframesPerPass};
+  const auto scan_at = [&](std::uint32_t k) { return chain_.scan_of(static_cast<KeyframeId>(k)); };
+  const bool is_last = pass.keyframes.end >= chain_.size();
+  pass.scans = {scan_at(pass.keyframes.first),
+                is_last ? static_cast<ScanIndex>(scans_.size()) : scan_at(pass.keyframes.end)};
+  const auto middle = static_cast<KeyframeId>(pass.keyframes.first + kKeyframesPerPass / 2);
+  pass.middle_map = T_map_keyframe_[index_of(middle)].position();
+  pass.path_m = chain_.path_m(middle);
+  std::map<Tile, std::size_t> returns_in;
+  const std::size_t every = 1 + scans_.return_count(pass.scans) / kReturnsPerPass;
+  std::size_t number_of_return = 0;
+  for (ScanIndex i = pass.scans.first; i < pass.scans.end; ++i) {
+    const Pose2 T_map_body = chain_.T_w_body(i, T_map_keyframe_);
+    for (const ScanReturn& beam : scans_.returns(i)) {
+      if (number_of_return++ % every != 0 || !beam.is_hit) continue;
+      const Point2 p = T_map_body * scans_.point_body(beam);
+      ++returns_in[{static_cast<std::int32_t>(std::floor(p.x_m / kTileM)),
+                    static_cast<std::int32_t>(std::floor(p.y_m / kTileM))}];
+    }
+  }
+  std::size_t all = 0;
+  for (const auto& [tile, count] : returns_in) all += count;
+  for (const auto& [tile, count] : returns_in) {
+    const std::size_t at = number_of_.emplace(tile, number_of_.size()).first->second;
+    pass.tiles.push_back({at, static_cast<double>(count) / static_cast<double>(all)});
+  }
+  passes_in_.resize(number_of_.size());
+  for (const SeenTile& tile : pass.tiles) ++passes_in_[tile.number];
+  return pass;
+}
+
+void Coverage::judge() {
+  std::vector<std::size_t> before(passes_in_.size(), 0);  // the present pass, in each tile
+  for (Pass& pass : passes_) {
+    double old = 0.0;  // share of its returns where enough passes were before it
+    double new_and_old = 0.0;
+    for (const SeenTile& tile : pass.tiles) {
+      const std::size_t after = passes_in_[tile.number] - before[tile.number] - 1;
+      const bool has_older = before[tile.number] >= kOldestKept;
+      old += has_older ? tile.share : 0.0;
+      new_and_old += has_older && after >= kNewestKept ? tile.share : 0.0;
+      ++before[tile.number];
+    }
+    pass.stays_for_good = old < kShareOfReturns;
+    pass.is_redundant = new_and_old >= kShareOfReturns;
+  }
+}
+
+std::optional<KeyframeId> Coverage::anchor_of(const Pass& pass, double other_time_m) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  std::optional<KeyframeId> anchor;
+  for (const Pass& other : passes_) {
+    if (!other.stays_for_good || std::abs(other.path_m - pass.path_m) < other_time_m) continue;
+    const double distance_m =
+        std::hypot(other.middle_map.x_m - pass.middle_map.x_m, other.middle_map.y_m - pass.middle_map.y_m);
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    anchor = static_cast<KeyframeId>(other.keyframes.first + kKeyframesPerPass / 2);
+  }
+  return anchor;
+}
+
+}  // namespace
+
+Retirement plan_retirement(const ScanStore& scans, const KeyframeChain& chain,
+                           std::span<const Pose2> T_map_keyframe, std::span<const KeyframeId> anchors,
+                           KeyframeId first_recent, double other_time_m, std::size_t scans_wanted) {
+  const Coverage coverage(scans, chain, T_map_keyframe, anchors);
+  const std::vector<Pass>& passes = coverage.passes();
+  std::vector<std::optional<KeyframeId>> anchor_of(passes.size());  // of those that can go
+  for (std::size_t p = 0; p < passes.size(); ++p)
+    if (passes[p].is_redundant && passes[p].keyframes.end <= index_of(first_recent))
+      anchor_of[p] = coverage.anchor_of(passes[p], other_time_m);
+  Retirement retirement;
+  for (std::size_t p = 0; p < passes.size() && retirement.scans.size() < scans_wanted;) {
+    std::size_t end = p;
+    while (end < passes.size() && anchor_of[end]) ++end;
+    const bool widens_a_hole = end > p && (scans[passes[p].scans.first].starts_segment ||
+                                           scans[passes[end - 1].scans.end].starts_segment);
+    if (end - p >= kShortestRun || widens_a_hole) {
+      for (std::size_t k = p; k < end && retirement.scans.size() < scans_wanted; ++k) {
+        retirement.passes.push_back({passes[k].keyframes, passes[k].scans, *anchor_of[k]});
+        retirement.keyframes.add(passes[k].keyframes);
+        retirement.scans.add(passes[k].scans);
+      }
+    }
+    p = end + 1;
+  }
+  return retirement;
+}
+
+}  // namespace swiftlet

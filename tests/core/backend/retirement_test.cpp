@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/retirement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/backend/wall_factor.hpp"
+#include "tests/support/loop_corridor.hpp"
+#include "tests/support/stored_run.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kOtherTimeM = 12.0;
+
+std::vector<RangeSample> laps(int count) {
+  TestVehicle vehicle = vehicle_at_start({}, 5);
+  for (int lap = 0; lap < count; ++lap) fly_along(vehicle, loop_corridor(), "bcda");
+  return vehicle.samples();
+}
+
+/// Flown once for all tests: with exact odometry, so the frontend's frame is the map.
+const StoredRun& ten_laps() {
+  static const StoredRun kRun(laps(10));
+  return kRun;
+}
+
+Retirement plan(const StoredRun& run, std::size_t scans_wanted, std::span<const KeyframeId> anchors = {},
+                std::optional<KeyframeId> first_recent = {}) {
+  return plan_retirement(run.scans(), run.chain(), run.T_local_keyframe(), anchors,
+                         first_recent.value_or(run.newest()), kOtherTimeM, scans_wanted);
+}
+
+double lap_of(const StoredRun& run, KeyframeId keyframe) {
+  return run.chain().path_m(keyframe) / run.chain().path_m(run.newest()) * 10.0;
+}
+
+TEST(Retirement, TakesTheLapsBetweenTheOldestAndTheNewest) {
+  const Retirement all = plan(ten_laps(), 1'000'000);
+  ASSERT_GT(all.scans.size(), ten_laps().scans().size() / 3);
+  EXPECT_LT(all.scans.size(), ten_laps().scans().size());
+  for (const RetiredPass& pass : all.passes) {
+    EXPECT_GT(lap_of(ten_laps(), static_cast<KeyframeId>(pass.keyframes.first)), 1.0);
+    EXPECT_LT(lap_of(ten_laps(), static_cast<KeyframeId>(pass.keyframes.end)), 9.0);
+  }
+}
+
+TEST(Retirement, LeavesWhatWasSeenOnceOrTwice) {
+  EXPECT_TRUE(plan(StoredRun(laps(1)), 1'000'000).empty());
+  EXPECT_TRUE(plan(StoredRun(laps(2)), 1'000'000).empty());
+}
+
+TEST(Retirement, LeavesALookIntoARoomThatNoOtherPassSaw) {
+  TestVehicle vehicle = vehicle_at_start({}, 5);
+  for (int lap = 0; lap < 4; ++lap) fly_along(vehicle, loop_corridor(), "bcda");
+  const auto first = static_cast<ScanIndex>(vehicle.samples().size());
+  // The same flight through another building, once: nobody else has seen it.
+  fly_along(vehicle, loop_corridor({100.0, 0.0}), "");
+  const TextRoom elsewhere = loop_corridor({100.0, 0.0});
+  vehicle.carry_to(elsewhere, Pose2(elsewhere.place('a').x_m, elsewhere.place('a').y_m, 0.0));
+  for (const char place : std::string("bc")) vehicle.fly_to(elsewhere, elsewhere.place(place));
+  const auto end = static_cast<ScanIndex>(vehicle.samples().size());
+  vehicle.carry_to(loop_corridor(),
+                   Pose2(loop_corridor().place('a').x_m, loop_corridor().place('a').y_m, 0.0));
+  for (int lap = 0; lap < 5; ++lap) fly_along(vehicle, loop_corridor(), "bcda");
+
+  // Poses as they truly are, for dead reckoning does not know where it was carried.
+  const StoredRun run(vehicle.samples());
+  std::vector<Pose2> T_map_keyframe;
+  for (std::uint32_t k = 0; k < run.chain().size(); ++k)
+    T_map_keyframe.push_back(vehicle.T_world_body()[run.chain().scan_of(static_cast<KeyframeId>(k))]);
+  const Retirement all =
+      plan_retirement(run.scans(), run.chain(), T_map_keyframe, {}, run.newest(), kOtherTimeM, 1'000'000);
+  ASSERT_FALSE(all.empty());
+  for (const RetiredPass& pass : all.passes)
+    EXPECT_TRUE(pass.scans.end <= first || pass.scans.first >= end) << pass.scans.first;
+}
+
+TEST(Retirement, TakesWholePassesAndNoMoreThanAskedFor) {
+  const Retirement some = plan(ten_laps(), 200);
+  EXPECT_GE(some.scans.size(), 200U);
+  EXPECT_LT(some.scans.size(), 300U);
+  std::uint32_t scans = 0;
+  for (const RetiredPass& pass : some.passes) {
+    EXPECT_EQ(pass.keyframes.first % kKeyframesPerPass, 0U);
+    EXPECT_EQ(pass.keyframes.size(), kKeyframesPerPass);
+    EXPECT_EQ(pass.scans.first, ten_laps().chain().scan_of(static_cast<KeyframeId>(pass.keyframes.first)));
+    EXPECT_EQ(pass.scans.end, ten_laps().chain().scan_of(static_cast<KeyframeId>(pass.keyframes.end)));
+    scans += pass.scans.size();
+  }
+  EXPECT_EQ(some.scans.size(), scans);
+  EXPECT_EQ(some.keyframes.size(), kKeyframesPerPass * some.passes.size());
+}
+
+TEST(Retirement, AnchorsAreNearFromAnotherTimeAndStay) {
+  const Retirement all = plan(ten_laps(), 1'000'000);
+  for (const RetiredPass& pass : all.passes) {
+    EXPECT_FALSE(all.keyframes.removes(index_of(pass.anchor)));
+    const auto first = static_cast<KeyframeId>(pass.keyframes.first);
+    const Pose2 apart = between(ten_laps().T_local_keyframe()[index_of(first)],
+                                ten_laps().T_local_keyframe()[index_of(pass.anchor)]);
+    EXPECT_LT(std::hypot(apart.x_m(), apart.y_m()), 4.0);
+    EXPECT_GT(std::abs(ten_laps().chain().path_m(first) - ten_laps().chain().path_m(pass.anchor)),
+              kOtherTimeM - 2.0);
+  }
+}
+
+TEST(Retirement, LeavesAnchorsOfEarlierOnesAndWhatIsRecent) {
+  const Retirement before = plan(ten_laps(), 1'000'000);
+  const auto kept = static_cast<KeyframeId>(before.passes[3].keyframes.first + 1);
+  const Retirement after = plan(ten_laps(), 1'000'000, std::vector{kept});
+  EXPECT_TRUE(before.keyframes.removes(index_of(kept)));
+  EXPECT_FALSE(after.keyframes.removes(index_of(kept)));
+  const auto recent = static_cast<KeyframeId>(before.passes[before.passes.size() / 2].keyframes.first);
+  for (const RetiredPass& pass : plan(ten_laps(), 1'000'000, {}, recent).passes)
+    EXPECT_LE(pass.keyframes.end, index_of(recent));
+}
+
+}  // namespace
+}  // namespace swiftlet
