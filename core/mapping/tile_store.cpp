@@ -24,8 +24,8 @@ TileStore::Tile& TileStore::touch(TileIndex index) {
   std::unique_ptr<Tile>& tile = tiles_[index];
   if (tile == nullptr) {
     tile = std::make_unique<Tile>();
-    tile->published.index = index;
-    tile->published.occupancy_percent.fill(-1);
+    tile->published = unknown_tile(index);
+    emptied_.erase(index);
   }
   tile->touched = true;
   return *tile;
@@ -35,7 +35,7 @@ bool TileStore::refresh(Tile& tile) const {
   bool changed = false;
   bool empty = true;
   for (std::size_t i = 0; i < tile.counts.size(); ++i) {
-    const std::int8_t percent = percent_of(tile.counts[i]);
+    const std::int8_t percent = percent_of(tile.counts_at(i));
     empty = empty && percent < 0;
     if (percent == tile.published.occupancy_percent[i]) continue;
     tile.published.occupancy_percent[i] = percent;
@@ -50,24 +50,36 @@ bool TileStore::refresh(Tile& tile) const {
 std::vector<TileIndex> TileStore::publish() {
   last_tile_ = nullptr;
   std::vector<TileIndex> changed;
-  for (const auto& [index, tile] : tiles_)
-    if (tile->touched && refresh(*tile)) changed.push_back(index);
+  for (auto at = tiles_.begin(); at != tiles_.end();) {
+    Tile& tile = *at->second;
+    if (tile.touched && refresh(tile)) changed.push_back(at->first);
+    if (tile.empty) {
+      if (tile.published.version > 0) emptied_[at->first] = tile.published.version;
+      at = tiles_.erase(at);
+    } else {
+      ++at;
+    }
+  }
   return changed;
+}
+
+MapTile TileStore::unknown_tile(TileIndex index) const {
+  const auto emptied = emptied_.find(index);
+  MapTile unknown{.index = index, .version = emptied == emptied_.end() ? 0 : emptied->second};
+  unknown.occupancy_percent.fill(-1);
+  return unknown;
 }
 
 MapTile TileStore::tile(TileIndex index) const {
   const auto found = tiles_.find(index);
   if (found != tiles_.end()) return found->second->published;
-  MapTile unknown;
-  unknown.index = index;
-  unknown.occupancy_percent.fill(-1);
-  return unknown;
+  return unknown_tile(index);
 }
 
 std::vector<TileIndex> TileStore::tiles() const {
   std::vector<TileIndex> indices;
   for (const auto& [index, tile] : tiles_)
-    if (!tile->empty) indices.push_back(index);
+    if (!tile->empty) indices.push_back(index);  // what was touched since is not published
   return indices;
 }
 

@@ -27,7 +27,7 @@ struct CellCounts {
 
 inline constexpr double kMaxLogOdds = 4.0;  ///< between 2 and 98 percent
 
-/// The cells of the map, in tiles that exist where something was counted. Allocates as the map grows.
+/// The cells of the map, in tiles that exist where something is counted. Allocates as the map grows.
 /// One thread at a time.
 class TileStore {
  public:
@@ -35,8 +35,10 @@ class TileStore {
 
   enum class Change : std::uint8_t { kCount, kTakeBack };
   /// Preconditions: what is taken back was counted before.
-  void add_hit(CellIndex cell, Change change) { counts_at(cell).hits += step(change); }
-  void add_miss(CellIndex cell, Change change) { counts_at(cell).misses += step(change); }
+  void add_hit(CellIndex cell, Change change) { count(cell, change, &NarrowCounts::hits, &CellCounts::hits); }
+  void add_miss(CellIndex cell, Change change) {
+    count(cell, change, &NarrowCounts::misses, &CellCounts::misses);
+  }
 
   /// Brings the percentages up to date with the counts. Returns the tiles in which any changed, in index
   /// order, each with its version counted up.
@@ -48,25 +50,43 @@ class TileStore {
   [[nodiscard]] std::vector<TileIndex> tiles() const;
 
  private:
+  /// The lower halves of CellCounts: few cells ever need more.
+  struct NarrowCounts {
+    std::uint16_t hits = 0;
+    std::uint16_t misses = 0;
+  };
   struct Tile {
-    std::array<CellCounts, kCellsInTile> counts{};
+    std::array<NarrowCounts, kCellsInTile> counts{};
+    std::map<std::size_t, CellCounts> carries;  ///< upper halves, of the cells that have them
     MapTile published;
     bool touched = false;  ///< counted in since the last publish()
     bool empty = true;     ///< as published: no cell is known
+
+    [[nodiscard]] CellCounts counts_at(std::size_t i) const {
+      const NarrowCounts& low = counts[i];
+      const auto high = carries.empty() ? carries.end() : carries.find(i);
+      if (high == carries.end()) return {low.hits, low.misses};
+      return {low.hits + (high->second.hits << 16U), low.misses + (high->second.misses << 16U)};
+    }
   };
 
-  static constexpr std::uint32_t step(Change change) {
-    return change == Change::kCount ? 1U : ~std::uint32_t{0};  // adding ~0 takes one away
-  }
-  CellCounts& counts_at(CellIndex cell) {
+  void count(CellIndex cell, Change change, std::uint16_t NarrowCounts::*low,
+             std::uint32_t CellCounts::*high) {
     // Tiles are a power of two wide: shifting and masking round downwards for negative cells too.
     const TileIndex index{cell.x >> kTileShift, cell.y >> kTileShift};
     if (last_tile_ == nullptr || index != last_tile_->published.index) last_tile_ = &touch(index);
     const auto column = static_cast<std::uint32_t>(cell.x) & (kTileCells - 1U);
     const auto row = static_cast<std::uint32_t>(cell.y) & (kTileCells - 1U);
-    return last_tile_->counts[row * kTileCells + column];
+    const std::size_t i = row * kTileCells + column;
+    std::uint16_t& counted = last_tile_->counts[i].*low;
+    if (change == Change::kCount) {
+      if (++counted == 0) ++(last_tile_->carries[i].*high);
+    } else {
+      if (counted-- == 0) --(last_tile_->carries[i].*high);
+    }
   }
   Tile& touch(TileIndex index);
+  [[nodiscard]] MapTile unknown_tile(TileIndex index) const;
   bool refresh(Tile& tile) const;
   [[nodiscard]] std::int8_t percent_of(const CellCounts& counts) const {
     if (counts.hits >= kTableHits || counts.misses >= kTableMisses) return occupancy_percent(counts, config_);
@@ -82,7 +102,8 @@ class TileStore {
 
   MapConfig config_;
   std::vector<std::int8_t> percent_table_;
-  std::map<TileIndex, std::unique_ptr<Tile>> tiles_;
+  std::map<TileIndex, std::unique_ptr<Tile>> tiles_;  ///< those that hold anything, or were touched since
+  std::map<TileIndex, std::uint32_t> emptied_;        ///< versions of those that did once
   Tile* last_tile_ = nullptr;  ///< the tile counted in last, touched; null after publish()
 };
 

@@ -57,6 +57,7 @@ RosMap make_ros_map(std::span<const MapTile> tiles, double resolution_m) {
 
 std::string pgm_text(const RosMap& map) {
   std::string text = "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
+  text.reserve(text.size() + map.pixels.size());
   text.append(map.pixels.begin(), map.pixels.end());
   return text;
 }

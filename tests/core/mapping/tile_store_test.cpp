@@ -67,6 +67,34 @@ TEST(TileStore, PublishesThatATileBecameEmptyAndLeavesItOutOfTheList) {
   EXPECT_EQ(percent_at(store, {1, 1}), -1);
 }
 
+TEST(TileStore, ATileThatFillsAgainCountsItsVersionsOn) {
+  TileStore store{MapConfig{}};
+  store.add_hit({1, 1}, Change::kCount);
+  store.publish();
+  store.add_hit({1, 1}, Change::kTakeBack);
+  store.publish();
+  EXPECT_EQ(store.tile({0, 0}).version, 2U);
+  store.add_miss({5, 5}, Change::kCount);
+  EXPECT_THAT(store.publish(), ElementsAre(TileIndex{0, 0}));
+  EXPECT_EQ(store.tile({0, 0}).version, 3U);
+  EXPECT_EQ(percent_at(store, {1, 1}), -1);
+  EXPECT_EQ(percent_at(store, {5, 5}), 40);
+}
+
+TEST(TileStore, CountsBeyondSixteenBitsAndTakesThemBack) {
+  const MapConfig config;
+  TileStore store(config);
+  constexpr std::uint32_t kMany = 70'000;  // an hour's hovering
+  for (std::uint32_t i = 0; i < kMany; ++i) store.add_hit({3, 3}, Change::kCount);
+  for (std::uint32_t i = 0; i < 2 * kMany; ++i) store.add_miss({3, 3}, Change::kCount);
+  store.publish();
+  EXPECT_EQ(percent_at(store, {3, 3}), occupancy_percent({kMany, 2 * kMany}, config));
+  for (std::uint32_t i = 0; i < kMany; ++i) store.add_hit({3, 3}, Change::kTakeBack);
+  for (std::uint32_t i = 0; i < 2 * kMany; ++i) store.add_miss({3, 3}, Change::kTakeBack);
+  store.publish();
+  EXPECT_EQ(percent_at(store, {3, 3}), -1);
+}
+
 TEST(TileStore, AnswersForATileThatNeverWas) {
   const MapTile tile = TileStore{MapConfig{}}.tile({7, -3});
   EXPECT_EQ(tile.index, (TileIndex{7, -3}));
