@@ -30,6 +30,7 @@ StepResult RadioWorker::step() {
 void RadioWorker::end_input() {
   if (ended_) return;
   ended_ = true;
+  source_.end();
   report_input();
   samples_.close();
 }

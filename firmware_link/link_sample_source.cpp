@@ -21,6 +21,7 @@ constexpr Duration kLinkLost = std::chrono::seconds(30);
 // A vehicle that talks without end, and never of what samples are made of, must not hold the caller.
 constexpr int kMostFramesAtOnce = 64;
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
+constexpr std::size_t kTruthBeyondFlight = 256;  // on the ground before and after
 
 AssemblyConfig assembly_config(const SensorModel& sensor) {
   AssemblyConfig config;
@@ -42,6 +43,8 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
   if (input_.description) session_.describe(*input_.description);
   if (input_.starts_logging) live_.emplace(session_, cache_);
   follow_periods();
+  if (input_.T_world_body_at)
+    truth_.reserve(kTruthBeyondFlight + static_cast<std::size_t>(input_.flight_duration / kUsualPeriod));
 }
 
 Status LinkSampleSource::find_first_sample() {
@@ -187,9 +190,15 @@ std::optional<LiveStatus> LinkSampleSource::live_status() const {
 std::optional<VehicleEvent> LinkSampleSource::take_event() {
   if (!live_) return std::nullopt;
   const std::optional<VehicleEvent> event = live_->take_event();
-  if (event && is_warning(*event) && noted_.insert(event->kind).second)
-    report_.notes.push_back(describe(*event));
+  const auto is_of_its_kind = [&event](const VehicleEvent& other) { return other.kind == event->kind; };
+  if (event && is_warning(*event) && std::none_of(noted_.begin(), noted_.end(), is_of_its_kind))
+    static_cast<void>(noted_.try_push_back(*event));
   return event;
+}
+
+void LinkSampleSource::end() {
+  for (const VehicleEvent& event : noted_) report_.notes.push_back(describe(event));
+  noted_.clear();
 }
 
 std::optional<double> LinkSampleSource::progress() const {

@@ -7,10 +7,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "core/base/fixed_vector.hpp"
 #include "firmware_link/block_description.hpp"
 #include "firmware_link/frame_sink.hpp"
 #include "firmware_link/ground_hold.hpp"
@@ -41,11 +41,12 @@ struct LinkInput {
   std::vector<std::string> notes;
   std::function<std::optional<double>()> progress;   ///< may be empty
   std::function<Pose2(DeviceTime)> T_world_body_at;  ///< where the truth is known; may be empty
+  Duration flight_duration{};  ///< where the truth is known: room is made for so much of it
 };
 
 /// Range samples from a vehicle, live or recorded: link, log session and assembler in one. One thread at a
-/// time. After the first sample next() allocates only where something noteworthy happens (and to keep ground
-/// truth).
+/// time. next() allocates nothing once samples flow and a live vehicle has been asked about itself, some
+/// seconds later, until the connection has to be made anew or the recording ends.
 class LinkSampleSource final : public SampleSource {
  public:
   explicit LinkSampleSource(LinkInput input);
@@ -62,6 +63,8 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
   [[nodiscard]] std::optional<LiveStatus> live_status() const override;
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
+  /// Warnings that were taken as events become notes, the first of each kind.
+  void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return truth_; }
 
  private:
@@ -82,7 +85,7 @@ class LinkSampleSource final : public SampleSource {
   LogSession session_;
   TocCache cache_;
   std::optional<LiveSession> live_;
-  std::set<VehicleEvent::Kind> noted_;  ///< kinds of warnings: the report must not grow with the flight
+  FixedVector<VehicleEvent, 16> noted_;  ///< warnings, the first of each kind
   ReadingExtractor extractor_;
   GroundHold ground_;
   SampleAssembler assembler_;

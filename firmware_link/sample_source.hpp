@@ -62,6 +62,8 @@ class SampleSource {
   [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
   /// What happened to the vehicle or its link since the last call, in order.
   [[nodiscard]] virtual std::optional<VehicleEvent> take_event() { return std::nullopt; }
+  /// No more will be taken: what happened on the way is put into words in report() now. Allocates.
+  virtual void end() {}
   /// T_world_body at every sample delivered so far, stamped like the sample; empty where nobody knows the
   /// truth.
   [[nodiscard]] virtual std::vector<StampedPose> ground_truth() const { return {}; }

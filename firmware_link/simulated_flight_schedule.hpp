@@ -30,6 +30,10 @@ class FlightSchedule {
   [[nodiscard]] bool is_at_step(Duration now) const;
   /// It came to its last state.
   [[nodiscard]] bool is_over(Duration at) const { return index(at) + 1 == states_.size(); }
+  /// In the air, from its first state to its last.
+  [[nodiscard]] Duration duration() const {
+    return static_cast<std::int64_t>(states_.size() - 1) * kFlightStep;
+  }
   /// 0 to 1.
   [[nodiscard]] double progress(Duration at) const;
   /// In the air so far.

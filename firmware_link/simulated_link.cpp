@@ -45,7 +45,7 @@ Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
   while (heard_.empty()) {
     if (vehicle_.is_finished()) return Error{ErrorCode::kEndOfRecording, "the simulated flight is over"};
     if (vehicle_.now() - asked_at + kStep > timeout)
-      return Error{ErrorCode::kTimeout, "nothing heard from the simulated vehicle"};
+      return Error{ErrorCode::kTimeout, "nothing heard"};
     for (const SentPacket& sent : vehicle_.advance(vehicle_.now() + kStep)) {
       const bool is_log_data = is_on(bytes_of(sent.bytes), kLogDataTopic);
       if (is_log_data && loss_noise_.chance(packet_loss_)) continue;

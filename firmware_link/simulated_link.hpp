@@ -39,6 +39,7 @@ class SimulatedLink final : public Link {
 
   /// The truth at any time of the vehicle's clock up to now.
   [[nodiscard]] Pose2 T_world_body(DeviceTime at) const { return vehicle_.T_world_body(at); }
+  [[nodiscard]] Duration flight_duration() const { return vehicle_.flight_duration(); }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return vehicle_.progress(); }
 

@@ -65,6 +65,7 @@ class SimulatedVehicle {
   [[nodiscard]] DeviceTime now() const { return DeviceTime(now_); }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return flight_.progress(now_); }
+  [[nodiscard]] Duration flight_duration() const { return flight_.duration(); }
   /// It has landed again.
   [[nodiscard]] bool is_finished() const { return flight_.is_over(now_); }
   [[nodiscard]] bool is_flying() const { return is_on_air() && state_.is_flying; }
