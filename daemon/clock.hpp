@@ -3,7 +3,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <thread>
+
+#include "daemon/bell.hpp"
 
 namespace swiftlet {
 
@@ -20,12 +23,17 @@ class Clock {
 
   [[nodiscard]] virtual MonotonicTime now() const = 0;
   virtual void sleep_until(MonotonicTime wake_at) = 0;
+  /// As Bell::wait().
+  virtual void wait_for(Bell& bell, std::uint32_t heard, MonotonicTime wake_at) = 0;
 };
 
 class SteadyClock final : public Clock {
  public:
   [[nodiscard]] MonotonicTime now() const override { return std::chrono::steady_clock::now(); }
   void sleep_until(MonotonicTime wake_at) override { std::this_thread::sleep_until(wake_at); }
+  void wait_for(Bell& bell, std::uint32_t heard, MonotonicTime wake_at) override {
+    bell.wait(heard, wake_at);
+  }
 };
 
 }  // namespace swiftlet

@@ -50,6 +50,11 @@ struct RecordConfig {
   int max_total_mb = 2000;  ///< beyond this the oldest recordings in the directory are removed
 };
 
+/// What the daemon asks of the machine so that it keeps time; everything is off unless asked for.
+struct RealtimeConfig {
+  double pose_deadline_s = 0.002;  ///< from radio frame to published pose; what takes longer is counted
+};
+
 struct Configuration {
   SensorOverrides sensor;
   FrontendConfig frontend;
@@ -57,6 +62,7 @@ struct Configuration {
   MapConfig map;
   PublishConfig publish;
   RecordConfig record;
+  RealtimeConfig realtime;
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -22,6 +22,7 @@ Section& section_in(Configuration& config) {
   if constexpr (std::is_same_v<Section, MapConfig>) return config.map;
   if constexpr (std::is_same_v<Section, PublishConfig>) return config.publish;
   if constexpr (std::is_same_v<Section, RecordConfig>) return config.record;
+  if constexpr (std::is_same_v<Section, RealtimeConfig>) return config.realtime;
 }
 
 template <typename Section, typename T>
@@ -178,6 +179,9 @@ constexpr ConfigurationField kFields[] = {
     {"record", "max_total_mb", "MB",
      "the oldest recordings in the directory are removed so that no more than this is used", 1, 1000000,
      at<&RecordConfig::max_total_mb>},
+    {"realtime", "pose_deadline_s", "s",
+     "from the radio frame to the published pose; what takes longer is counted", 0.00001, 10,
+     at<&RealtimeConfig::pose_deadline_s>},
 };
 
 std::string range_problem(const ConfigurationField& field, double value) {

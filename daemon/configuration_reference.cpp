@@ -26,6 +26,7 @@ std::string_view introduction_of(std::string_view section) {
   if (section == "backend") return "Submaps, loop closing and the pose graph.";
   if (section == "map") return "The occupancy map that is published and written.";
   if (section == "record") return "What the daemon keeps of what it hears: [recording](recording.md).";
+  if (section == "realtime") return "What the daemon asks of the machine: [real time](real_time.md).";
   return "What the daemon sends and how often.";
 }
 

@@ -37,7 +37,8 @@ Daemon::Daemon(const Configuration& config, SampleSource& source, Clock& clock, 
       pipeline_(config, source, clock, policy),
       publisher_worker_(config.publish, config.map.resolution_m, pipeline_.queues().to_publisher.inlet(),
                         {.queues = [this] { return pipeline_.queues().statistics(); },
-                         .stages = [this] { return pipeline_.stage_times(); }},
+                         .stages = [this] { return pipeline_.stage_times(); },
+                         .pose_latency = pipeline_.pose_latency()},
                         publisher, clock) {}
 
 Status Daemon::run(const std::stop_token& stop) {
@@ -83,7 +84,10 @@ void Daemon::run_to_end(Worker& worker) {
 }
 
 void Daemon::run_publisher() {
-  while (publisher_worker_.step() != StepResult::kFinished) sleep_for(PublisherWorker::kTick);
+  while (publisher_worker_.step() != StepResult::kFinished) {
+    const MonotonicTime next_tick = clock_.now() + PublisherWorker::kTick;
+    while (publisher_worker_.wait_for_poses(clock_, next_tick)) publisher_worker_.publish_poses();
+  }
 }
 
 }  // namespace swiftlet

@@ -20,7 +20,7 @@ FrontendWorker::FrontendWorker(Frontend& frontend, const Clock& clock, SampleQue
 StepResult FrontendWorker::step() noexcept {
   if (!steps_.has_room()) return StepResult::kBlocked;
   const bool ended = samples_.closed();
-  if (!samples_.try_pop(sample_)) {
+  if (!samples_.try_pop(heard_)) {
     if (!ended) return StepResult::kIdle;
     steps_.close();
     return StepResult::kFinished;
@@ -35,20 +35,22 @@ StepResult FrontendWorker::step() noexcept {
 const FrontendStep& FrontendWorker::process() noexcept {
   static_cast<void>(correction_.load_if_new(applied_));
   const StageTimer timer(clock_, times_);
-  return frontend_.process(sample_, applied_.T_map_local);
+  return frontend_.process(heard_.sample, applied_.T_map_local);
 }
 
 void FrontendWorker::report(const FrontendStep& step) noexcept {
-  if (sample_.starts_segment) ++segment_;
+  const RangeSample& sample = heard_.sample;
+  if (sample.starts_segment) ++segment_;
   // A refused pose is counted by the queue.
-  static_cast<void>(publisher_->poses.try_push({.stamp = sample_.stamp,
-                                                .sequence = sample_.sequence,
+  static_cast<void>(publisher_->poses.try_push({.stamp = sample.stamp,
+                                                .sequence = sample.sequence,
                                                 .segment = segment_,
                                                 .keyframe = step.keyframe,
                                                 .correction_version = applied_.version,
                                                 .T_map_body = step.T_map_body,
                                                 .T_local_body = step.T_local_body,
-                                                .T_odom_body = sample_.T_odom_body}));
+                                                .T_odom_body = sample.T_odom_body,
+                                                .arrived_at = heard_.arrived_at}));
   publisher_->counters.store(frontend_.counters());
 }
 

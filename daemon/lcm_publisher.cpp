@@ -149,6 +149,7 @@ void fill_stages(std::span<const StageSummary> stages, status_t& message) {
     out.mean = stage.mean_ms;
     out.p50 = stage.p50_ms;
     out.p99 = stage.p99_ms;
+    out.p999 = stage.p999_ms;
     out.max = stage.max_ms;
   }
   message.stage_count = i32(message.stages.size());
@@ -337,6 +338,7 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
   fill_counters(status, message);
   fill_queues(status.queues, message);
   fill_stages(status.stages, message);
+  message.missed_deadlines = i64(status.missed_deadlines);
   state_->send(state_->status, message);
 }
 

@@ -145,7 +145,7 @@ Status write_outputs(const Options& options, const Configuration& config, const 
                                                       .map = daemon.pipeline().map(),
                                                       .input = source.report(),
                                                       .frontend = daemon.pipeline().frontend().counters(),
-                                                      .times = daemon.pipeline().stage_times(),
+                                                      .timing = daemon.pipeline().timing(),
                                                       .truth = source.ground_truth(),
                                                       .input_uri = options.input_uri,
                                                       .sensor = config.sensor.applied_to(source.sensor()),

@@ -23,26 +23,28 @@ const Clock& steady_clock() {
 
 struct Pipeline::State {
   State(const Configuration& config, SampleSource& source, const Clock& clock, const InputPolicy& policy,
-        bool publishes)
+        bool publishes_all)
       : sensor(config.sensor.applied_to(source.sensor())),
         frontend(config.frontend, sensor, source.beams()),
         backend(config.backend, sensor, source.beams()),
         map(config.map, sensor),
-        radio_worker(source, clock, policy, queues.samples.producer(), input_outlet(publishes), times.input),
+        publishes(publishes_all),
+        pose_latency(from_seconds(config.realtime.pose_deadline_s)),
+        radio_worker(source, clock, policy, queues.samples.producer(), input_outlet(), times.input),
         frontend_worker(frontend, clock, queues.samples.consumer(), queues.steps.producer(),
-                        queues.correction, frontend_outlet(publishes), times.frontend),
-        backend_worker(backend, map, clock, queues.steps.consumer(), queues.correction,
-                       backend_outlet(publishes), times) {}
+                        queues.correction, frontend_outlet(), times.frontend),
+        backend_worker(backend, map, clock, queues.steps.consumer(), queues.correction, backend_outlet(),
+                       times) {}
 
-  std::optional<InputOutlet> input_outlet(bool publishes) {
+  std::optional<InputOutlet> input_outlet() {
     if (!publishes) return std::nullopt;
     return queues.to_publisher.input_outlet();
   }
-  std::optional<FrontendOutlet> frontend_outlet(bool publishes) {
+  std::optional<FrontendOutlet> frontend_outlet() {
     if (!publishes) return std::nullopt;
     return queues.to_publisher.frontend_outlet();
   }
-  std::optional<BackendOutlet> backend_outlet(bool publishes) {
+  std::optional<BackendOutlet> backend_outlet() {
     if (!publishes) return std::nullopt;
     return queues.to_publisher.backend_outlet();
   }
@@ -52,7 +54,9 @@ struct Pipeline::State {
   Backend backend;
   MapBuilder map;
   PipelineQueues queues;
+  bool publishes;
   StageTimes times;
+  PoseLatency pose_latency;
   RadioWorker radio_worker;
   FrontendWorker frontend_worker;
   BackendWorker backend_worker;
@@ -81,11 +85,25 @@ const Backend& Pipeline::backend() const { return state_->backend; }
 const Frontend& Pipeline::frontend() const { return state_->frontend; }
 const MapBuilder& Pipeline::map() const { return state_->map; }
 const Status& Pipeline::outcome() const { return state_->radio_worker.outcome(); }
-std::vector<StageSummary> Pipeline::stage_times() const { return state_->times.summaries(); }
+std::vector<StageSummary> Pipeline::stage_times() const {
+  return state_->times.summaries(state_->pose_latency);
+}
+
+RunTiming Pipeline::timing() const {
+  RunTiming out{.stages = stage_times(),
+                .buckets = state_->times.buckets(state_->pose_latency),
+                .queues = {},
+                .pose_deadline = state_->pose_latency.deadline(),
+                .missed_deadlines = state_->pose_latency.missed()};
+  const auto queues = state_->queues.statistics();
+  if (state_->publishes) out.queues.assign(queues.begin(), queues.end());
+  return out;
+}
 
 RadioWorker& Pipeline::radio_worker() { return state_->radio_worker; }
 FrontendWorker& Pipeline::frontend_worker() { return state_->frontend_worker; }
 BackendWorker& Pipeline::backend_worker() { return state_->backend_worker; }
 PipelineQueues& Pipeline::queues() { return state_->queues; }
+PoseLatency& Pipeline::pose_latency() { return state_->pose_latency; }
 
 }  // namespace swiftlet

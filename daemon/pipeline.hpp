@@ -3,13 +3,12 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "core/backend/backend.hpp"
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
 #include "daemon/configuration.hpp"
-#include "daemon/stage_times.hpp"
+#include "daemon/run_timing.hpp"
 #include "firmware_link/sample_source.hpp"
 
 namespace swiftlet {
@@ -51,14 +50,18 @@ class Pipeline {
   /// What ended the input before its time, if anything did.
   [[nodiscard]] const Status& outcome() const;
 
-  /// Any thread.
+  /// Any thread. Allocates.
   [[nodiscard]] std::vector<StageSummary> stage_times() const;
+  /// Any thread. Allocates.
+  [[nodiscard]] RunTiming timing() const;
 
   // For whoever gives each worker its thread.
   [[nodiscard]] RadioWorker& radio_worker();
   [[nodiscard]] FrontendWorker& frontend_worker();
   [[nodiscard]] BackendWorker& backend_worker();
   [[nodiscard]] PipelineQueues& queues();
+  /// For whoever publishes poses.
+  [[nodiscard]] PoseLatency& pose_latency();
 
  private:
   struct State;

@@ -9,9 +9,17 @@
 #include "core/base/ids.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/sensing/range_sample.hpp"
+#include "daemon/clock.hpp"
 #include "firmware_link/live_status.hpp"
 
 namespace swiftlet {
+
+/// A sample on its way to the frontend.
+struct HeardSample {
+  RangeSample sample;
+  MonotonicTime arrived_at{};  ///< the radio frame that completed it; of a recording, when it was handed over
+};
 
 /// Where the vehicle is, in all three frames; one for each sample.
 struct PoseUpdate {
@@ -23,6 +31,7 @@ struct PoseUpdate {
   Pose2 T_map_body{};
   Pose2 T_local_body{};
   Pose2 T_odom_body{};
+  MonotonicTime arrived_at{};  ///< HeardSample::arrived_at
 };
 
 /// The numbers of an InputReport, without its texts.
@@ -56,7 +65,8 @@ struct ClosureUpdate {
   Point2 to_map{};
 };
 
-static_assert(std::is_trivially_copyable_v<PoseUpdate> && std::is_trivially_copyable_v<InputStatus> &&
-              std::is_trivially_copyable_v<WallInMap> && std::is_trivially_copyable_v<ClosureUpdate>);
+static_assert(std::is_trivially_copyable_v<HeardSample> && std::is_trivially_copyable_v<PoseUpdate> &&
+              std::is_trivially_copyable_v<InputStatus> && std::is_trivially_copyable_v<WallInMap> &&
+              std::is_trivially_copyable_v<ClosureUpdate>);
 
 }  // namespace swiftlet

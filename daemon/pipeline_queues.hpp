@@ -13,27 +13,19 @@
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_tile.hpp"
 #include "core/sensing/keyframe.hpp"
-#include "core/sensing/range_sample.hpp"
 #include "daemon/pipeline_messages.hpp"
+#include "daemon/run_timing.hpp"
 #include "daemon/stage_queue.hpp"
 #include "firmware_link/link.hpp"
 #include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
 
-/// What a queue has seen since the start.
-struct QueueStatistics {
-  std::string_view name;
-  std::size_t capacity = 0;
-  std::uint64_t high_water = 0;  ///< the most items that ever waited
-  std::uint64_t refused = 0;     ///< items there was no room for
-};
-
 // Every carrier between two workers is declared here, with what happens when it is full.
 
 /// radio -> frontend: 25 s at 10 Hz. Full: a recording waits; from a live link the newest sample is refused
 /// and counted. The only place where anything on the way into the map can be lost.
-using SampleQueue = StageQueue<RangeSample, 256>;
+using SampleQueue = StageQueue<HeardSample, 256>;
 /// frontend -> backend: 100 s at 10 Hz. Full: the frontend waits, so no keyframe is ever missing from the
 /// graph; the samples wait (or are refused) in the queue before it.
 using StepQueue = StageQueue<FrontendStep, 1024>;
@@ -42,7 +34,7 @@ using CorrectionValue = LatestValue<MapCorrection>;
 
 /// frontend -> publisher: 25 s at 10 Hz. Full: the newest pose is refused and counted; the map misses
 /// nothing.
-using PoseQueue = SpscQueue<PoseUpdate, 256>;
+using PoseQueue = StageQueue<PoseUpdate, 256>;
 /// backend -> publisher. Full: what did not fit stays with the backend's worker, which offers its newest
 /// state again later. Closed when everything has been handed over, after the final pass.
 using TileQueue = StageQueue<MapTile, 256>;

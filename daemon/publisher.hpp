@@ -49,6 +49,7 @@ struct DaemonStatus {
   BackendCounters backend;
   std::array<QueueStatistics, 7> queues;
   std::vector<StageSummary> stages;
+  std::uint64_t missed_deadlines = 0;  ///< RunTiming::missed_deadlines
   MapSummary map;
 };
 

@@ -42,13 +42,14 @@ StepResult PublisherWorker::step() {
   const MonotonicTime now = clock_.now();
   if (is_closing_) return close(now);
   const bool is_last = inlet_.tiles.closed();  // before the look: what came before closing is seen
+  publish_poses();
   take_events();
-  take_poses();
   take_closures();
   take_walls();
   const std::size_t taken = take_tiles();
   refresh_tiles(kTilesPerStep - taken, now);
   last_step_ = now;
+  publish_poses();  // tiles take their time
   if (!summary_sent_ || now - last_summary_ >= from_seconds(config_.status_period_s)) publish_summary(now);
   if (is_last && taken == 0) {
     is_closing_ = true;
@@ -58,12 +59,13 @@ StepResult PublisherWorker::step() {
   return StepResult::kIdle;
 }
 
-void PublisherWorker::take_poses() {
+void PublisherWorker::publish_poses() {
   PoseUpdate pose;
   while (inlet_.poses.try_pop(pose)) {
     now_ = pose.stamp;
     ++poses_since_summary_;
     publisher_.publish_pose(pose);
+    gauges_.pose_latency.record(clock_.now() - pose.arrived_at);
   }
 }
 
@@ -97,6 +99,7 @@ void PublisherWorker::take_counters() {
   static_cast<void>(inlet_.backend.load_if_new(status_.backend));
   status_.queues = gauges_.queues();
   status_.stages = gauges_.stages();
+  status_.missed_deadlines = gauges_.pose_latency.missed();
 }
 
 std::size_t PublisherWorker::take_tiles() {

@@ -18,7 +18,8 @@
 namespace swiftlet {
 
 /// Publishes what the other workers hand over, and keeps a copy of the map's tiles and walls to send them
-/// again for late joiners. One thread at a time; may allocate; never holds up the others.
+/// again for late joiners. Poses go first and at once, all else when its tick comes. One thread at a time;
+/// may allocate; never holds up the others.
 class PublisherWorker {
  public:
   /// Call step() this often.
@@ -29,10 +30,12 @@ class PublisherWorker {
   /// The last status is said this often, since a datagram may be lost.
   static constexpr int kFinalStatuses = 3;
 
-  /// What the status takes from elsewhere; called in the publisher's thread.
+  /// What the status takes from elsewhere, called in the publisher's thread, and what it tells: how long
+  /// poses took.
   struct Gauges {
     std::function<std::array<QueueStatistics, 7>()> queues;
     std::function<std::vector<StageSummary>()> stages;
+    PoseLatency& pose_latency;
   };
 
   /// References must outlive the worker.
@@ -41,6 +44,11 @@ class PublisherWorker {
 
   /// One tick's worth. kIdle: call again after kTick. kFinished: all is sent, also the final status.
   StepResult step();
+  /// Sleeps until poses wait, which publish_poses() sends at once, or until `wake_at`. Whether any wait.
+  [[nodiscard]] bool wait_for_poses(Clock& clock, MonotonicTime wake_at) const {
+    return inlet_.poses.wait_until(clock, wake_at);
+  }
+  void publish_poses();
 
  private:
   PublishConfig config_;
@@ -72,7 +80,6 @@ class PublisherWorker {
   std::size_t final_tiles_left_ = 0;
   int final_statuses_left_ = kFinalStatuses;
 
-  void take_poses();
   void take_walls();
   void take_closures();
   void take_events();

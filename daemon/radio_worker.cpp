@@ -52,9 +52,10 @@ bool RadioWorker::fetch() {
   return false;
 }
 
-void RadioWorker::hand_on(RangeSample sample) {
-  sample.starts_segment = sample.starts_segment || break_pending_;
-  break_pending_ = !samples_.try_push(sample) && sample.starts_segment;
+void RadioWorker::hand_on(const RangeSample& sample) {
+  HeardSample heard{.sample = sample, .arrived_at = clock_.now() - source_.since_heard()};
+  heard.sample.starts_segment = sample.starts_segment || break_pending_;
+  break_pending_ = !samples_.try_push(heard) && heard.sample.starts_segment;
   report_input();
 }
 

@@ -55,7 +55,7 @@ class RadioWorker {
   Status outcome_;
 
   bool fetch();
-  void hand_on(RangeSample sample);
+  void hand_on(const RangeSample& sample);
   void report_input();
 };
 

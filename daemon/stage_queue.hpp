@@ -7,12 +7,13 @@
 #include <cstdint>
 
 #include "core/base/spsc_queue.hpp"
+#include "daemon/bell.hpp"
+#include "daemon/clock.hpp"
 
 namespace swiftlet {
 
 /// A queue between two workers: an SpscQueue with a word for "nothing more will come" and a bell by which the
-/// consumer's thread sleeps without spinning. Neither end takes a lock; ringing costs a system call only when
-/// someone sleeps. The queue must outlive both ends.
+/// consumer's thread sleeps without spinning. Neither end takes a lock. The queue must outlive both ends.
 template <typename T, std::size_t kCapacity>
 class StageQueue {
  public:
@@ -21,14 +22,14 @@ class StageQueue {
     /// False when full: the item is refused and counted.
     [[nodiscard]] bool try_push(const T& item) noexcept {
       if (!end_.try_push(item)) return false;
-      queue_->ring();
+      queue_->bell_.ring();
       return true;
     }
     [[nodiscard]] bool has_room() const noexcept { return end_.has_room(); }
     /// Nothing more will be pushed. May be said twice.
     void close() noexcept {
       queue_->closed_.store(true, std::memory_order_release);
-      queue_->ring();
+      queue_->bell_.ring();
     }
 
    private:
@@ -46,9 +47,15 @@ class StageQueue {
     [[nodiscard]] bool closed() const noexcept { return queue_->closed_.load(std::memory_order_acquire); }
     /// Sleeps until something waits or the queue is closed.
     void wait() const noexcept {
-      const std::uint32_t heard = queue_->bell_.load(std::memory_order_acquire);
+      const std::uint32_t heard = queue_->bell_.strokes();
       if (end_.size() > 0 || closed()) return;
-      queue_->bell_.wait(heard, std::memory_order_acquire);
+      queue_->bell_.wait(heard);
+    }
+    /// Sleeps until something waits, the queue is closed, or `wake_at`. Whether something waits.
+    [[nodiscard]] bool wait_until(Clock& clock, MonotonicTime wake_at) const {
+      const std::uint32_t heard = queue_->bell_.strokes();
+      if (end_.size() == 0 && !closed()) clock.wait_for(queue_->bell_, heard, wake_at);
+      return end_.size() > 0;
     }
 
    private:
@@ -68,14 +75,9 @@ class StageQueue {
   [[nodiscard]] std::uint64_t high_water() const noexcept { return ring_buffer_.high_water(); }
 
  private:
-  void ring() noexcept {
-    bell_.fetch_add(1, std::memory_order_release);
-    bell_.notify_one();
-  }
-
   SpscQueue<T, kCapacity> ring_buffer_;
   std::atomic<bool> closed_{false};
-  std::atomic<std::uint32_t> bell_{0};
+  Bell bell_;
 };
 
 }  // namespace swiftlet

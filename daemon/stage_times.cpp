@@ -34,6 +34,15 @@ StageSummary StageHistogram::summary(std::string name) const {
   out.mean_ms = to_ms(static_cast<double>(sum_ns_.load(kRelaxed)) / static_cast<double>(out.count));
   out.p50_ms = std::min(percentile_ms(out.count, 0.50), out.max_ms);
   out.p99_ms = std::min(percentile_ms(out.count, 0.99), out.max_ms);
+  out.p999_ms = std::min(percentile_ms(out.count, 0.999), out.max_ms);
+  return out;
+}
+
+StageBuckets StageHistogram::buckets(std::string name) const {
+  StageBuckets out{.name = std::move(name), .buckets = {}};
+  for (std::size_t i = 0; i < kBuckets; ++i)
+    if (const std::uint64_t count = counts_[i].load(kRelaxed); count > 0)
+      out.buckets.push_back({.upper_ns = upper_end_of(i), .count = count});
   return out;
 }
 
@@ -63,10 +72,24 @@ double StageHistogram::percentile_ms(std::uint64_t count, double share) const no
   return to_ms(static_cast<double>(upper_end_of(kBuckets - 1)));
 }
 
-std::vector<StageSummary> StageTimes::summaries() const {
-  return {input.summary("input"), frontend.summary("frontend"), backend.summary("backend"),
-          final_pass.summary("final_pass"), map.summary("map"),
-          retirement.summary("retirement")};
+std::vector<StageSummary> StageTimes::summaries(const PoseLatency& latency) const {
+  return {input.summary("input"),
+          frontend.summary("frontend"),
+          backend.summary("backend"),
+          final_pass.summary("final_pass"),
+          map.summary("map"),
+          retirement.summary("retirement"),
+          latency.times().summary("frame_to_pose")};
+}
+
+std::vector<StageBuckets> StageTimes::buckets(const PoseLatency& latency) const {
+  return {input.buckets("input"),
+          frontend.buckets("frontend"),
+          backend.buckets("backend"),
+          final_pass.buckets("final_pass"),
+          map.buckets("map"),
+          retirement.buckets("retirement"),
+          latency.times().buckets("frame_to_pose")};
 }
 
 }  // namespace swiftlet

@@ -16,12 +16,24 @@ namespace swiftlet {
 
 /// How long one stage took over a run.
 struct StageSummary {
-  std::string name;  ///< "input", "frontend", "backend", "final_pass", "map", "retirement"
+  /// "input", "frontend", "backend", "final_pass", "map", "retirement", "frame_to_pose"
+  std::string name;
   std::uint64_t count = 0;
   double mean_ms = 0.0;
   double p50_ms = 0.0;
   double p99_ms = 0.0;
+  double p999_ms = 0.0;
   double max_ms = 0.0;
+};
+
+/// A histogram as it is written down: what was counted, bucket by bucket.
+struct StageBuckets {
+  std::string name;  ///< as in StageSummary
+  struct Bucket {
+    std::uint64_t upper_ns = 0;  ///< the longest duration that is counted here
+    std::uint64_t count = 0;
+  };
+  std::vector<Bucket> buckets;  ///< in ascending order, those that hold anything
 };
 
 /// Counts durations in log-linear buckets after Tene's HdrHistogram: 32 buckets to each doubling, so a
@@ -33,6 +45,8 @@ class StageHistogram {
   void record(Duration took) noexcept;
   /// Allocates for the name only.
   [[nodiscard]] StageSummary summary(std::string name) const;
+  /// Allocates.
+  [[nodiscard]] StageBuckets buckets(std::string name) const;
 
  private:
   static constexpr std::size_t kSubBits = 5;
@@ -51,6 +65,26 @@ class StageHistogram {
   std::atomic<std::uint64_t> max_ns_{0};
 };
 
+/// The way of each sample from the radio frame that completed it to its published pose, against a deadline.
+/// @note Fixed storage, no lock. One thread records, any thread reads.
+class PoseLatency {
+ public:
+  explicit PoseLatency(Duration deadline) : deadline_(deadline) {}
+  void record(Duration took) noexcept {
+    times_.record(took);
+    if (took > deadline_)
+      missed_.store(missed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  [[nodiscard]] const StageHistogram& times() const { return times_; }
+  [[nodiscard]] Duration deadline() const { return deadline_; }
+  [[nodiscard]] std::uint64_t missed() const { return missed_.load(std::memory_order_relaxed); }
+
+ private:
+  Duration deadline_;
+  StageHistogram times_;
+  std::atomic<std::uint64_t> missed_{0};  // written by the recording thread only
+};
+
 /// The stages of the pipeline; each is recorded by the one worker that runs it.
 struct StageTimes {
   StageHistogram input;       ///< SampleSource::next()
@@ -60,7 +94,8 @@ struct StageTimes {
   StageHistogram map;         ///< MapBuilder::update()
   StageHistogram retirement;  ///< choosing and forgetting redundant scans
 
-  [[nodiscard]] std::vector<StageSummary> summaries() const;
+  [[nodiscard]] std::vector<StageSummary> summaries(const PoseLatency& latency) const;
+  [[nodiscard]] std::vector<StageBuckets> buckets(const PoseLatency& latency) const;
 };
 
 /// Records the time from its making to its end.

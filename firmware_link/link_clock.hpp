@@ -20,6 +20,8 @@ class LinkClock {
 
   /// Unix time in whole microseconds, as a recording keeps it; never goes back.
   [[nodiscard]] virtual HostTime now() = 0;
+  /// What it was so long ago by the machine's clock. Simulated time stands still meanwhile.
+  [[nodiscard]] virtual HostTime ago(Duration /*past*/) { return now(); }
   virtual void sleep_for(Duration duration) = 0;
 };
 
@@ -30,6 +32,9 @@ class SystemLinkClock final : public LinkClock {
   [[nodiscard]] HostTime now() override {
     const auto elapsed = std::chrono::steady_clock::now() - steady_start_;
     return HostTime(std::chrono::floor<std::chrono::microseconds>(unix_start_ + elapsed));
+  }
+  [[nodiscard]] HostTime ago(Duration past) override {
+    return std::chrono::floor<std::chrono::microseconds>(now() - past);
   }
   void sleep_for(Duration duration) override { std::this_thread::sleep_for(duration); }
 

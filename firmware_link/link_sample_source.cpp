@@ -99,6 +99,7 @@ Status LinkSampleSource::send_request() {
 
 void LinkSampleSource::hear(const LinkFrame& frame) {
   ++report_.frames;
+  if (frame.direction == LinkDirection::kFromVehicle) heard_at_ = frame.at;
   if (input_.recording != nullptr) input_.recording->take(frame);
   const std::optional<LogRecord> record = session_.hear(frame);
   if (live_ && frame.direction == LinkDirection::kFromVehicle) {
@@ -180,6 +181,10 @@ std::string LinkSampleSource::explain_no_samples() const {
   if (!extractor_.finds_yaw()) return input_.name + ": no yaw in its log packets; log stateEstimate.yaw";
   return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +
          std::to_string(report_.unpaired) + " range packets)";
+}
+
+Duration LinkSampleSource::since_heard() const {
+  return input_.clock ? input_.clock->now() - heard_at_ : Duration();
 }
 
 std::optional<LiveStatus> LinkSampleSource::live_status() const {

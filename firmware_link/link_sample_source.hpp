@@ -61,6 +61,7 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] const InputReport& report() const override { return report_; }
   [[nodiscard]] std::optional<double> progress() const override;
   [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
+  [[nodiscard]] Duration since_heard() const override;
   [[nodiscard]] std::optional<LiveStatus> live_status() const override;
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
   /// Warnings that were taken as events become notes, the first of each kind.
@@ -92,6 +93,7 @@ class LinkSampleSource final : public SampleSource {
   Duration range_period_{};
   Duration odometry_period_{};
   HostTime now_{};
+  HostTime heard_at_{};  // the last frame from the vehicle
   std::optional<Error> end_;
   std::optional<RangeSample> first_sample_;
   std::vector<StampedPose> truth_;

@@ -58,6 +58,9 @@ class SampleSource {
   [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
   /// A vehicle that cannot be asked to wait: samples come when they come, and there is no end.
   [[nodiscard]] virtual bool is_live() const { return false; }
+  /// How long ago the frame came that completed the last sample, by the link's own clock; zero for recordings
+  /// and laser logs.
+  [[nodiscard]] virtual Duration since_heard() const { return {}; }
   /// How the link and the vehicle stand; nullopt for recordings and laser logs.
   [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
   /// What happened to the vehicle or its link since the last call, in order.

@@ -24,6 +24,39 @@ constexpr Duration kLongestPause = std::chrono::milliseconds(100);
 constexpr int kMostAtOnce = 64;
 constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
 constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
+// Beyond that the machine's clock was set meanwhile.
+constexpr Duration kLongestInSocket = std::chrono::seconds(1);
+
+/// How long ago the kernel received what `message` holds.
+Duration since_arrival(msghdr& message) {
+  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
+    if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec at{};
+    std::memcpy(&at, CMSG_DATA(part), sizeof at);
+    const Duration age = std::chrono::system_clock::now().time_since_epoch() -
+                         (std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec));
+    return age < Duration::zero() || age > kLongestInSocket ? Duration::zero() : age;
+  }
+  return Duration::zero();
+}
+
+struct Datagram {
+  ssize_t size = -1;  ///< as sent, also where it was longer than there is room; negative: none waits
+  Duration age{};     ///< since it reached the machine
+};
+
+Datagram read_datagram(int socket, std::span<std::uint8_t> into) {
+  iovec place{.iov_base = into.data(), .iov_len = into.size()};
+  alignas(cmsghdr) std::array<std::uint8_t, CMSG_SPACE(sizeof(timespec))> control{};
+  msghdr message{};
+  message.msg_iov = &place;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  Datagram datagram{.size = ::recvmsg(socket, &message, MSG_TRUNC)};
+  if (datagram.size >= 0) datagram.age = since_arrival(message);
+  return datagram;
+}
 
 }  // namespace
 
@@ -35,6 +68,8 @@ Result<std::unique_ptr<UdpLink>> UdpLink::open(const std::string& host, std::uin
   if (socket < 0)
     return Error{ErrorCode::kInvalidInput,
                  "udp://" + host + ": the system gives no socket: " + std::strerror(errno)};
+  const int on = 1;
+  static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on));
   return std::unique_ptr<UdpLink>(new UdpLink(socket, *peer, clock));
 }
 
@@ -107,7 +142,9 @@ void UdpLink::keep_alive(HostTime now) {
 std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
   while (!requests_.empty()) {
     const CrtpPacket request = requests_.pop();
-    if (transmit(bytes_of(request), now)) return frame_of(LinkDirection::kToVehicle, now, bytes_of(request));
+    if (!transmit(bytes_of(request), now)) continue;
+    handed_back_at_ = std::max(handed_back_at_, now);
+    return frame_of(LinkDirection::kToVehicle, handed_back_at_, bytes_of(request));
   }
   return std::nullopt;
 }
@@ -116,15 +153,16 @@ std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
 std::optional<LinkFrame> UdpLink::take_datagrams() {
   for (int i = 0; i < kMostAtOnce; ++i) {
     LinkFrame frame;
-    const ssize_t size = ::recv(socket_, frame.bytes.data(), frame.bytes.size(), MSG_TRUNC);
+    const auto [size, age] = read_datagram(socket_, frame.bytes);
     if (size < 0) return std::nullopt;
-    frame.at = clock_.now();
+    frame.at = std::max(handed_back_at_, clock_.ago(age));
     note_heard(frame.at);
     const bool is_packet = size > 0 && static_cast<std::size_t>(size) <= kMaxCrtpPacket;
     if (is_packet) {
       frame.size = static_cast<std::uint8_t>(size);
       if (!is_null_packet(frame.packet())) {
         ++statistics_.packets_received;
+        handed_back_at_ = frame.at;
         return frame;
       }
     }

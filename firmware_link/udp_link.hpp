@@ -23,7 +23,8 @@ namespace swiftlet {
 /// packets. Nobody listening, a network that is down: kSilent, and it goes on trying.
 ///
 /// Null packets from the vehicle count as hearing it and are not handed back. Datagrams of other sizes are
-/// dropped. receive() and send() do not allocate.
+/// dropped. A frame is stamped with the time at which it reached the machine, however late it is read.
+/// receive() and send() do not allocate.
 class UdpLink final : public Link {
  public:
   /// Looks the name up (this may take seconds); IPv4 where it has both, for the vendor's simulators listen to
@@ -59,7 +60,8 @@ class UdpLink final : public Link {
   int socket_;
   Peer peer_;
   LinkClock& clock_;
-  bool associated_ = false;  // with the peer: a route to it is known
+  HostTime handed_back_at_{};  // stamp of the last frame: they never go back
+  bool associated_ = false;    // with the peer: a route to it is known
   RequestQueue requests_;
   std::optional<HostTime> heard_at_;  // since when it is not silent
   HostTime greets_at_{};              // while silent

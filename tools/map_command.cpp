@@ -111,7 +111,7 @@ Status run_map_command(const MapCommand& command) {
                     .map = pipeline.map(),
                     .input = report,
                     .frontend = pipeline.frontend().counters(),
-                    .times = pipeline.stage_times(),
+                    .timing = pipeline.timing(),
                     .truth = source.ground_truth(),
                     .input_uri = command.input,
                     .sensor = config->sensor.applied_to(source.sensor()),

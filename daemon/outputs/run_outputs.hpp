@@ -13,7 +13,7 @@
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
 #include "daemon/outputs/retired_scans.hpp"
-#include "daemon/stage_times.hpp"
+#include "daemon/run_timing.hpp"
 #include "firmware_link/sample_source.hpp"
 
 namespace swiftlet {
@@ -24,7 +24,7 @@ struct RunView {
   const MapBuilder& map;
   const InputReport& input;
   const FrontendCounters& frontend;
-  std::vector<StageSummary> times;
+  RunTiming timing;
   std::vector<StampedPose> truth;  ///< T_world_body in order of time; empty where nobody knows it
   std::string input_uri;
   SensorModel sensor;                     ///< as used: with the configuration's overrides

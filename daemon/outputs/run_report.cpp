@@ -98,12 +98,32 @@ Json map_json(const MapBuilder& map) {
 Json times_json(const std::vector<StageSummary>& times) {
   Json json = Json::object();
   for (const StageSummary& stage : times)
-    json[stage.name] = {{"count", stage.count},
-                        {"mean_ms", stage.mean_ms},
-                        {"p50_ms", stage.p50_ms},
-                        {"p99_ms", stage.p99_ms},
-                        {"max_ms", stage.max_ms}};
+    json[stage.name] = {{"count", stage.count},   {"mean_ms", stage.mean_ms}, {"p50_ms", stage.p50_ms},
+                        {"p99_ms", stage.p99_ms}, {"p999_ms", stage.p999_ms}, {"max_ms", stage.max_ms}};
   return json;
+}
+
+Json queues_json(const std::vector<QueueStatistics>& queues) {
+  Json json = Json::object();
+  for (const QueueStatistics& queue : queues)
+    json[queue.name] = {
+        {"capacity", queue.capacity}, {"high_water", queue.high_water}, {"refused", queue.refused}};
+  return json;
+}
+
+/// Into the object that ends `text`, a line a stage: people read reports, too.
+void append_histograms(const std::vector<StageBuckets>& stages, std::string& text) {
+  text.erase(text.rfind('}'));
+  text.erase(text.find_last_not_of('\n') + 1);
+  text += ",\n  \"histograms_ns\": {";
+  const char* separator = "\n";
+  for (const StageBuckets& stage : stages) {
+    Json buckets = Json::array();
+    for (const auto& [upper_ns, count] : stage.buckets) buckets.push_back({upper_ns, count});
+    text += separator + ("    \"" + stage.name + "\": ") + buckets.dump();
+    separator = ",\n";
+  }
+  text += "\n  }\n}";
 }
 
 Json error_json(const TrajectoryError& error) {
@@ -124,11 +144,18 @@ std::string run_report_json(const RunView& run) {
                                          {"odometry", error_json(error->odometry)},
                                          {"live", error_json(error->live)},
                                          {"corrected", error_json(error->corrected)}};
-  json["stage_times"] = times_json(run.times);
+  json["stage_times"] = times_json(run.timing.stages);
+  if (!run.timing.queues.empty()) {
+    json["queues"] = queues_json(run.timing.queues);
+    json["pose_deadline"] = {{"ms", to_seconds(run.timing.pose_deadline) * 1e3},
+                             {"missed", run.timing.missed_deadlines}};
+  }
   json["run_peak_memory_mb"] = run.peak_memory_mb;
   json["peak_memory_mb"] = peak_memory_mb();  // with the picture
   // Names of files may hold any bytes: what is not UTF-8 is replaced, not a reason to lose the report.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  append_histograms(run.timing.buckets, text);
+  return text + "\n";
 }
 
 }  // namespace swiftlet

@@ -71,9 +71,11 @@ TEST(ConfigurationFields, HoldEveryFieldOfEverySection) {
   EXPECT_EQ(table_count("map"), field_count<MapConfig>());
   EXPECT_EQ(table_count("publish"), field_count<PublishConfig>());
   EXPECT_EQ(table_count("record"), field_count<RecordConfig>());
+  EXPECT_EQ(table_count("realtime"), field_count<RealtimeConfig>());
   EXPECT_EQ(configuration_fields().size(), table_count("sensor") + table_count("frontend") +
                                                table_count("backend") + table_count("map") +
-                                               table_count("publish") + table_count("record"));
+                                               table_count("publish") + table_count("record") +
+                                               table_count("realtime"));
 }
 
 TEST(ConfigurationFields, NameEachFieldOnce) {

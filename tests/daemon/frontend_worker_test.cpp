@@ -18,7 +18,9 @@ struct Bench {
       : worker(frontend, clock, queues->samples.consumer(), queues->steps.producer(), queues->correction,
                queues->to_publisher.frontend_outlet(), times) {}
 
-  void push(const RangeSample& sample) { ASSERT_TRUE(queues->samples.producer().try_push(sample)); }
+  void push(const RangeSample& sample, MonotonicTime arrived_at = {}) {
+    ASSERT_TRUE(queues->samples.producer().try_push({sample, arrived_at}));
+  }
   PoseUpdate pop_pose() {
     PoseUpdate pose;
     EXPECT_TRUE(queues->to_publisher.poses.consumer().try_pop(pose));
@@ -64,6 +66,13 @@ TEST(FrontendWorker, WaitsForRoomSoThatNoKeyframeIsEverMissing) {
   ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*filler));
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.queues->steps.rejected_count(), 0U);
+}
+
+TEST(FrontendWorker, ThePoseKnowsWhenItsSampleArrived) {
+  Bench bench;
+  bench.push(resting_samples(1).front(), MonotonicTime(std::chrono::seconds(7)));
+  ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+  EXPECT_EQ(bench.pop_pose().arrived_at, MonotonicTime(std::chrono::seconds(7)));
 }
 
 TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {

@@ -176,7 +176,8 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   status.backend.closures_accepted = 3;
   status.map = {.tiles = 5, .version_sum = 50};
   for (QueueStatistics& queue : status.queues) queue = {"samples", 256, 17, 1};
-  status.stages = {{.name = "map", .count = 2, .p99_ms = 1.5}};
+  status.stages = {{.name = "map", .count = 2, .p99_ms = 1.5, .p999_ms = 1.75}};
+  status.missed_deadlines = 6;
   publish([&](LcmPublisher& publisher) { publisher.publish_status(kNow, status); });
   const status_t message = received<status_t>("T_STATUS").at(0);
   EXPECT_EQ(message.state, status_t::STATE_FINISHED);
@@ -198,6 +199,8 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   EXPECT_EQ(message.queues[0].high_water, 17);
   ASSERT_EQ(message.stage_count, 1);
   EXPECT_EQ(message.stages[0].p99, 1.5);
+  EXPECT_EQ(message.stages[0].p999, 1.75);
+  EXPECT_EQ(message.missed_deadlines, 6);
 }
 
 TEST_F(LcmPublisherTest, TheLargestMessagesFitOneDatagramEvenOnTheLongestChannel) {
@@ -242,7 +245,7 @@ TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<map_tile_t>(), 0xfdf7a3453106bfbaU);
   EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x256ce7175baea2abU);
-  EXPECT_EQ(fingerprint<status_t>(), 0xc1d8c517d9ed9805U);
+  EXPECT_EQ(fingerprint<status_t>(), 0x5b42de143042363cU);
 }
 
 }  // namespace

@@ -26,13 +26,16 @@ TEST(Pipeline, TakesEverySampleThroughAllStages) {
   EXPECT_EQ(pipeline.backend().counters().scans, 200U);
   EXPECT_FALSE(pipeline.map().tiles().empty());
   const std::vector<StageSummary> times = pipeline.stage_times();
-  ASSERT_EQ(times.size(), 5U);
+  ASSERT_EQ(times.size(), 6U);
   EXPECT_EQ(times[1].name, "frontend");
   EXPECT_EQ(times[1].count, 200U);
   EXPECT_EQ(times[2].name, "backend");
   EXPECT_EQ(times[2].count, 200U);
   EXPECT_EQ(times[3].name, "final_pass");
   EXPECT_EQ(times[3].count, 1U);
+  EXPECT_EQ(times[5].name, "frame_to_pose");
+  EXPECT_EQ(times[5].count, 0U) << "nobody publishes";
+  EXPECT_TRUE(pipeline.timing().queues.empty());
 }
 
 TEST(Pipeline, TakesOneSampleWithEachStep) {

@@ -25,7 +25,8 @@ struct Bench {
   Bench()
       : worker(quick_refresh(), 0.05, queues->to_publisher.inlet(),
                {.queues = [this] { return queues->statistics(); },
-                .stages = [] { return std::vector<StageSummary>{{.name = "map", .count = 3}}; }},
+                .stages = [] { return std::vector<StageSummary>{{.name = "map", .count = 3}}; },
+                .pose_latency = latency},
                published, clock) {}
 
   void push_tile(std::int32_t x, std::uint32_t version, std::int8_t occupancy_percent = 80) {
@@ -43,6 +44,7 @@ struct Bench {
 
   ManualClock clock;
   RecordingPublisher published;
+  PoseLatency latency{milliseconds(2)};
   std::unique_ptr<PipelineQueues> queues = std::make_unique<PipelineQueues>();
   PublisherWorker worker;
 };
@@ -55,6 +57,21 @@ TEST(PublisherWorker, PublishesEveryPoseAtItsNextTick) {
   bench.ticks(1);
   ASSERT_EQ(bench.published.poses.size(), 5U);
   EXPECT_EQ(bench.published.poses[4].sequence, 4U);
+}
+
+TEST(PublisherWorker, MeasuresEachPoseAgainstTheDeadlineOnceItIsSent) {
+  Bench bench;
+  auto poses = bench.queues->to_publisher.poses.producer();
+  bench.published.on_pose = [&bench] { bench.clock.advance(milliseconds(1)); };
+  ASSERT_TRUE(poses.try_push({.arrived_at = bench.clock.now()}));
+  bench.worker.publish_poses();
+  EXPECT_DOUBLE_EQ(bench.latency.times().summary("").max_ms, 1.0);
+  EXPECT_EQ(bench.latency.missed(), 0U) << "1 ms of 2";
+  ASSERT_TRUE(poses.try_push({.arrived_at = bench.clock.now() - milliseconds(2)}));
+  bench.worker.publish_poses();
+  EXPECT_EQ(bench.latency.missed(), 1U);
+  bench.ticks(251);
+  EXPECT_EQ(bench.published.statuses.back().missed_deadlines, 1U);
 }
 
 TEST(PublisherWorker, SendsChangedTilesAtOnceButNeverMoreThanTheReceiversBufferHolds) {

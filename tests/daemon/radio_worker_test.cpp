@@ -22,9 +22,10 @@ struct Bench {
         worker(source, clock, policy, queue->producer(), InputOutlet{status, events->producer()}, times) {}
 
   std::optional<RangeSample> pop() {
-    RangeSample sample;
-    if (!queue->consumer().try_pop(sample)) return std::nullopt;
-    return sample;
+    HeardSample heard;
+    if (!queue->consumer().try_pop(heard)) return std::nullopt;
+    arrived_at = heard.arrived_at;
+    return heard.sample;
   }
   InputStatus newest_status() {
     InputStatus newest;
@@ -33,6 +34,7 @@ struct Bench {
   }
 
   ManualClock clock;
+  MonotonicTime arrived_at{};  // of the last sample popped
   ScriptedSampleSource source;
   std::unique_ptr<SampleQueue> queue = std::make_unique<SampleQueue>();
   LatestValue<InputStatus> status;
@@ -65,6 +67,27 @@ TEST(RadioWorker, HoldsASampleBackUntilItIsDue) {
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   bench.clock.advance(milliseconds(1));
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+}
+
+TEST(RadioWorker, ARecordedSampleArrivesWhenItIsDue) {
+  Bench bench(resting_samples(2), {.rate = 10.0});
+  EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+  EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
+  bench.clock.advance(milliseconds(10));
+  EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+  ASSERT_TRUE(bench.pop());
+  EXPECT_EQ(bench.arrived_at, MonotonicTime{});
+  ASSERT_TRUE(bench.pop());
+  EXPECT_EQ(bench.arrived_at, MonotonicTime(milliseconds(10)));
+}
+
+TEST(RadioWorker, ASampleHeardAliveArrivedWithItsFrame) {
+  Bench bench(resting_samples(1));
+  bench.source.since_heard_ago = milliseconds(3);
+  bench.clock.advance(milliseconds(50));
+  EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+  ASSERT_TRUE(bench.pop());
+  EXPECT_EQ(bench.arrived_at, MonotonicTime(milliseconds(47)));
 }
 
 TEST(RadioWorker, ARecordingWaitsWhileTheQueueIsFull) {

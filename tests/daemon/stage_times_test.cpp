@@ -32,6 +32,31 @@ TEST(StageHistogram, KnowsMeanAndMaximumExactlyAndPercentilesToAThirtySecond) {
   EXPECT_LE(summary.p50_ms, 0.500 * (1.0 + 1.0 / 32.0));
   EXPECT_GE(summary.p99_ms, 0.990);
   EXPECT_LE(summary.p99_ms, 1.0);
+  EXPECT_GE(summary.p999_ms, 0.999);
+  EXPECT_LE(summary.p999_ms, 1.0);
+}
+
+TEST(StageHistogram, IsWrittenDownByTheBucketsThatHoldAnything) {
+  StageHistogram histogram;
+  histogram.record(Duration(5));
+  histogram.record(Duration(5));
+  histogram.record(milliseconds(3));
+  const StageBuckets written = histogram.buckets("input");
+  EXPECT_EQ(written.name, "input");
+  ASSERT_EQ(written.buckets.size(), 2U);
+  EXPECT_EQ(written.buckets[0].upper_ns, 5U);
+  EXPECT_EQ(written.buckets[0].count, 2U);
+  EXPECT_GE(written.buckets[1].upper_ns, 3'000'000U);
+  EXPECT_LE(written.buckets[1].upper_ns, 3'093'750U);
+  EXPECT_EQ(written.buckets[1].count, 1U);
+}
+
+TEST(PoseLatency, CountsWhatTookLongerThanTheDeadline) {
+  PoseLatency latency(milliseconds(2));
+  latency.record(milliseconds(2));
+  latency.record(milliseconds(2) + Duration(1));
+  EXPECT_EQ(latency.missed(), 1U);
+  EXPECT_EQ(latency.times().summary("").count, 2U);
 }
 
 TEST(StageHistogram, PercentilesHoldFromNanosecondsToMinutes) {

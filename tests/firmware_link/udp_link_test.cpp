@@ -162,6 +162,22 @@ TEST(UdpLink, KeepsNullPacketsAndWrongSizesToItself) {
   EXPECT_EQ(pair.link->statistics().packets_received, 1U);
 }
 
+TEST(UdpLink, StampsAFrameWithTheTimeItCameHoweverLateItIsRead) {
+  SystemLinkClock clock;
+  UdpPeer peer;
+  const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
+  EXPECT_FALSE(link->receive(Duration::zero()).ok());
+  EXPECT_TRUE(peer.hear(kPatienceMs).has_value());
+  std::this_thread::sleep_for(milliseconds(60));  // the kernel may take a while until it stamps what comes
+  peer.say(hex("52 01 00 00 00"));
+  const HostTime said_at = clock.now();
+  std::this_thread::sleep_for(milliseconds(60));
+  const Result<LinkFrame> frame = link->receive(milliseconds(kPatienceMs));
+  ASSERT_TRUE(frame.ok());
+  EXPECT_GE(clock.now() - frame->at, milliseconds(50));
+  EXPECT_LT(frame->at - said_at, milliseconds(10));
+}
+
 TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndComesBack) {
   Pair pair;
   pair.connect();

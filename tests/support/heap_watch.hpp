@@ -54,6 +54,9 @@ class WatchfulClock final : public Clock {
     return clock_.now();
   }
   void sleep_until(MonotonicTime wake_at) override { clock_.sleep_until(wake_at); }
+  void wait_for(Bell& bell, std::uint32_t heard, MonotonicTime wake_at) override {
+    clock_.wait_for(bell, heard, wake_at);
+  }
   [[nodiscard]] const HeapSpan& span() const { return span_; }
 
  private:

@@ -34,6 +34,9 @@ class ScriptedSampleSource final : public SampleSource {
     return static_cast<double>(next_) / static_cast<double>(samples_.size());
   }
 
+  [[nodiscard]] Duration since_heard() const override { return since_heard_ago; }
+
+  Duration since_heard_ago{};
   LiveStatus live;
   std::optional<VehicleEvent> event;
 

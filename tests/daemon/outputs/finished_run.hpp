@@ -28,7 +28,7 @@ struct FinishedRun {
             .map = map,
             .input = input,
             .frontend = frontend,
-            .times = {{"frontend", 81, 0.1, 0.09, 0.4, 0.5}},
+            .timing = timing,
             .truth = with_truth ? truth : std::vector<StampedPose>{},
             .input_uri = "sim://room",
             .sensor = SensorModel::crazyflie(),
@@ -38,6 +38,19 @@ struct FinishedRun {
   Backend backend{without_loops(), SensorModel::crazyflie(), BeamLayout::multiranger()};
   MapBuilder map{MapConfig{}, SensorModel::crazyflie()};
   InputReport input;
+  RunTiming timing{
+      .stages = {{.name = "frontend",
+                  .count = 81,
+                  .mean_ms = 0.1,
+                  .p50_ms = 0.09,
+                  .p99_ms = 0.4,
+                  .p999_ms = 0.45,
+                  .max_ms = 0.5}},
+      .buckets = {{.name = "frontend",
+                   .buckets = {{.upper_ns = 90'111, .count = 80}, {.upper_ns = 507'903, .count = 1}}}},
+      .queues = {},
+      .pose_deadline = std::chrono::milliseconds(2),
+      .missed_deadlines = 0};
   FrontendCounters frontend;
   std::vector<StampedPose> truth;
 };

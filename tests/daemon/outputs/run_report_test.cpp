@@ -31,9 +31,22 @@ TEST(RunReport, TellsWhatCameInAndWhatWasMadeOfIt) {
   EXPECT_NEAR(report["trajectory"]["odometry_length_m"].get<double>(), 8.0, 1e-9);
   EXPECT_GT(report["map"]["tiles"], 0);
   EXPECT_EQ(report["stage_times"]["frontend"]["p99_ms"], 0.4);
+  EXPECT_EQ(report["stage_times"]["frontend"]["p999_ms"], 0.45);
+  EXPECT_EQ(report["histograms_ns"]["frontend"], json({{90'111, 80}, {507'903, 1}}));
+  EXPECT_FALSE(report.contains("queues")) << "nobody published";
   EXPECT_EQ(report["run_peak_memory_mb"], 12.5);
   EXPECT_GT(report["peak_memory_mb"].get<double>(), 1.0);
   EXPECT_FALSE(report.contains("absolute_trajectory_error"));
+}
+
+TEST(RunReport, TellsOfQueuesAndDeadlinesWhereSomebodyPublished) {
+  FinishedRun run;
+  run.timing.queues = {{.name = "poses", .capacity = 256, .high_water = 3, .refused = 1}};
+  run.timing.missed_deadlines = 5;
+  const json report = json::parse(run_report_json(run.view(false)));
+  EXPECT_EQ(report["queues"]["poses"]["high_water"], 3);
+  EXPECT_EQ(report["queues"]["poses"]["refused"], 1);
+  EXPECT_EQ(report["pose_deadline"], json({{"ms", 2.0}, {"missed", 5}}));
 }
 
 TEST(RunReport, GivesTheErrorWhereTheTruthIsKnown) {

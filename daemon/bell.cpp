@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/bell.hpp"
+
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <climits>
+#include <ctime>
+
+namespace swiftlet {
+namespace {
+
+static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t), "the kernel looks at the number");
+
+/// steady_clock is CLOCK_MONOTONIC, which this operation takes for absolute times.
+timespec at(std::chrono::steady_clock::time_point time) {
+  const auto since_boot = time.time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since_boot);
+  return {.tv_sec = seconds.count(), .tv_nsec = std::chrono::nanoseconds(since_boot - seconds).count()};
+}
+
+}  // namespace
+
+void Bell::ring() noexcept {
+  strokes_.fetch_add(1, std::memory_order_seq_cst);
+  if (sleepers_.load(std::memory_order_seq_cst) > 0)
+    ::syscall(SYS_futex, &strokes_, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
+}
+
+void Bell::wait(std::uint32_t heard, std::optional<std::chrono::steady_clock::time_point> wake_at) noexcept {
+  const timespec limit = wake_at ? at(*wake_at) : timespec{};
+  sleepers_.fetch_add(1, std::memory_order_seq_cst);
+  ::syscall(SYS_futex, &strokes_, FUTEX_WAIT_BITSET_PRIVATE, heard, wake_at ? &limit : nullptr, nullptr,
+            FUTEX_BITSET_MATCH_ANY);
+  sleepers_.fetch_sub(1, std::memory_order_seq_cst);
+}
+
+}  // namespace swiftlet
