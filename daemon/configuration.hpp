@@ -53,6 +53,14 @@ struct RecordConfig {
 /// What the daemon asks of the machine so that it keeps time; everything is off unless asked for.
 struct RealtimeConfig {
   double pose_deadline_s = 0.002;  ///< from radio frame to published pose; what takes longer is counted
+  int radio_priority = 0;          ///< SCHED_FIFO, 1 to 99; 0: like any other program
+  int frontend_priority = 0;
+  int publisher_priority = 0;
+  int radio_cpu = -1;  ///< the only processor the thread runs on; -1: any
+  int frontend_cpu = -1;
+  int backend_cpu = -1;
+  int publisher_cpu = -1;
+  bool lock_memory = false;  ///< nothing is ever swapped out or read in again
 };
 
 struct Configuration {

@@ -182,6 +182,17 @@ constexpr ConfigurationField kFields[] = {
     {"realtime", "pose_deadline_s", "s",
      "from the radio frame to the published pose; what takes longer is counted", 0.00001, 10,
      at<&RealtimeConfig::pose_deadline_s>},
+    {"realtime", "radio_priority", "", "SCHED_FIFO priority of the thread; 0: like any other program", 0, 99,
+     at<&RealtimeConfig::radio_priority>},
+    {"realtime", "frontend_priority", "", "the same", 0, 99, at<&RealtimeConfig::frontend_priority>},
+    {"realtime", "publisher_priority", "", "the same", 0, 99, at<&RealtimeConfig::publisher_priority>},
+    {"realtime", "radio_cpu", "", "the only processor the thread runs on; -1: any", -1, 1023,
+     at<&RealtimeConfig::radio_cpu>},
+    {"realtime", "frontend_cpu", "", "the same", -1, 1023, at<&RealtimeConfig::frontend_cpu>},
+    {"realtime", "backend_cpu", "", "the same", -1, 1023, at<&RealtimeConfig::backend_cpu>},
+    {"realtime", "publisher_cpu", "", "the same", -1, 1023, at<&RealtimeConfig::publisher_cpu>},
+    {"realtime", "lock_memory", "", "nothing is ever swapped out or read in again; stacks are touched first",
+     0, 0, at<&RealtimeConfig::lock_memory>},
 };
 
 std::string range_problem(const ConfigurationField& field, double value) {

@@ -3,14 +3,17 @@
 #include "daemon/daemon.hpp"
 
 #include <pthread.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <thread>
 
 #include "daemon/backend_worker.hpp"
 #include "daemon/frontend_worker.hpp"
 #include "daemon/pipeline_queues.hpp"
+#include "daemon/thread_setup.hpp"
 
 namespace swiftlet {
 namespace {
@@ -20,20 +23,28 @@ using std::chrono::milliseconds;
 constexpr MonotonicTime::duration kRoomWait = milliseconds(1);   // before looking again at a full queue
 constexpr MonotonicTime::duration kStopWait = milliseconds(20);  // the longest a stop goes unnoticed
 
-/// A thread that carries `name` (at most 15 characters) and runs `work`.
-template <typename Work>
-std::jthread named_thread(const char* name, Work work) {
-  return std::jthread([name, work] {
-    pthread_setname_np(pthread_self(), name);
-    work();
-  });
-}
+/// Asks for all of it, and says in one line what was refused.
+class RealtimeRequest {
+ public:
+  void ask(const Status& answer, const std::string& of) {
+    if (!answer) refused_ += (refused_.empty() ? "" : "; ") + of + answer.error().message;
+  }
+  void tell() const {
+    if (!refused_.empty())
+      spdlog::warn("real time: not granted: {}; runs on without, docs/real_time.md says what to permit",
+                   refused_);
+  }
+
+ private:
+  std::string refused_;
+};
 
 }  // namespace
 
 Daemon::Daemon(const Configuration& config, SampleSource& source, Clock& clock, const InputPolicy& policy,
                Publisher& publisher)
-    : clock_(clock),
+    : realtime_(config.realtime),
+      clock_(clock),
       pipeline_(config, source, clock, policy),
       publisher_worker_(config.publish, config.map.resolution_m, pipeline_.queues().to_publisher.inlet(),
                         {.queues = [this] { return pipeline_.queues().statistics(); },
@@ -42,14 +53,34 @@ Daemon::Daemon(const Configuration& config, SampleSource& source, Clock& clock, 
                         publisher, clock) {}
 
 Status Daemon::run(const std::stop_token& stop) {
+  RealtimeRequest request;
+  if (realtime_.lock_memory) request.ask(lock_memory(), "");
   {
-    const std::jthread publisher = named_thread("publisher", [this] { run_publisher(); });
-    const std::jthread backend = named_thread("backend", [this] { run_to_end(pipeline_.backend_worker()); });
-    const std::jthread frontend =
-        named_thread("frontend", [this] { run_to_end(pipeline_.frontend_worker()); });
-    const std::jthread radio = named_thread("radio", [this, &stop] { run_radio(stop); });
+    std::jthread publisher = thread("publisher", [this] { run_publisher(); });
+    std::jthread backend = thread("backend", [this] { run_to_end(pipeline_.backend_worker()); });
+    std::jthread frontend = thread("frontend", [this] { run_to_end(pipeline_.frontend_worker()); });
+    std::jthread radio = thread("radio", [this, &stop] { run_radio(stop); });
+    request.ask(
+        set_up_thread(publisher.native_handle(), {realtime_.publisher_priority, realtime_.publisher_cpu}),
+        "publisher: ");
+    request.ask(set_up_thread(backend.native_handle(), {0, realtime_.backend_cpu}), "backend: ");
+    request.ask(
+        set_up_thread(frontend.native_handle(), {realtime_.frontend_priority, realtime_.frontend_cpu}),
+        "frontend: ");
+    request.ask(set_up_thread(radio.native_handle(), {realtime_.radio_priority, realtime_.radio_cpu}),
+                "radio: ");
+    request.tell();
   }  // joined in the order of the data's way
   return pipeline_.outcome();
+}
+
+template <typename Work>
+std::jthread Daemon::thread(const char* name, Work work) const {
+  return std::jthread([name, work, touches_stack = realtime_.lock_memory] {
+    pthread_setname_np(pthread_self(), name);
+    if (touches_stack) prefault_stack();
+    work();
+  });
 }
 
 void Daemon::run_radio(const std::stop_token& stop) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stop_token>
+#include <thread>
 
 #include "core/base/result.hpp"
 #include "daemon/clock.hpp"
@@ -33,10 +34,14 @@ class Daemon {
   [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
 
  private:
+  RealtimeConfig realtime_;
   Clock& clock_;
   Pipeline pipeline_;
   PublisherWorker publisher_worker_;
 
+  /// A thread that carries `name` (at most 15 characters) and runs `work`.
+  template <typename Work>
+  std::jthread thread(const char* name, Work work) const;
   void run_radio(const std::stop_token& stop);
   template <typename Worker>
   void run_to_end(Worker& worker);

@@ -203,6 +203,22 @@ def killed_while_recording_it_loses_no_more_than_a_second(bench):
     expect(len(kept) >= 30, f"{len(kept)} samples of 4 s at 10 Hz")  # 1 s less, and not a tenth more
 
 
+def what_real_time_needs_and_may_not_have_is_one_warning(bench):
+    config = bench.folder / "realtime.toml"
+    config.write_text("[realtime]\nradio_priority = 70\nfrontend_priority = 60\npublisher_priority = 50\n"
+                      "publisher_cpu = 1023\nlock_memory = true\n", encoding="utf-8")
+    no_privilege = ["unshare", "--user", "--", "sh", "-c", 'ulimit -r 0 -l 64; exec "$@"', "sh"]
+    if subprocess.run([*no_privilege, "true"], capture_output=True, check=False).returncode != 0:
+        raise Skipped("user namespaces are not permitted here")
+    done = subprocess.run([*no_privilege, bench.swiftletd, "--input", "sim://loop?seed=1", "--rate", "1000", "--config",
+                           str(config), "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"],
+                          stderr=subprocess.PIPE, timeout=TIMEOUT_S, check=False)
+    lines = [line for line in done.stderr.decode().splitlines() if "real time" in line]
+    expect(done.returncode == 0 and len(lines) == 1, done.stderr.decode())
+    for part in ("locked memory", "radio: SCHED_FIFO priority 70", "frontend: ", "publisher: processor 1023"):
+        expect(part in lines[0], lines[0])
+
+
 def an_existing_recording_is_not_overwritten(bench):
     recording = bench.folder / "flight.pcap"
     recording.write_text("mine", encoding="utf-8")

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <pthread.h>
+
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+// All that is asked of the system for the sake of time. Each may be refused; the daemon then runs on without.
+
+struct ThreadSetup {
+  int fifo_priority = 0;  ///< SCHED_FIFO, 1 to 99; 0: scheduled like any other program
+  int cpu = -1;           ///< the only processor it runs on; -1: any
+};
+
+/// Of a running thread, by any other. Error: kInvalidInput: refused; says what and why in a few words.
+[[nodiscard]] Status set_up_thread(pthread_t thread, const ThreadSetup& setup);
+
+/// What is mapped now is read in and stays in memory, what comes later stays once it is touched. Error: as
+/// above.
+[[nodiscard]] Status lock_memory();
+
+/// Touches the next 256 kB of the calling thread's stack, several times what radio, frontend and publisher
+/// need, so that no page of it is missing later.
+void prefault_stack() noexcept;
+
+}  // namespace swiftlet
