@@ -70,6 +70,7 @@ Status Daemon::run(const std::stop_token& stop) {
     request.ask(set_up_thread(radio.native_handle(), {realtime_.radio_priority, realtime_.radio_cpu}),
                 "radio: ");
     request.tell();
+    if (service_) service_->begin();
   }  // joined in the order of the data's way
   return pipeline_.outcome();
 }
@@ -87,13 +88,14 @@ void Daemon::run_radio(const std::stop_token& stop) {
   RadioWorker& worker = pipeline_.radio_worker();
   while (!stop.stop_requested()) {
     const StepResult result = worker.step();
-    if (result == StepResult::kFinished) return;
+    if (result == StepResult::kFinished) break;
     if (result == StepResult::kProgress) continue;
     const MonotonicTime now = clock_.now();
     const bool until_due = result == StepResult::kIdle && worker.due() > now + kRoomWait;
     clock_.sleep_until(until_due ? std::min(worker.due(), now + kStopWait) : now + kRoomWait);
   }
   worker.end_input();
+  input_is_over_ = true;
 }
 
 template <typename Worker>
@@ -116,6 +118,11 @@ void Daemon::run_to_end(Worker& worker) {
 
 void Daemon::run_publisher() {
   while (publisher_worker_.step() != StepResult::kFinished) {
+    if (service_)
+      service_->look(clock_.now(), {.radio_steps = pipeline_.radio_worker().steps(),
+                                    .input_is_over = input_is_over_,
+                                    .statuses = publisher_worker_.statuses(),
+                                    .status = publisher_worker_.status()});
     const MonotonicTime next_tick = clock_.now() + PublisherWorker::kTick;
     while (publisher_worker_.wait_for_poses(clock_, next_tick)) publisher_worker_.publish_poses();
   }

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <atomic>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -12,6 +14,7 @@
 #include "daemon/publisher.hpp"
 #include "daemon/publisher_worker.hpp"
 #include "daemon/radio_worker.hpp"
+#include "daemon/service_watch.hpp"
 #include "firmware_link/sample_source.hpp"
 
 namespace swiftlet {
@@ -25,6 +28,9 @@ class Daemon {
 
   /// As Pipeline::keep_retired(). Before run().
   void keep_retired(RetiredScans& retired) { pipeline_.keep_retired(retired); }
+  /// The service manager hears of readiness, progress and the end, if there is one. Before run(); must
+  /// outlive the daemon.
+  void report_to(const ServiceManager& manager) { service_.emplace(manager, clock_.now()); }
 
   /// Runs until the input ends or `stop` is requested; then what has been taken in is worked off, the final
   /// pass runs and everything is published. Call once. Errors: whatever ended the input before its time.
@@ -38,6 +44,8 @@ class Daemon {
   Clock& clock_;
   Pipeline pipeline_;
   PublisherWorker publisher_worker_;
+  std::optional<ServiceWatch> service_;
+  std::atomic<bool> input_is_over_{false};
 
   /// A thread that carries `name` (at most 15 characters) and runs `work`.
   template <typename Work>

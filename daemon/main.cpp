@@ -16,11 +16,13 @@
 #include "daemon/configuration_fields.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/log_file.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/retired_scans.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/recorder.hpp"
 #include "daemon/recording_plan.hpp"
+#include "daemon/service_manager.hpp"
 #include "daemon/signal_watcher.hpp"
 #include "firmware_link/input_uri.hpp"
 
@@ -36,6 +38,7 @@ struct Options {
   double rate = 1.0;
   std::optional<int> beams;
   std::string output_directory;
+  std::string log_file;
   RecordingWish record;
   bool print_reference = false;
   bool verbose = false;
@@ -63,6 +66,8 @@ void declare(CLI::App& app, Options& options) {
           ->type_name("[FILE]")
           ->expected(0, 1);
   app.add_flag("--no-record", options.record.refused, "record nothing")->excludes(record);
+  app.add_option("--log-file", options.log_file,
+                 "log there, not to stderr; SIGHUP opens it anew, for whoever rotates logs");
   app.add_flag("-v,--verbose", options.verbose, "log each status");
   app.add_flag("--print-configuration-reference", options.print_reference,
                "write docs/configuration.md and exit");
@@ -108,6 +113,17 @@ Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const C
   return open_sample_source(options.input_uri, source);
 }
 
+/// nullptr: the log goes to stderr.
+Result<std::unique_ptr<LogFile>> open_log(const Options& options) {
+  if (options.log_file.empty()) return std::unique_ptr<LogFile>();
+  return LogFile::open(options.log_file);
+}
+
+SignalWatcher watch_signals(LogFile* log) {
+  if (log == nullptr) return SignalWatcher();
+  return SignalWatcher([log] { log->reopen(); });
+}
+
 /// A live link keeps its own pace and cannot be asked to wait.
 InputPolicy input_policy(const Options& options, const SampleSource& source) {
   if (source.is_live()) return {.rate = {}, .refuses_when_full = true};
@@ -135,6 +151,15 @@ int tell_problems(const Options& options, const Daemon& daemon, const InputRepor
   if (daemon.pipeline().backend().scans().size() == 0 && exit_code == 0)
     exit_code = refuse(options.input_uri + ": held no usable sample");
   return exit_code;
+}
+
+/// Before the flight, so that it does not end at a closed door.
+Result<std::optional<RetiredScans>> prepare_outputs(const Options& options) {
+  if (options.output_directory.empty()) return std::optional<RetiredScans>();
+  if (Status ready = prepare_output_directory(options.output_directory); !ready) return ready.error();
+  Result<RetiredScans> retired = RetiredScans::open(options.output_directory);
+  if (!retired) return retired.error();
+  return std::optional<RetiredScans>(std::move(retired).value());
 }
 
 Status write_outputs(const Options& options, const Configuration& config, const Daemon& daemon,
@@ -165,17 +190,11 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
-  if (!options.output_directory.empty()) {
-    const Status ready = prepare_output_directory(options.output_directory);
-    if (!ready) return refuse(ready.error().message);
-  }
-  std::optional<RetiredScans> retired;
-  if (!options.output_directory.empty()) {
-    Result<RetiredScans> opened = RetiredScans::open(options.output_directory);
-    if (!opened) return refuse(opened.error().message);
-    retired = std::move(opened).value();
-  }
-  const SignalWatcher signals;  // before the threads, libusb's too
+  Result<std::optional<RetiredScans>> retired = prepare_outputs(options);
+  if (!retired) return refuse(retired.error().message);
+  const Result<std::unique_ptr<LogFile>> log = open_log(options);
+  if (!log) return refuse(log.error().message);
+  const SignalWatcher signals = watch_signals(log->get());  // before the threads, libusb's too
   const Result<std::unique_ptr<Recorder>> recorder = open_recorder(options, *config);
   if (!recorder) return refuse(recorder.error().message);
   const Result<std::unique_ptr<SampleSource>> source =
@@ -187,14 +206,16 @@ int run(const Options& options) {
 
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
-  if (retired) daemon.keep_retired(*retired);
+  if (*retired) daemon.keep_retired(**retired);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
+  const ServiceManager service_manager;
+  daemon.report_to(service_manager);
   const Status outcome = run_recorded(daemon, recorder->get(), signals.token());
   if (signals.token().stop_requested()) spdlog::info("stopped by a signal");
   const BackendCounters& counters = daemon.pipeline().backend().counters();
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
-  const Status written = write_outputs(options, *config, daemon, **source, retired ? &*retired : nullptr);
+  const Status written = write_outputs(options, *config, daemon, **source, *retired ? &**retired : nullptr);
   // A live vehicle's notes are the events that were told when they happened.
   const InputReport& report = (*source)->report();
   const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;

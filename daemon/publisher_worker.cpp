@@ -50,7 +50,7 @@ StepResult PublisherWorker::step() {
   refresh_tiles(kTilesPerStep - taken, now);
   last_step_ = now;
   publish_poses();  // tiles take their time
-  if (!summary_sent_ || now - last_summary_ >= from_seconds(config_.status_period_s)) publish_summary(now);
+  if (statuses_ == 0 || now - last_summary_ >= from_seconds(config_.status_period_s)) publish_summary(now);
   if (is_last && taken == 0) {
     is_closing_ = true;
     final_tiles_left_ = tiles_.size();
@@ -154,7 +154,7 @@ void PublisherWorker::publish_summary(MonotonicTime now) {
   log_changes(before, status_);
   poses_since_summary_ = 0;
   last_summary_ = now;
-  summary_sent_ = true;
+  ++statuses_;
 }
 
 MapSummary PublisherWorker::map_summary() const {

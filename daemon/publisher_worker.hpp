@@ -49,6 +49,9 @@ class PublisherWorker {
     return inlet_.poses.wait_until(clock, wake_at);
   }
   void publish_poses();
+  /// The newest that was published, and how many were.
+  [[nodiscard]] const DaemonStatus& status() const { return status_; }
+  [[nodiscard]] std::uint64_t statuses() const { return statuses_; }
 
  private:
   PublishConfig config_;
@@ -72,7 +75,7 @@ class PublisherWorker {
 
   MonotonicTime last_step_;
   MonotonicTime last_summary_;
-  bool summary_sent_ = false;
+  std::uint64_t statuses_ = 0;
   std::uint64_t poses_since_summary_ = 0;
   double refresh_due_ = 0.0;    // tiles to be sent again by now
   TileIndex last_refreshed_{};  // round-robin in the order of the index

@@ -18,6 +18,7 @@ RadioWorker::RadioWorker(SampleSource& source, const Clock& clock, const InputPo
 }
 
 StepResult RadioWorker::step() {
+  steps_.fetch_add(1, std::memory_order_relaxed);
   if (ended_) return StepResult::kFinished;
   if (!policy_.refuses_when_full && !samples_.has_room()) return StepResult::kBlocked;
   if (!held_ && !fetch()) return ended_ ? StepResult::kFinished : StepResult::kIdle;

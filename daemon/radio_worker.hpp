@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <optional>
 
 #include "core/base/result.hpp"
@@ -33,6 +35,8 @@ class RadioWorker {
 
   /// kProgress: one sample handed on (or refused). kIdle: none due before due(), or the link was silent.
   StepResult step();
+  /// How often step() was called: stands still when it hangs. Any thread.
+  [[nodiscard]] std::uint64_t steps() const { return steps_.load(std::memory_order_relaxed); }
   /// When the next sample is due; now or earlier when none is held back.
   [[nodiscard]] MonotonicTime due() const { return due_; }
   /// Takes no further samples, as if the input had ended here.
@@ -52,6 +56,7 @@ class RadioWorker {
   MonotonicTime due_{};
   bool break_pending_ = false;  // a refused sample began a segment: the next one handed on must say so
   bool ended_ = false;
+  std::atomic<std::uint64_t> steps_{0};
   Status outcome_;
 
   bool fetch();

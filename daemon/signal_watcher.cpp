@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <string_view>
+#include <utility>
 
 namespace swiftlet {
 namespace {
@@ -21,10 +22,11 @@ constexpr std::string_view kFarewell = "ended at once by a second signal: what w
 
 }  // namespace
 
-SignalWatcher::SignalWatcher() {
+SignalWatcher::SignalWatcher(std::function<void()> on_hangup) : on_hangup_(std::move(on_hangup)) {
   sigemptyset(&watched_);
   sigaddset(&watched_, SIGINT);
   sigaddset(&watched_, SIGTERM);
+  if (on_hangup_) sigaddset(&watched_, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &watched_, &previous_);
   thread_ = std::jthread([this](const std::stop_token& over) { watch(over); });
 }
@@ -41,7 +43,9 @@ void SignalWatcher::watch(const std::stop_token& over) {
   while (!over.stop_requested()) {
     const int signal = sigtimedwait(&watched_, nullptr, &kLookEvery);
     if (signal < 0) continue;
-    if (!signalled_.stop_requested()) {
+    if (signal == SIGHUP) {
+      on_hangup_();
+    } else if (!signalled_.stop_requested()) {
       asked_at = steady_clock::now();
       signalled_.request_stop();
     } else if (steady_clock::now() - asked_at > kSameRequest) {

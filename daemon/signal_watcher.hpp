@@ -3,18 +3,20 @@
 #pragma once
 
 #include <csignal>
+#include <functional>
 #include <stop_token>
 #include <thread>
 
 namespace swiftlet {
 
-/// Turns the first SIGINT or SIGTERM into a request to stop. A second one, unless it comes within a second
-/// (timeout(1) and some terminals send each twice), ends the program at once, as it would have without the
-/// watcher, and with a line on stderr. Make it before any other thread: it blocks both signals in the calling
-/// thread, and threads inherit that.
+/// Turns SIGHUP into a call, where one is given, and the first SIGINT or SIGTERM into a request to stop. A
+/// second one, unless it comes within a second (timeout(1) and some terminals send each twice), ends the
+/// program at once, as it would have without the watcher, and with a line on stderr. Make it before any other
+/// thread: it blocks the signals in the calling thread, and threads inherit that.
 class SignalWatcher {
  public:
-  SignalWatcher();
+  /// `on_hangup` is called by the watcher's own thread; without it SIGHUP does what it always does.
+  explicit SignalWatcher(std::function<void()> on_hangup = {});
   ~SignalWatcher();
   SignalWatcher(const SignalWatcher&) = delete;
   SignalWatcher& operator=(const SignalWatcher&) = delete;
@@ -25,6 +27,7 @@ class SignalWatcher {
  private:
   sigset_t watched_{};
   sigset_t previous_{};
+  std::function<void()> on_hangup_;
   std::stop_source signalled_;
   std::jthread thread_;
 

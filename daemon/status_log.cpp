@@ -36,6 +36,13 @@ std::string link_text(const DaemonStatus& status) {
 
 }  // namespace
 
+std::string status_text(const DaemonStatus& status) {
+  return fmt::format("{} samples ({:.1f} Hz), {} keyframes, {} submaps, {} closures, {} tiles{}",
+                     status.input.samples, status.sample_rate_hz, status.frontend.keyframes,
+                     status.backend.submaps, status.backend.closures_accepted, status.map.tiles,
+                     link_text(status));
+}
+
 void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   log_link(before.input.live.link, now.input.live.link);
   warn_if_grown("input: holes in the ranges", before.input.gaps, now.input.gaps);
@@ -51,9 +58,7 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
     if (now.queues[i].refused > before.queues[i].refused)
       spdlog::warn("queue of {}: full, {} refused in all", now.queues[i].name, now.queues[i].refused);
   }
-  spdlog::debug("{} samples ({:.1f} Hz), {} keyframes, {} submaps, {} closures, {} tiles{}",
-                now.input.samples, now.sample_rate_hz, now.frontend.keyframes, now.backend.submaps,
-                now.backend.closures_accepted, now.map.tiles, link_text(now));
+  spdlog::debug("{}", status_text(now));
 }
 
 void log_event(const VehicleEvent& event) {

@@ -32,6 +32,7 @@ ONE_FILE_ONLY = {
     "libusb": re.compile(r"^libusb(-1\.0/libusb)?\.h$"),
     "CHOLMOD": re.compile(r"(^|/)cholmod\.h$"),
     "LCM": re.compile(r"^lcm/lcm"),
+    "libsystemd": re.compile(r"^systemd/"),
 }
 NOT_IN_CORE = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "fstream", "iostream", "filesystem"}
 ASKS_FOR_THE_TIME = re.compile(r"\bnow\s*\(\s*\)")

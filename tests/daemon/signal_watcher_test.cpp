@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 
 namespace swiftlet {
@@ -27,6 +28,15 @@ TEST(SignalWatcher, TurnsEitherSignalIntoARequestToStop) {
     ASSERT_EQ(kill(getpid(), signal), 0);
     EXPECT_TRUE(is_requested_soon(watcher.token())) << signal;
   }
+}
+
+TEST(SignalWatcher, AHangupIsACallAndNoRequestToStop) {
+  std::atomic<int> calls{0};
+  const SignalWatcher watcher([&calls] { ++calls; });
+  ASSERT_EQ(kill(getpid(), SIGHUP), 0);
+  for (int i = 0; i < 500 && calls == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(calls, 1);
+  EXPECT_FALSE(watcher.token().stop_requested());
 }
 
 TEST(SignalWatcher, ASignalThatArrivesTwiceIsOneRequest) {

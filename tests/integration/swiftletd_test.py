@@ -203,6 +203,26 @@ def killed_while_recording_it_loses_no_more_than_a_second(bench):
     expect(len(kept) >= 30, f"{len(kept)} samples of 4 s at 10 Hz")  # 1 s less, and not a tenth more
 
 
+def sighup_opens_the_log_file_anew(bench):
+    log, moved = bench.folder / "swiftletd.log", bench.folder / "swiftletd.log.1"
+    with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "5", "--log-file", str(log),
+                           "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
+        until = time.monotonic() + 60.0
+        while not log.exists() or "publishing on" not in log.read_text(encoding="utf-8"):
+            expect(daemon.poll() is None and time.monotonic() < until, "nothing was logged")
+            time.sleep(0.01)
+        log.rename(moved)
+        daemon.send_signal(signal.SIGHUP)
+        while not log.exists():
+            expect(daemon.poll() is None and time.monotonic() < until, "no new log file")
+            time.sleep(0.01)
+        time.sleep(1.0)  # some samples
+        daemon.send_signal(signal.SIGINT)
+        _, said = daemon.communicate(timeout=60)
+    expect(daemon.returncode == 0 and not said, f"{daemon.returncode}: {said.decode()}")
+    expect("stopped by a signal" in log.read_text(encoding="utf-8"), "the log went on in the old file")
+
+
 def what_real_time_needs_and_may_not_have_is_one_warning(bench):
     config = bench.folder / "realtime.toml"
     config.write_text("[realtime]\nradio_priority = 70\nfrontend_priority = 60\npublisher_priority = 50\n"

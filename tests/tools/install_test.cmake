@@ -9,6 +9,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} O
 foreach(file
     bin/swiftlet
     bin/swiftletd
+    lib/systemd/system/swiftletd.service
     lib/udev/rules.d/70-swiftlet-crazyflie.rules
     share/swiftlet/60-swiftlet-lcm.conf
     share/swiftlet/swiftletd.toml
