@@ -9,11 +9,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <lcm/lcm-cpp.hpp>
-#include <string_view>
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "daemon/lcm_transport.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_info_t.hpp"
@@ -167,18 +166,11 @@ std::int8_t state_code(DaemonState state) {
   return status_t::STATE_FINISHED;
 }
 
-/// LCM itself answers an unknown provider with two lines on stderr and no reason.
-bool has_known_provider(std::string_view url) {
-  constexpr std::array<std::string_view, 4> kProviders{"udpm://", "file://", "tcpq://", "memq://"};
-  return std::any_of(kProviders.begin(), kProviders.end(),
-                     [&](std::string_view provider) { return url.substr(0, provider.size()) == provider; });
-}
-
 }  // namespace
 
 struct LcmPublisher::State {
-  State(const std::string& url, const std::string& prefix, std::int64_t id)
-      : lcm(url),
+  State(std::unique_ptr<LcmTransport> transport, const std::string& prefix, std::int64_t id)
+      : lcm(std::move(transport)),
         map_id(id),
         pose_map(prefix + "POSE"),
         pose_local(prefix + "POSE_LOCAL"),
@@ -191,7 +183,7 @@ struct LcmPublisher::State {
         loop_closure(prefix + "LOOP_CLOSURE"),
         status(prefix + "STATUS") {}
 
-  lcm::LCM lcm;
+  std::unique_ptr<LcmTransport> lcm;
   std::int64_t map_id;
   const std::string pose_map, pose_local, pose_odom, pose2d_map, pose2d_odom, map_info, map_tile, landmarks,
       loop_closure, status;
@@ -209,7 +201,7 @@ struct LcmPublisher::State {
         kMaxMessageBytes - channel.size() - 1;  // the datagram also holds the channel's name
     const int bytes = message.encode(buffer.data(), 0, static_cast<int>(room));
     SWIFTLET_CHECK(bytes > 0, "a message fits one datagram by construction");
-    if (lcm.publish(channel, buffer.data(), static_cast<unsigned>(bytes)) == 0) return;
+    if (lcm->publish(channel, std::span(buffer).first(static_cast<std::size_t>(bytes)))) return;
     if (failures++ == 0) spdlog::error("LCM did not take a message on {}: {}", channel, std::strerror(errno));
   }
 
@@ -232,13 +224,9 @@ struct LcmPublisher::State {
 Result<std::unique_ptr<LcmPublisher>> LcmPublisher::open(const std::string& url,
                                                          const std::string& channel_prefix,
                                                          std::int64_t map_id) {
-  if (!has_known_provider(url))
-    return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": must begin with udpm://, file://, tcpq:// or memq://"};
-  auto state = std::make_unique<State>(url, channel_prefix, map_id);
-  if (!state->lcm.good())
-    return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": LCM could not open it; swiftlet doctor says why"};
+  Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
+  if (!transport) return transport.error();
+  auto state = std::make_unique<State>(std::move(transport).value(), channel_prefix, map_id);
   return std::unique_ptr<LcmPublisher>(new LcmPublisher(std::move(state)));
 }
 

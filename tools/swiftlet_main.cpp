@@ -13,6 +13,7 @@
 #include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
+#include "tools/latency_command.hpp"
 #include "tools/map_command.hpp"
 #include "tools/record_command.hpp"
 #include "tools/sim_command.hpp"
@@ -32,9 +33,10 @@ int refuse(std::string message) {
 CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
-  map->add_option("INPUT", command.input,
-                  "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors, wings), or a path: "
-                  ".pcap, .clf, .clf.gz")
+  map->add_option(
+         "INPUT", command.input,
+         "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors, wings), or a path: "
+         ".pcap, .clf, .clf.gz")
       ->required();
   map->add_option("-o,--output", command.output_directory, "Directory for the outputs, created where missing")
       ->required();
@@ -129,6 +131,20 @@ CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& comma
   return calibrate;
 }
 
+CLI::App* add_latency_command(CLI::App& app, swiftlet::LatencyCommand& command) {
+  CLI::App* latency = app.add_subcommand(
+      "latency", "Tell how a run kept time: from radio frame to published pose, each stage, each queue");
+  latency->add_option("REPORT", command.report_file, "report.json of a run");
+  latency->add_option("--picture", command.picture_file, "Draw the histograms to this PNG file");
+  latency->add_flag("--listen", command.listen, "Listen to a running swiftletd instead");
+  latency->add_option("--lcm-url", command.lcm_url, "Where it publishes")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
+  latency->add_option("--channel-prefix", command.channel_prefix, "As in its configuration")
+      ->capture_default_str();
+  return latency;
+}
+
 int run_doctor(const swiftlet::DoctorCommand& command) {
   const swiftlet::Result<bool> ready = swiftlet::run_doctor_command(command);
   if (!ready) return refuse(ready.error().message);
@@ -152,6 +168,8 @@ int run(int argc, char** argv) {
   const CLI::App* eval = add_eval_command(app, eval_command);
   swiftlet::CalibrateCommand calibrate_command;
   const CLI::App* calibrate = add_calibrate_command(app, calibrate_command);
+  swiftlet::LatencyCommand latency_command;
+  const CLI::App* latency = add_latency_command(app, latency_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -167,6 +185,7 @@ int run(int argc, char** argv) {
   if (record->parsed()) status = swiftlet::run_record_command(record_command);
   if (eval->parsed()) status = swiftlet::run_eval_command(eval_command);
   if (calibrate->parsed()) status = swiftlet::run_calibrate_command(calibrate_command);
+  if (latency->parsed()) status = swiftlet::run_latency_command(latency_command);
   return status ? 0 : refuse(status.error().message);
 }
 

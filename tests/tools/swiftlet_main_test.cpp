@@ -73,6 +73,19 @@ std::string small_log() {
   return text.str();
 }
 
+TEST_F(SwiftletCommand, LatencyTellsAndDrawsHowARunKeptTime) {
+  write("small.clf", small_log());
+  ASSERT_EQ(run("map {}/small.clf -o {}/out").exit_code, 0);
+  const Outcome told = run("latency {}/out/report.json --picture {}/latency.png");
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, AllOf(HasSubstr("frontend "), HasSubstr("p99.9"), HasSubstr("picture: ")));
+  EXPECT_GT(fs::file_size(file("latency.png")), 1000U);
+  EXPECT_THAT(run("latency"), refuses_with("name a report.json, or --listen"));
+  EXPECT_THAT(run("latency {}/small.clf"), refuses_with("not a report.json"));
+  EXPECT_THAT(run("latency --listen --picture {}/p.png"), refuses_with("a picture needs a report.json"));
+  EXPECT_THAT(run("latency --listen --lcm-url mqtt://here"), refuses_with("mqtt://here"));
+}
+
 TEST_F(SwiftletCommand, HelpAndVersionAreNoErrors) {
   const Outcome help = run("map --help");
   EXPECT_EQ(help.exit_code, 0);
