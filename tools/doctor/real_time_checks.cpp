@@ -12,9 +12,9 @@ namespace {
 
 constexpr unsigned kCapIpcLock = 14;
 constexpr unsigned kCapSysNice = 23;
-constexpr const char* kNotUsed = "; this version of swiftletd runs without";
+constexpr const char* kNotNeeded = "; swiftletd runs without, later under load";
 constexpr const char* kHowToGrant =
-    "to grant it: '@plugdev - rtprio 20' and '@plugdev - memlock 65536' in "
+    "to grant it: '@plugdev - rtprio 80' and '@plugdev - memlock unlimited' in "
     "/etc/security/limits.d/swiftlet.conf, "
     "log in again";
 
@@ -46,7 +46,7 @@ Finding check_priority(const SystemFiles& files) {
     return {Mark::kOk, "real time", "real-time priority granted by CAP_SYS_NICE, " + kernel, ""};
   if (limit != "0")
     return {Mark::kOk, "real time", "real-time priority granted up to " + limit + ", " + kernel, ""};
-  return {Mark::kOk, "real time", "no real-time priority (RLIMIT_RTPRIO 0), " + kernel + kNotUsed,
+  return {Mark::kOk, "real time", "no real-time priority (RLIMIT_RTPRIO 0), " + kernel + kNotNeeded,
           kHowToGrant};
 }
 
