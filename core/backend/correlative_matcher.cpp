@@ -231,6 +231,7 @@ std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
   const std::optional<DiscreteMatch> best = best_by_branch_and_bound(min_score);
   if (!best) return std::nullopt;
   MatchResult result;
+  result.T_submap_scan_best = T_submap_scan(*best);
   result.score = best->score;
   spread_around(*best, result);
   return result;

@@ -23,7 +23,8 @@ struct SearchWindow {
 struct MatchResult {
   Pose2 T_submap_scan;         ///< mean of the likely poses: between the cells where the walls
                                ///< decide, midway of the possible along a bare corridor
-  double score = 0.0;          ///< mean probability under the points, kernel applied, 0..1
+  Pose2 T_submap_scan_best;    ///< the best of the poses searched, always on the walls
+  double score = 0.0;          ///< its mean probability under the points, kernel applied, 0..1
   Eigen::Matrix3d covariance;  ///< of T_submap_scan's vector, from the scores around the optimum, less what
                                ///< the submap's extent alone would say
 };

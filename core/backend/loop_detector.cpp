@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
-#include <utility>
 
 #include "core/backend/correlative_matcher.hpp"
 #include "core/backend/relative_uncertainty.hpp"
+#include "core/backend/reverse_verification.hpp"
 
 namespace swiftlet {
 namespace {
@@ -18,11 +17,6 @@ constexpr double kSigmas = 3.0;  // the window reaches this many standard deviat
 constexpr double kLeastRadiusM =
     0.5;  // ... and never less than this: the constraints' covariances are models
 constexpr double kLeastAngleRad = 0.1;
-// Where motion was not watched the prediction is a guess. Only a match near it means something: in a wide
-// window some other corridor fits.
-constexpr double kGuessSigmaM = 20.0;
-constexpr double kGuessRadiusM = 4.0;
-constexpr double kThinningM = 0.1;  // one point per cell: hovering in place must not outvote the flight
 
 }  // namespace
 
@@ -32,27 +26,13 @@ struct LoopDetector::Candidate {
   double overlap = 0.0;  ///< share of the points that may fall on the submap
 };
 
-std::vector<Point2> LoopDetector::recent_points(KeyframeId query,
-                                                std::span<const Pose2> T_local_keyframe) const {
-  const Pose2 T_query_local = T_local_keyframe[index_of(query)].inverse();
+ScanRange LoopDetector::recent_scans(KeyframeId query) const {
   const ScanIndex newest = chain_->scan_of(query);
   const double from_m = chain_->path_m(query) - config_->multiscan_length_m;
-  std::vector<Point2> points;
-  std::set<std::pair<int, int>> taken;
-  for (ScanIndex i = newest + 1; i-- > 0;) {
-    const StoredScan& scan = (*scans_)[i];
-    if (scan.path_m < from_m) break;
-    const Pose2 T_query_body = T_query_local * chain_->T_w_body(i, T_local_keyframe);
-    for (const ScanReturn& beam : scans_->returns(i)) {
-      if (!beam.is_hit) continue;
-      const Point2 p = T_query_body * scans_->point_body(beam);
-      const std::pair<int, int> cell(static_cast<int>(std::floor(p.x_m / kThinningM)),
-                                     static_cast<int>(std::floor(p.y_m / kThinningM)));
-      if (taken.insert(cell).second) points.push_back(p);
-    }
-    if (scan.starts_segment) break;  // what lies before is not connected by motion
-  }
-  return points;
+  ScanIndex first = newest;
+  // What lies before the start of a segment is not connected by motion.
+  while (first > 0 && !(*scans_)[first].starts_segment && (*scans_)[first - 1].path_m >= from_m) --first;
+  return {first, newest + 1};
 }
 
 std::vector<LoopDetector::Candidate> LoopDetector::candidates(
@@ -72,9 +52,8 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
-    const double widest_m =
-        sigma_m < kGuessSigmaM ? config_->search_radius_m : std::min(kGuessRadiusM, config_->search_radius_m);
-    c.window.radius_m = std::clamp(kSigmas * sigma_m, kLeastRadiusM, std::max(kLeastRadiusM, widest_m));
+    c.window.radius_m =
+        std::clamp(kSigmas * sigma_m, kLeastRadiusM, std::max(kLeastRadiusM, config_->search_radius_m));
     c.window.angle_rad = std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastAngleRad, config_->search_angle_rad);
     std::size_t inside = 0;
     for (const Point2& p : points_query) {
@@ -98,13 +77,16 @@ std::vector<LoopClosure> LoopDetector::find(KeyframeId query,
                                             const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
                                             std::uint64_t& tried) const {
   std::vector<LoopClosure> closures;
-  const std::vector<Point2> points = recent_points(query, T_local_keyframe);
+  const ScanRange recent = recent_scans(query);
+  const std::vector<Point2> points =
+      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[index_of(query)].inverse());
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return closures;
+  ReverseVerification reverse(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
   for (const Candidate& c : candidates(query, points, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
         CorrelativeMatcher(*c.submap, points, c.window).match(config_->min_score);
-    if (!match) continue;
+    if (!match || !reverse.holds(*c.submap, match->T_submap_scan_best)) continue;
     closures.push_back({.from = c.submap->reference,
                         .to = query,
                         .T_from_to = match->T_submap_scan,

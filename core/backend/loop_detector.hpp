@@ -29,8 +29,7 @@ class LoopDetector {
 
  private:
   struct Candidate;
-  [[nodiscard]] std::vector<Point2> recent_points(KeyframeId query,
-                                                  std::span<const Pose2> T_local_keyframe) const;
+  [[nodiscard]] ScanRange recent_scans(KeyframeId query) const;
   [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, std::span<const Point2> points_query,
                                                   std::span<const std::shared_ptr<const Submap>> submaps,
                                                   const PoseGraph& graph) const;
