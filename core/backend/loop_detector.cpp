@@ -17,6 +17,9 @@ constexpr double kSigmas = 3.0;  // the window reaches this many standard deviat
 constexpr double kLeastRadiusM =
     0.5;  // ... and never less than this: the constraints' covariances are models
 constexpr double kLeastAngleRad = 0.1;
+// Of one query. More of the same travel tell little that is new, and where every lap overlaps all those before
+// it they fill the pose graph's factor.
+constexpr std::size_t kMostClosures = 3;
 
 }  // namespace
 
@@ -92,6 +95,7 @@ std::vector<LoopClosure> LoopDetector::find(KeyframeId query,
                         .T_from_to = match->T_submap_scan,
                         .covariance = Covariance3::from_matrix(match->covariance),
                         .score = match->score});
+    if (closures.size() == kMostClosures) break;
   }
   return closures;
 }

@@ -26,7 +26,7 @@ TEST(Pipeline, TakesEverySampleThroughAllStages) {
   EXPECT_EQ(pipeline.backend().counters().scans, 200U);
   EXPECT_FALSE(pipeline.map().tiles().empty());
   const std::vector<StageSummary> times = pipeline.stage_times();
-  ASSERT_EQ(times.size(), 6U);
+  ASSERT_EQ(times.size(), 7U);
   EXPECT_EQ(times[1].name, "frontend");
   EXPECT_EQ(times[1].count, 200U);
   EXPECT_EQ(times[2].name, "backend");
