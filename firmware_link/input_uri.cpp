@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_link/simulated_flight.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -208,8 +210,8 @@ Fault apply_to_simulation(const Parameter& parameter, InputUri& parsed) {
     return std::nullopt;
   }
   if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps");
-  const auto laps = whole_number(parameter.value, 1, 20);
-  if (!laps) return "the laps must be a whole number from 1 to 20";
+  const auto laps = whole_number(parameter.value, 1, kMostLaps);
+  if (!laps) return "the laps must be a whole number from 1 to " + std::to_string(kMostLaps);
   parsed.laps = *laps;
   return std::nullopt;
 }

@@ -21,7 +21,6 @@ constexpr Duration kLinkLost = std::chrono::seconds(30);
 // A vehicle that talks without end, and never of what samples are made of, must not hold the caller.
 constexpr int kMostFramesAtOnce = 64;
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
-constexpr std::size_t kTruthBeyondFlight = 256;  // on the ground before and after
 
 AssemblyConfig assembly_config(const SensorModel& sensor) {
   AssemblyConfig config;
@@ -43,8 +42,6 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
   if (input_.description) session_.describe(*input_.description);
   if (input_.starts_logging) live_.emplace(session_, cache_);
   follow_periods();
-  if (input_.T_world_body_at)
-    truth_.reserve(kTruthBeyondFlight + static_cast<std::size_t>(input_.flight_duration / kUsualPeriod));
 }
 
 Status LinkSampleSource::find_first_sample() {
@@ -64,8 +61,8 @@ Result<RangeSample> LinkSampleSource::next() {
   Result<RangeSample> sample = first_sample_ ? Result<RangeSample>(*first_sample_) : read_sample();
   first_sample_.reset();
   if (sample && live_) live_->see(sample->T_odom_body);
-  if (sample && input_.T_world_body_at)
-    truth_.push_back({sample->stamp, input_.T_world_body_at(sample->measured_at)});
+  if (sample && input_.truth)
+    input_.truth->kept.push_back({sample->stamp, input_.truth->T_world_body_at(sample->measured_at)});
   return sample;
 }
 
@@ -163,6 +160,12 @@ void LinkSampleSource::finish_report() {
   if (unreadable.misfit > 0)
     report_.problems.push_back(input_.name + ": " + std::to_string(unreadable.misfit) +
                                " log packets have another size than their block and were left out");
+  if (input_.truth && !input_.truth->kept.is_complete())
+    report_.notes.push_back("the truth is not known of every sample: the disk of temporary files was full");
+}
+
+std::vector<StampedPose> LinkSampleSource::ground_truth() const {
+  return input_.truth ? input_.truth->kept.read() : std::vector<StampedPose>{};
 }
 
 std::string LinkSampleSource::explain_no_samples() const {

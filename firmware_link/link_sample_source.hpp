@@ -18,6 +18,7 @@
 #include "firmware_link/link_clock.hpp"
 #include "firmware_link/live_session.hpp"
 #include "firmware_link/log_session.hpp"
+#include "firmware_link/pose_file.hpp"
 #include "firmware_link/reading_extractor.hpp"
 #include "firmware_link/sample_assembler.hpp"
 #include "firmware_link/sample_source.hpp"
@@ -26,6 +27,12 @@
 #include "firmware_link/vehicle_event.hpp"
 
 namespace swiftlet {
+
+/// What a simulation knows of its vehicle, and where it is kept for the end.
+struct KnownTruth {
+  std::function<Pose2(DeviceTime)> T_world_body_at;
+  PoseFile kept;
+};
 
 /// What a LinkSampleSource is made of.
 struct LinkInput {
@@ -39,9 +46,8 @@ struct LinkInput {
   FrameSink* recording = nullptr;         ///< hears every frame too; must outlive the source
   std::optional<BlockDescription> description;
   std::vector<std::string> notes;
-  std::function<std::optional<double>()> progress;   ///< may be empty
-  std::function<Pose2(DeviceTime)> T_world_body_at;  ///< where the truth is known; may be empty
-  Duration flight_duration{};  ///< where the truth is known: room is made for so much of it
+  std::function<std::optional<double>()> progress;  ///< may be empty
+  std::optional<KnownTruth> truth;
 };
 
 /// Range samples from a vehicle, live or recorded: link, log session and assembler in one. One thread at a
@@ -66,7 +72,7 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
   /// Warnings that were taken as events become notes, the first of each kind.
   void end() override;
-  [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return truth_; }
+  [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
  private:
   Result<RangeSample> read_sample();
@@ -96,7 +102,6 @@ class LinkSampleSource final : public SampleSource {
   HostTime heard_at_{};  // the last frame from the vehicle
   std::optional<Error> end_;
   std::optional<RangeSample> first_sample_;
-  std::vector<StampedPose> truth_;
 };
 
 }  // namespace swiftlet

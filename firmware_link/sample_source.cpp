@@ -101,8 +101,10 @@ Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, co
   input.starts_logging = true;
   if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
   input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };
-  input.flight_duration = (*link)->flight_duration();
-  input.T_world_body_at = [simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); };
+  Result<PoseFile> truth = PoseFile::open();
+  if (!truth) return truth.error();
+  input.truth.emplace([simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); },
+                      std::move(truth).value());
   input.link = std::move(link).value();
   return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
 }

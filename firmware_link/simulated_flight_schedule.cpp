@@ -5,12 +5,23 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/check.hpp"
-
 namespace swiftlet {
+namespace {
 
-FlightSchedule::FlightSchedule(std::vector<FlightState> states) : states_(std::move(states)) {
-  SWIFTLET_CHECK(states_.size() >= 2, "a flight has a beginning and an end");
+std::size_t steps_of(SimulatedFlight flight) {
+  std::size_t steps = 0;
+  for (; !flight.is_over(); ++steps) flight.step();
+  return steps;
+}
+
+}  // namespace
+
+/// Room for twice what is remembered: who looks ahead must not push out what lies behind.
+FlightSchedule::FlightSchedule(SimulatedFlight flight)
+    : flight_(std::move(flight)),
+      recent_(static_cast<std::size_t>(2 * kRemembered / kFlightStep)),
+      last_(steps_of(flight_)) {
+  recent_[0] = flight_.state();
 }
 
 void FlightSchedule::go(Duration now) {
@@ -26,20 +37,20 @@ bool FlightSchedule::is_at_step(Duration now) const {
 }
 
 double FlightSchedule::progress(Duration at) const {
-  return static_cast<double>(index(at)) / static_cast<double>(states_.size() - 1);
+  return static_cast<double>(index(at)) / static_cast<double>(last_);
 }
 
-FlightState FlightSchedule::state(Duration now) const {
-  if (is_going()) return states_[index(now)];
-  return {.T_world_body = states_[index(now)].T_world_body};
+FlightState FlightSchedule::state(Duration now) {
+  const FlightState& state = state_at(index(now));
+  return is_going() ? state : FlightState{.T_world_body = state.T_world_body};
 }
 
-Pose2 FlightSchedule::T_world_body(Duration at) const {
+Pose2 FlightSchedule::T_world_body(Duration at) {
   const std::size_t i = index(at);
-  const Pose2& before = states_[i].T_world_body;
+  const Pose2 before = state_at(i).T_world_body;
   const Leg* const leg = leg_at(at);
-  if (leg == nullptr || i + 1 == states_.size() || (leg->until && at >= *leg->until)) return before;
-  const Pose2& after = states_[i + 1].T_world_body;
+  if (leg == nullptr || i == last_ || (leg->until && at >= *leg->until)) return before;
+  const Pose2 after = state_at(i + 1).T_world_body;
   const Duration past = at - leg->from - static_cast<std::int64_t>(i - leg->index) * kFlightStep;
   const double share = to_seconds(past) / to_seconds(kFlightStep);
   return {before.x_m() + share * (after.x_m() - before.x_m()),
@@ -51,7 +62,17 @@ std::size_t FlightSchedule::index(Duration at) const {
   const Leg* const leg = leg_at(at);
   if (leg == nullptr) return 0;
   const Duration flown = std::min(at, leg->until.value_or(at)) - leg->from;
-  return std::min(leg->index + static_cast<std::size_t>(flown / kFlightStep), states_.size() - 1);
+  return std::min(leg->index + static_cast<std::size_t>(flown / kFlightStep), last_);
+}
+
+/// Flies on to it; the oldest that is remembered, where it is none any more.
+const FlightState& FlightSchedule::state_at(std::size_t index) {
+  while (newest_ < index) {
+    flight_.step();
+    recent_[++newest_ % recent_.size()] = flight_.state();
+  }
+  const std::size_t oldest = newest_ < recent_.size() ? 0 : newest_ + 1 - recent_.size();
+  return recent_[std::max(index, oldest) % recent_.size()];
 }
 
 /// The latest that had begun.

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -12,13 +13,17 @@
 
 namespace swiftlet {
 
-/// The states of one flight against a clock: it begins when told so, may be interrupted, in which case the
-/// vehicle is held where it is, and goes on from there. Times are of any one clock, and never go back where
-/// they are told. One thread at a time; allocates.
+/// One flight against a clock: it begins when told so, may be interrupted, in which case the vehicle is held
+/// where it is, and goes on from there. It is flown as far as it is asked for, and its last minute in the air
+/// is remembered. Times are of any one clock, and never go back where they are told. One thread at a time;
+/// go() allocates.
 class FlightSchedule {
  public:
-  /// Precondition: a flight has at least two states; kFlightStep lies between two.
-  explicit FlightSchedule(std::vector<FlightState> states);
+  /// How far back T_world_body() reaches, in the air.
+  static constexpr Duration kRemembered = std::chrono::minutes(1);
+
+  /// Flies the flight once to know how long it takes. Precondition: it has not begun. Allocates.
+  explicit FlightSchedule(SimulatedFlight flight);
 
   /// Begins or goes on, unless it is going or over.
   void go(Duration now);
@@ -29,11 +34,7 @@ class FlightSchedule {
   /// Since it last began or went on, whole steps of kFlightStep; false while it is not going.
   [[nodiscard]] bool is_at_step(Duration now) const;
   /// It came to its last state.
-  [[nodiscard]] bool is_over(Duration at) const { return index(at) + 1 == states_.size(); }
-  /// In the air, from its first state to its last.
-  [[nodiscard]] Duration duration() const {
-    return static_cast<std::int64_t>(states_.size() - 1) * kFlightStep;
-  }
+  [[nodiscard]] bool is_over(Duration at) const { return index(at) == last_; }
   /// 0 to 1.
   [[nodiscard]] double progress(Duration at) const;
   /// In the air so far.
@@ -41,9 +42,10 @@ class FlightSchedule {
     return static_cast<std::int64_t>(index(at)) * kFlightStep;
   }
   /// Now; at rest and on the ground while it is not going.
-  [[nodiscard]] FlightState state(Duration now) const;
-  /// At any time, between the steps too. A time still ahead is answered while the flight is going.
-  [[nodiscard]] Pose2 T_world_body(Duration at) const;
+  [[nodiscard]] FlightState state(Duration now);
+  /// Between the steps too. A time before the remembered ones is taken for the first of them; one that is up
+  /// to kRemembered ahead is answered while the flight is going.
+  [[nodiscard]] Pose2 T_world_body(Duration at);
 
  private:
   struct Leg {
@@ -54,8 +56,12 @@ class FlightSchedule {
 
   [[nodiscard]] std::size_t index(Duration at) const;
   [[nodiscard]] const Leg* leg_at(Duration at) const;
+  [[nodiscard]] const FlightState& state_at(std::size_t index);
 
-  std::vector<FlightState> states_;
+  SimulatedFlight flight_;
+  std::vector<FlightState> recent_;  // the state of index i at i modulo its size
+  std::size_t newest_ = 0;           // index of the state that the flight has come to
+  std::size_t last_;                 // index of the state after landing
   std::vector<Leg> legs_;
 };
 

@@ -251,20 +251,41 @@ std::vector<Waypoint> maze_flight() {
   return flight;
 }
 
+/// One room of 8 m x 6 m with a table and a pillar in its middle and furniture along its walls.
+std::vector<WallSegment> patrol_walls() {
+  FloorPlan plan;
+  plan.box(0.0, 0.0, 8.0, 6.0);
+  plan.box(4.4, 2.6, 5.6, 3.4);
+  plan.box(2.7, 2.9, 3.0, 3.2);
+  plan.box(0.0, 2.2, 0.6, 3.6);
+  plan.box(2.8, 0.0, 4.6, 0.4);
+  plan.box(7.6, 0.0, 8.0, 0.4);
+  plan.box(7.5, 2.4, 8.0, 3.4);
+  plan.box(5.0, 5.5, 6.2, 6.0);
+  plan.box(1.4, 5.6, 2.6, 6.0);
+  return plan.take();
+}
+
+/// Round the room to the left, with a look around in one corner: a round that may be flown all day.
+std::vector<Waypoint> patrol_flight() {
+  return {{{1.2, 1.2}}, {{6.8, 1.2}}, {{6.8, 4.8}, kTravel, 2.0 * kPi}, {{1.2, 4.8}}, {{1.2, 1.2}}};
+}
+
 struct NamedWorld {
   std::string_view name;
   std::vector<WallSegment> (*walls)();
   std::vector<Waypoint> (*flight)();
 };
-constexpr std::array<NamedWorld, 5> kWorlds{{{"office", office_walls, office_flight},
+constexpr std::array<NamedWorld, 6> kWorlds{{{"office", office_walls, office_flight},
                                              {"maze", maze_walls, maze_flight},
                                              {"loop", loop_walls, loop_flight},
                                              {"corridors", corridors_walls, corridors_flight},
-                                             {"wings", wings_walls, wings_flight}}};
+                                             {"wings", wings_walls, wings_flight},
+                                             {"patrol", patrol_walls, patrol_flight}}};
 
 }  // namespace
 
-std::string_view simulated_world_names() { return "office, maze, loop, corridors, wings"; }
+std::string_view simulated_world_names() { return "office, maze, loop, corridors, wings, patrol"; }
 
 Result<SimulatedWorld> make_simulated_world(std::string_view name) {
   for (const NamedWorld& world : kWorlds)

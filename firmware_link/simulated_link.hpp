@@ -37,9 +37,8 @@ class SimulatedLink final : public Link {
   /// Error: kInvalidInput: a packet has 1 to 31 bytes.
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
 
-  /// The truth at any time of the vehicle's clock up to now.
-  [[nodiscard]] Pose2 T_world_body(DeviceTime at) const { return vehicle_.T_world_body(at); }
-  [[nodiscard]] Duration flight_duration() const { return vehicle_.flight_duration(); }
+  /// The truth at any time of the vehicle's clock in the last minute.
+  [[nodiscard]] Pose2 T_world_body(DeviceTime at) { return vehicle_.T_world_body(at); }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return vehicle_.progress(); }
 

@@ -59,7 +59,7 @@ std::chrono::milliseconds whole_milliseconds(Duration duration) {
 SimulatedVehicle::SimulatedVehicle(SimulatedWorld world, const VehicleModel& model, std::uint64_t seed)
     : world_(std::move(world)),
       model_(model),
-      flight_(fly(world_, model.pilot, seed)),
+      flight_({world_, model.pilot, seed}),
       odometry_(model.odometry, seed),
       rangers_{{{0.0, &VehicleState::front_mm, NoiseSource(seed, "range_front")},
                 {kPi, &VehicleState::back_mm, NoiseSource(seed, "range_back")},

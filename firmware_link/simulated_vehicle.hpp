@@ -65,15 +65,13 @@ class SimulatedVehicle {
   [[nodiscard]] DeviceTime now() const { return DeviceTime(now_); }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return flight_.progress(now_); }
-  [[nodiscard]] Duration flight_duration() const { return flight_.duration(); }
   /// It has landed again.
   [[nodiscard]] bool is_finished() const { return flight_.is_over(now_); }
   [[nodiscard]] bool is_flying() const { return is_on_air() && state_.is_flying; }
-  /// The truth. Before take-off the starting place, after landing the last. A time still ahead is answered
-  /// once the flight has begun; until then it is taken for the ground.
-  [[nodiscard]] Pose2 T_world_body(DeviceTime at) const {
-    return flight_.T_world_body(at.time_since_epoch());
-  }
+  /// The truth, of the last minute in the air (FlightSchedule::kRemembered). Before take-off the starting
+  /// place, after landing the last. A time up to a minute ahead is answered once the flight has begun; until
+  /// then it is taken for the ground.
+  [[nodiscard]] Pose2 T_world_body(DeviceTime at) { return flight_.T_world_body(at.time_since_epoch()); }
 
   /// Whether it answers at all (a radio gets acknowledgements): not while it boots, nor once its battery is
   /// empty, until reboot().

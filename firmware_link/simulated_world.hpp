@@ -39,7 +39,8 @@ struct SimulatedWorld {
   std::vector<Waypoint> flight;
 };
 
-/// The names that make_simulated_world() knows, as a list for people: "office, maze, loop, corridors, wings".
+/// The names that make_simulated_world() knows, as a list for people: "office, maze, loop, corridors, wings,
+/// patrol".
 [[nodiscard]] std::string_view simulated_world_names();
 
 /// The floor plan of that name. kNotFound: no such world; the message lists those there are.

@@ -107,6 +107,7 @@ Status run_map_command(const MapCommand& command) {
   pipeline.keep_retired(*retired);
   const InputReport report = run_to_end(pipeline, source);
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
+  const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
   const RunView run{.backend = pipeline.backend(),
                     .map = pipeline.map(),
                     .input = report,
@@ -116,7 +117,7 @@ Status run_map_command(const MapCommand& command) {
                     .input_uri = command.input,
                     .sensor = config->sensor.applied_to(source.sensor()),
                     .retired = &*retired,
-                    .peak_memory_mb = peak_memory_mb()};
+                    .peak_memory_mb = peak_of_run_mb};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
   print_summary(command, run);
   return damage_of(report);

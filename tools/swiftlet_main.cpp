@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/sensing/range_sample.hpp"
+#include "firmware_link/simulated_flight.hpp"
 #include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
@@ -33,10 +34,10 @@ int refuse(std::string message) {
 CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
-  map->add_option(
-         "INPUT", command.input,
-         "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors, wings), or a path: "
-         ".pcap, .clf, .clf.gz")
+  map->add_option("INPUT", command.input,
+                  "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors, wings, "
+                  "patrol), or a path: "
+                  ".pcap, .clf, .clf.gz")
       ->required();
   map->add_option("-o,--output", command.output_directory, "Directory for the outputs, created where missing")
       ->required();
@@ -53,12 +54,13 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
 CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
   CLI::App* sim = app.add_subcommand(
       "sim", "Put a simulated vehicle on UDP, to practise on; reads instructions from stdin, try help");
-  sim->add_option("--world", command.world, "office, maze, loop, corridors or wings")->capture_default_str();
+  sim->add_option("--world", command.world, "office, maze, loop, corridors, wings or patrol")
+      ->capture_default_str();
   sim->add_option("--seed", command.seed, "Of all noise: the same seed is the same vehicle")
       ->capture_default_str();
   sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();
   sim->add_option("--laps", command.laps, "How often to fly the world's script before landing")
-      ->check(CLI::Range(1, 20))
+      ->check(CLI::Range(1, swiftlet::kMostLaps))
       ->capture_default_str();
   sim->add_option("--battery", command.battery_minutes,
                   "Minutes in the air until it is empty; without it, 8 a lap")

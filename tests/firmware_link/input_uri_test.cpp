@@ -32,7 +32,7 @@ TEST(InputUri, TakesASimulationWithAndWithoutSeedAndLaps) {
   EXPECT_EQ(plain->world, "office");
   EXPECT_EQ(plain->seed, 1U);
   EXPECT_EQ(plain->laps, 1);
-  EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=20")->laps, 20);
+  EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=1000")->laps, 1000);
   EXPECT_EQ(parse_input_uri("sim://maze?seed=18446744073709551615")->seed, 18446744073709551615U);
 }
 
@@ -115,8 +115,8 @@ TEST(InputUri, SaysWhatIsWrongAndShowsWhatIsRight) {
       {"sim://office?seed=1x", "seed must be a whole number"},
       {"sim://office?seed=18446744073709551616", "seed must be a whole number"},
       {"sim://office?seed=1&seed=2", "'seed' is given twice"},
-      {"sim://office?laps=0", "laps must be a whole number from 1 to 20"},
-      {"sim://office?laps=21", "laps must be a whole number from 1 to 20"},
+      {"sim://office?laps=0", "laps must be a whole number from 1 to 1000"},
+      {"sim://office?laps=1001", "laps must be a whole number from 1 to 1000"},
       {"radio:///80", "dongle '' must be"},
       {"radio://-1", "dongle '-1' must be"},
       {"radio://0/", "channel '' must be"},

@@ -196,7 +196,8 @@ TEST(LinkSampleSource, BringsALiveVehicleToSendSamples) {
   input.name = "sim://test";
   input.link = std::move(link);
   input.starts_logging = true;
-  input.T_world_body_at = [](DeviceTime at) { return Pose2(to_seconds(at.time_since_epoch()), 0.0, 0.0); };
+  input.truth.emplace([](DeviceTime at) { return Pose2(to_seconds(at.time_since_epoch()), 0.0, 0.0); },
+                      std::move(PoseFile::open()).value());
   LinkSampleSource source(std::move(input));
   const std::vector<RangeSample> samples = read_all(source);
   ASSERT_GT(samples.size(), 40U);

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
+
+#include "tests/support/flown_states.hpp"
 
 namespace swiftlet {
 namespace {
@@ -99,6 +102,48 @@ TEST(Fly, FliesAClosedScriptAsOftenAsTold) {
   EXPECT_GT(flight.size(), 5 * once / 2);
   EXPECT_EQ(std::ranges::count(flight, 0.0, &FlightState::height_m), 2) << "it lands once";
   EXPECT_NEAR(flight.back().T_world_body.x_m(), 0.0, 0.15);
+}
+
+TEST(Fly, FliesTheSameLapsInAThousandAsInTwo) {
+  const SimulatedWorld patrol = make_simulated_world("patrol").value();
+  PilotModel pilot;
+  pilot.laps = 2;
+  const std::vector<FlightState> two = fly(patrol, pilot, 1);
+  pilot.laps = kMostLaps;
+  SimulatedFlight many(patrol, pilot, 1);
+  const std::size_t landing = 600;  // the last metres and the descent
+  for (std::size_t i = 0; i + landing < two.size(); ++i, many.step())
+    ASSERT_EQ(many.state().T_world_body.vector(), two[i].T_world_body.vector()) << i;
+}
+
+TEST(Fly, StaysOnTheGroundWhenItIsOver) {
+  SimulatedFlight flight({{}, {{{0.0, 0.0}}, {{1.0, 0.0}}}}, steady_pilot(), 1);
+  while (!flight.is_over()) flight.step();
+  const FlightState landed = flight.state();
+  flight.step();
+  EXPECT_EQ(flight.state().T_world_body.vector(), landed.T_world_body.vector());
+  EXPECT_EQ(flight.state().height_m, 0.0);
+}
+
+TEST(RepeatedScript, BeginsAgainAtTheEndOfAClosedScript) {
+  const RepeatedScript script({{{0.0, 0.0}}, {{1.0, 0.0}}, {{2.0, 0.0}, {}, 3.0}, {{0.0, 0.0}}}, 3);
+  ASSERT_EQ(script.size(), 10U);
+  std::vector<double> x_m;
+  for (std::size_t i = 0; i < script.size(); ++i) x_m.push_back(script[i].position.x_m);
+  EXPECT_EQ(x_m, (std::vector<double>{0, 1, 2, 0, 1, 2, 0, 1, 2, 0}));
+  EXPECT_EQ(script[5].spin_rad, 3.0);
+}
+
+TEST(RepeatedScript, GoesBackAlongAnOpenScriptWithoutLookingAround) {
+  const RepeatedScript script({{{0.0, 0.0}}, {{1.0, 0.0}, {}, 3.0}, {{2.0, 0.0}}}, 3);
+  std::vector<double> x_m;
+  std::vector<double> spins;
+  for (std::size_t i = 0; i < script.size(); ++i) {
+    x_m.push_back(script[i].position.x_m);
+    spins.push_back(script[i].spin_rad);
+  }
+  EXPECT_EQ(x_m, (std::vector<double>{0, 1, 2, 1, 0, 1, 2, 1, 0, 1, 2}));
+  EXPECT_EQ(spins, (std::vector<double>{0, 3, 0, 0, 0, 3, 0, 0, 0, 3, 0}));
 }
 
 TEST(Fly, ReturnsAlongAnOpenScriptBetweenTwoLaps) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware_link/simulated_flight.hpp"
 #include "firmware_link/simulated_world.hpp"
+#include "tests/support/flown_states.hpp"
 
 namespace swiftlet {
 namespace {
@@ -63,7 +63,12 @@ class FloorPlans : public testing::TestWithParam<const char*> {
  protected:
   const SimulatedWorld world_ = make_simulated_world(GetParam()).value();
 };
-INSTANTIATE_TEST_SUITE_P(All, FloorPlans, testing::Values("office", "maze", "loop", "corridors"),
+INSTANTIATE_TEST_SUITE_P(All, FloorPlans,
+                         testing::Values("office", "maze", "loop", "corridors", "wings", "patrol"),
+                         [](const auto& world) { return std::string(world.param); });
+
+class Buildings : public FloorPlans {};
+INSTANTIATE_TEST_SUITE_P(All, Buildings, testing::Values("office", "maze", "loop", "corridors", "wings"),
                          [](const auto& world) { return std::string(world.param); });
 
 TEST_P(FloorPlans, AreFlownWithoutTouchingAWallWhoeverFlies) {
@@ -86,24 +91,34 @@ TEST_P(FloorPlans, KeepWallsWithinReachOfTheSensors) {
   for (const Pose2& pose : track(world_, 1)) EXPECT_LT(clearance_m(world_, pose.position()), 2.5);
 }
 
-TEST_P(FloorPlans, AreFlownForSeveralMinutes) {
+TEST_P(Buildings, AreFlownForSeveralMinutes) {
   const std::size_t seconds = track(world_, 1).size();
   EXPECT_GT(seconds, 240U);
   EXPECT_LT(seconds, 480U);
 }
 
-TEST_P(FloorPlans, AreRevisitedInTheSameAndInTheOtherDirection) {
+TEST_P(Buildings, AreRevisitedInTheSameAndInTheOtherDirection) {
   const Revisits share = revisits(track(world_, 1));
   EXPECT_GT(share.same_way, 0.1);
   EXPECT_GT(share.other_way, 0.1);
+}
+
+TEST(Patrol, IsARoundOfUnderAMinuteThatEndsWhereItBegan) {
+  const SimulatedWorld world = make_simulated_world("patrol").value();
+  const std::vector<Pose2> poses = track(world, 1);
+  EXPECT_GT(poses.size(), 44U) << "a thousand rounds are twelve hours";
+  EXPECT_LT(poses.size(), 64U);
+  EXPECT_EQ(world.flight.front().position.x_m, world.flight.back().position.x_m);
+  EXPECT_EQ(world.flight.front().position.y_m, world.flight.back().position.y_m);
 }
 
 TEST(MakeSimulatedWorld, ListsTheWorldsWhenItKnowsNoSuchName) {
   const Result<SimulatedWorld> world = make_simulated_world("attic");
   ASSERT_FALSE(world.ok());
   EXPECT_EQ(world.error().code, ErrorCode::kNotFound);
-  EXPECT_EQ(world.error().message,
-            "no simulated world is called \"attic\"; choose one of: office, maze, loop, corridors, wings");
+  EXPECT_EQ(
+      world.error().message,
+      "no simulated world is called \"attic\"; choose one of: office, maze, loop, corridors, wings, patrol");
 }
 
 }  // namespace

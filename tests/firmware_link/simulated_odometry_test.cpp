@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/flown_states.hpp"
+
 namespace swiftlet {
 namespace {
 

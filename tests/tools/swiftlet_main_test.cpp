@@ -113,7 +113,7 @@ TEST_F(SwiftletCommand, NamesTheInputThatCannotBeUsed) {
 }
 
 TEST_F(SwiftletCommand, NamesWhatTheSimulationCannotUse) {
-  EXPECT_THAT(run("sim --world nowhere"), refuses_with("office, maze, loop, corridors, wings"));
+  EXPECT_THAT(run("sim --world nowhere"), refuses_with("office, maze, loop, corridors, wings, patrol"));
   EXPECT_THAT(run("sim --udp somewhere"), refuses_with("somewhere"));
   EXPECT_THAT(run("sim --udp 127.0.0.1:99999"), refuses_with("127.0.0.1:99999"));
   EXPECT_THAT(run("sim --udp 192.0.2.1:19850"), refuses_with("192.0.2.1:19850"));
