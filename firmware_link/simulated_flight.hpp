@@ -51,6 +51,8 @@ class RepeatedScript {
   /// Waypoints of all laps.
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] Waypoint operator[](std::size_t i) const;
+  /// How often the script is flown from one end to the other, back too.
+  [[nodiscard]] int passes() const { return static_cast<int>((size_ - 1) / (script_.size() - 1)); }
 
  private:
   std::vector<Waypoint> script_;

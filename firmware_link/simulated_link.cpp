@@ -28,7 +28,7 @@ Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view worl
   if (!made) return made.error();
   VehicleModel model;
   model.pilot.laps = laps;
-  model.battery_endurance *= laps;
+  model.battery_endurance *= RepeatedScript(made->flight, laps).passes();
   return std::make_unique<SimulatedLink>(std::move(*made), model, kPacketLoss, seed);
 }
 
@@ -44,8 +44,7 @@ Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
   const DeviceTime asked_at = vehicle_.now();
   while (heard_.empty()) {
     if (vehicle_.is_finished()) return Error{ErrorCode::kEndOfRecording, "the simulated flight is over"};
-    if (vehicle_.now() - asked_at + kStep > timeout)
-      return Error{ErrorCode::kTimeout, "nothing heard"};
+    if (vehicle_.now() - asked_at + kStep > timeout) return Error{ErrorCode::kTimeout, "nothing heard"};
     for (const SentPacket& sent : vehicle_.advance(vehicle_.now() + kStep)) {
       const bool is_log_data = is_on(bytes_of(sent.bytes), kLogDataTopic);
       if (is_log_data && loss_noise_.chance(packet_loss_)) continue;

@@ -128,6 +128,7 @@ TEST(Fly, StaysOnTheGroundWhenItIsOver) {
 TEST(RepeatedScript, BeginsAgainAtTheEndOfAClosedScript) {
   const RepeatedScript script({{{0.0, 0.0}}, {{1.0, 0.0}}, {{2.0, 0.0}, {}, 3.0}, {{0.0, 0.0}}}, 3);
   ASSERT_EQ(script.size(), 10U);
+  EXPECT_EQ(script.passes(), 3);
   std::vector<double> x_m;
   for (std::size_t i = 0; i < script.size(); ++i) x_m.push_back(script[i].position.x_m);
   EXPECT_EQ(x_m, (std::vector<double>{0, 1, 2, 0, 1, 2, 0, 1, 2, 0}));
@@ -143,6 +144,7 @@ TEST(RepeatedScript, GoesBackAlongAnOpenScriptWithoutLookingAround) {
     spins.push_back(script[i].spin_rad);
   }
   EXPECT_EQ(x_m, (std::vector<double>{0, 1, 2, 1, 0, 1, 2, 1, 0, 1, 2}));
+  EXPECT_EQ(script.passes(), 5);
   EXPECT_EQ(spins, (std::vector<double>{0, 3, 0, 0, 0, 3, 0, 0, 0, 3, 0}));
 }
 

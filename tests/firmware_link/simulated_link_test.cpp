@@ -138,6 +138,15 @@ TEST(SimulatedLink, FliesAsManyLapsAsAskedFor) {
   EXPECT_GT(frames_of(**two).size(), 3 * frames_of_one / 2);
 }
 
+TEST(SimulatedLink, HasBatteryForTheWaysBackOfAnOpenScript) {
+  const auto maze = SimulatedLink::open("maze", 2, 3);
+  ASSERT_TRUE(maze.ok());
+  start_logging(**maze);
+  Result<LinkFrame> frame = (*maze)->receive(std::chrono::seconds(1));
+  while (frame) frame = (*maze)->receive(std::chrono::seconds(1));
+  EXPECT_EQ(frame.error().code, ErrorCode::kEndOfRecording) << "landed, not dropped";
+}
+
 TEST(SimulatedLink, RepeatsItselfByteForByteForTheSameSeed) {
   for (const char* world : {"office", "maze", "loop", "corridors"})
     EXPECT_TRUE(same(frames_of(world, 5), frames_of(world, 5))) << world;

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""A patrol of hours: the same room round after round, as `tools/benchmark-speed --patrol` measures and writes it."""
+
+import benchmark_page as page
+import whole_runs
+
+LAPS = {1: 78, 3: 235, 6: 470, 12: 940}  # by hours; a round takes 46 s
+COLUMNS = [("samples", "samples"), ("scans retired", "scans_retired"), ("kept", "scans_kept"),
+           ("keyframes", "keyframes"), ("mean per scan", "mean_per_scan_ms"), ("frontend p99", "frontend_p99_ms"),
+           ("max", "frontend_max_ms"), ("backend p99", "backend_p99_ms"), ("max", "backend_max_ms"),
+           ("map max", "map_max_ms"), ("final pass", "final_pass_ms"), ("memory", "run_peak_memory_mb")]
+
+
+def measure(swiftlet, output, say):
+    """One row for each length, shortest first; `say` hears which is begun. Raises as whole_runs.run() does."""
+    rows = []
+    for hours, laps in LAPS.items():
+        say(f"patrol of {hours} h")
+        report = whole_runs.run(swiftlet, [f"sim://patrol?seed=1&laps={laps}"], output)
+        backend = report["backend"]
+        rows.append({"input": f"patrol of {hours} h", "hours": report["trajectory"]["duration_s"] / 3600, "laps": laps,
+                     "scans_retired": backend["scans_retired"],
+                     "scans_kept": backend["scans"] - backend["scans_retired"],
+                     "error_m": report["absolute_trajectory_error"]["corrected"]["rmse_m"],
+                     **whole_runs.figures_of(report)})
+    return rows
+
+
+def patrol_table(rows, number):
+    """`number`: how a figure is written."""
+    return page.table(["hours:", "rounds:", *(f"{heading}:" for heading, _ in COLUMNS), "error, m:"],
+                      [[f"{row['hours']:.1f}", str(row["laps"]), *(number(row[key]) for _, key in COLUMNS),
+                        f"{row['error_m']:.3f}"] for row in rows])
+
+
+def document(report, number):
+    over = "".join(f"- {line}\n" for line in report["over_limits"]) or "- none\n"
+    return f"""{page.head("A patrol of hours", "benchmark-speed --patrol", report)}
+`swiftlet map 'sim://patrol?seed=1&laps=940' -o out` and shorter: a simulated vehicle flies round one room of 8 m x 6 m
+for hours, a round in 46 s, mapped at full speed with the default settings. Times in ms, memory in MiB, each length run
+once. "Memory" is the most that the program held before it wrote the outputs; "kept" are the scans that the backend has
+at the end, "retired" those it has forgotten because others see the same; both are in the trajectories. "Error" is the
+RMSE of the corrected path.
+
+{patrol_table(report['patrol'], number)}
+
+Over the limits (no call of the frontend over {whole_runs.FRONTEND_MAX_MS:g} ms, none of the backend over \
+{whole_runs.BACKEND_MAX_MS:g} ms):
+
+{over}"""
