@@ -15,16 +15,25 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// True when all bytes have reached the disk.
-bool write_all(const fs::path& path, std::string_view bytes) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) return false;
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
-                       std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
+Error not_written(const fs::path& path, const std::error_code& failure) {
+  return {ErrorCode::kOutOfSpace, path.string() + " was not written: " + failure.message()};
+}
+
+/// Writes what will be `path`, until all bytes have reached the disk.
+Status write_all(const fs::path& unfinished, const fs::path& path, const FileContent& content) {
+  const auto failed = [&] { return not_written(path, std::error_code(errno, std::generic_category())); };
+  std::FILE* file = std::fopen(unfinished.c_str(), "wb");
+  if (file == nullptr) return failed();
+  bool written = true;
+  const Status made = content([&](std::string_view bytes) {
+    written = written && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  });
+  written = written && std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
   const int write_errno = errno;
   const bool closed = std::fclose(file) == 0;
   if (!written) errno = write_errno;
-  return written && closed;
+  if (!written || !closed) return failed();
+  return made;
 }
 
 }  // namespace
@@ -42,17 +51,24 @@ Status prepare_output_directory(const fs::path& directory) {
 }
 
 Status write_file(const fs::path& path, std::string_view bytes) {
+  return write_file(path, [bytes](const FileSink& write) {
+    write(bytes);
+    return Status();
+  });
+}
+
+Status write_file(const fs::path& path, const FileContent& content) {
   const fs::path unfinished = path.string() + ".unfinished";
-  std::error_code failure;
-  if (!write_all(unfinished, bytes)) {
-    failure = std::error_code(errno, std::generic_category());
-  } else {
+  Status written = write_all(unfinished, path, content);
+  if (written) {
+    std::error_code failure;
     fs::rename(unfinished, path, failure);
+    if (!failure) return {};
+    written = not_written(path, failure);
   }
-  if (!failure) return {};
   std::error_code ignored;
   fs::remove(unfinished, ignored);
-  return Error{ErrorCode::kOutOfSpace, path.string() + " was not written: " + failure.message()};
+  return written;
 }
 
 }  // namespace swiftlet

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 #include "core/base/result.hpp"
@@ -16,5 +17,12 @@ namespace swiftlet {
 /// Writes the whole file under another name beside it, then renames it: whoever looks sees the old file or
 /// the new one, never half of one. kOutOfSpace: writing failed; the old file is untouched.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Takes the next bytes of a file.
+using FileSink = std::function<void(std::string_view)>;
+/// Hands a file's bytes to the sink, piece by piece. An error of its own means that there is no file.
+using FileContent = std::function<Status(const FileSink& write)>;
+/// The same for what is too long to be held at once.
+[[nodiscard]] Status write_file(const std::filesystem::path& path, const FileContent& content);
 
 }  // namespace swiftlet

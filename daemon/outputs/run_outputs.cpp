@@ -31,23 +31,32 @@ Status write_picture(const std::filesystem::path& directory, const RunView& run)
   return write_file(directory / "map.png", *png);
 }
 
-Status write_trajectories(const std::filesystem::path& directory, const RunView& run) {
-  std::string corrected;
-  std::string odometry;
-  std::string live;
-  const Status visited = for_each_scan(run.backend, run.retired, [&](const TrajectoryPoint& at) {
-    append_tum_line(corrected, at.stamp, at.T_map_body);
-    append_tum_line(odometry, at.stamp, at.T_odom_body);
-    append_tum_line(live, at.stamp, at.T_map_live);
+/// A line at a time: hours of a patrol need not fit into memory.
+Status write_trajectory(const std::filesystem::path& path, const RunView& run, Pose2 TrajectoryPoint::*pose) {
+  return write_file(path, [&](const FileSink& write) {
+    std::string line;
+    return for_each_scan(run.backend, run.retired, [&](const TrajectoryPoint& at) {
+      line.clear();
+      append_tum_line(line, at.stamp, at.*pose);
+      write(line);
+    });
   });
-  if (!visited) return visited;
-  if (Status written = write_file(directory / "trajectory.tum", corrected); !written) return written;
-  if (Status written = write_file(directory / "odometry.tum", odometry); !written) return written;
-  if (Status written = write_file(directory / "live.tum", live); !written) return written;
-  if (run.truth.empty()) return {};
-  std::string truth;
-  for (const StampedPose& at : run.truth) append_tum_line(truth, at.stamp, at.pose);
-  return write_file(directory / "ground_truth.tum", truth);
+}
+
+Status write_trajectories(const std::filesystem::path& directory, const RunView& run) {
+  Status written = write_trajectory(directory / "trajectory.tum", run, &TrajectoryPoint::T_map_body);
+  if (written) written = write_trajectory(directory / "odometry.tum", run, &TrajectoryPoint::T_odom_body);
+  if (written) written = write_trajectory(directory / "live.tum", run, &TrajectoryPoint::T_map_live);
+  if (!written || run.truth.empty()) return written;
+  return write_file(directory / "ground_truth.tum", [&](const FileSink& write) {
+    std::string line;
+    for (const StampedPose& at : run.truth) {
+      line.clear();
+      append_tum_line(line, at.stamp, at.pose);
+      write(line);
+    }
+    return Status();
+  });
 }
 
 }  // namespace

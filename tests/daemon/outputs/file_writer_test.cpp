@@ -67,5 +67,29 @@ TEST(PrepareOutputDirectory, RefusesAFileInItsPlace) {
   }
 }
 
+TEST(FileWriter, WritesPieceByPiece) {
+  const TemporaryDirectory directory;
+  const Status written = write_file(directory.path() / "file", [](const FileSink& write) {
+    write("one ");
+    write("two");
+    return Status();
+  });
+  ASSERT_TRUE(written.ok());
+  EXPECT_EQ(text_of(directory.path() / "file"), "one two");
+}
+
+TEST(FileWriter, LeavesTheOldFileWhereTheContentFails) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory.path() / "file", "old").ok());
+  const Status written = write_file(directory.path() / "file", [](const FileSink& write) {
+    write("half of the n");
+    return Status(Error{ErrorCode::kDamaged, "the rest is lost"});
+  });
+  ASSERT_FALSE(written.ok());
+  EXPECT_EQ(written.error().message, "the rest is lost");
+  EXPECT_EQ(text_of(directory.path() / "file"), "old");
+  EXPECT_FALSE(fs::exists(directory.path() / "file.unfinished"));
+}
+
 }  // namespace
 }  // namespace swiftlet
