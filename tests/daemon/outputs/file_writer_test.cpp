@@ -67,7 +67,7 @@ TEST(PrepareOutputDirectory, RefusesAFileInItsPlace) {
   }
 }
 
-TEST(FileWriter, WritesPieceByPiece) {
+TEST(WriteFile, WritesPieceByPiece) {
   const TemporaryDirectory directory;
   const Status written = write_file(directory.path() / "file", [](const FileSink& write) {
     write("one ");
@@ -78,7 +78,7 @@ TEST(FileWriter, WritesPieceByPiece) {
   EXPECT_EQ(text_of(directory.path() / "file"), "one two");
 }
 
-TEST(FileWriter, LeavesTheOldFileWhereTheContentFails) {
+TEST(WriteFile, LeavesTheOldFileWhereTheContentFails) {
   const TemporaryDirectory directory;
   ASSERT_TRUE(write_file(directory.path() / "file", "old").ok());
   const Status written = write_file(directory.path() / "file", [](const FileSink& write) {
