@@ -103,8 +103,8 @@ Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, co
   input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };
   Result<PoseFile> truth = PoseFile::open();
   if (!truth) return truth.error();
-  input.truth.emplace([simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); },
-                      std::move(truth).value());
+  input.truth = KnownTruth{[simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); },
+                           std::move(truth).value()};
   input.link = std::move(link).value();
   return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
 }
