@@ -39,26 +39,17 @@ class Pose2 {
 
   /// T_b_a of a T_a_b.
   [[nodiscard]] Pose2 inverse() const {
-    return {-cos_yaw_ * x_m_ - sin_yaw_ * y_m_, sin_yaw_ * x_m_ - cos_yaw_ * y_m_, wrap_angle(-yaw_rad_),
-            cos_yaw_, -sin_yaw_};
+    return {-cos_yaw_ * x_m_ - sin_yaw_ * y_m_, sin_yaw_ * x_m_ - cos_yaw_ * y_m_, -yaw_rad_};
   }
   Pose2 operator*(const Pose2& T_b_c) const {
     const Point2 p = *this * T_b_c.position();
-    // Sum formulas: a tenth of what the functions cost; errors of rounding add up far below any use.
-    return {p.x_m,
-            p.y_m,
-            wrap_angle(yaw_rad_ + T_b_c.yaw_rad_),
-            cos_yaw_ * T_b_c.cos_yaw_ - sin_yaw_ * T_b_c.sin_yaw_,
-            sin_yaw_ * T_b_c.cos_yaw_ + cos_yaw_ * T_b_c.sin_yaw_};
+    return {p.x_m, p.y_m, yaw_rad_ + T_b_c.yaw_rad_};
   }
   Point2 operator*(const Point2& p_b) const {
     return {cos_yaw_ * p_b.x_m - sin_yaw_ * p_b.y_m + x_m_, sin_yaw_ * p_b.x_m + cos_yaw_ * p_b.y_m + y_m_};
   }
 
  private:
-  Pose2(double x_m, double y_m, double wrapped_yaw_rad, double cos_yaw, double sin_yaw)
-      : x_m_(x_m), y_m_(y_m), yaw_rad_(wrapped_yaw_rad), cos_yaw_(cos_yaw), sin_yaw_(sin_yaw) {}
-
   double x_m_ = 0.0;
   double y_m_ = 0.0;
   double yaw_rad_ = 0.0;

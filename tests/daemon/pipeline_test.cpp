@@ -33,8 +33,9 @@ TEST(Pipeline, TakesEverySampleThroughAllStages) {
   EXPECT_EQ(times[2].count, 200U);
   EXPECT_EQ(times[3].name, "final_pass");
   EXPECT_EQ(times[3].count, 1U);
-  EXPECT_EQ(times[5].name, "frame_to_pose");
-  EXPECT_EQ(times[5].count, 0U) << "nobody publishes";
+  EXPECT_EQ(times[5].name, "retirement");
+  EXPECT_EQ(times[6].name, "frame_to_pose");
+  EXPECT_EQ(times[6].count, 0U) << "nobody publishes";
   EXPECT_TRUE(pipeline.timing().queues.empty());
 }
 
