@@ -24,6 +24,12 @@ constexpr double kLeastSpreadM = 1.0;  // how far around the optimum the scores 
 constexpr double kMostSpreadM = 4.0;   // window reaches, within these bounds
 constexpr int kSpreadStride = 2;       // cells
 constexpr int kYawSpreadSteps = 4;
+// A pose that lays fewer of the points on ground the submap knows is neither a match nor compared with one:
+// one wall of a corridor laid on the other would look better than both in place.
+constexpr double kLeastKnownShare = 0.6;
+// A best pose farther out than this share of the window is no optimum: the walls draw it on, as they do along
+// a corridor towards whatever part of it the submap covers.
+constexpr double kEdgeOfWindow = 0.95;
 
 double farthest_m(std::span<const Point2> points) {
   double farthest = 0.5;
@@ -53,9 +59,10 @@ struct Moments {
 
 /// A scan can only match where the submap covers it: along a bare corridor the scores fall off at the
 /// submap's ends for no other reason, and that is no evidence. What the coverage alone would say of the
-/// position is taken out of the information.
+/// position is taken out of the information. Where nothing is left, next to nothing is told: many such
+/// matches of one passage must not add up to a place along it.
 void take_out_coverage(const Eigen::Matrix3d& coverage, double cell_m, Eigen::Matrix3d& covariance) {
-  constexpr double kLeastInformation = 0.01;
+  constexpr double kLeastInformation = 1e-4;  // 100 m
   Eigen::Matrix2d covered = coverage.topLeftCorner<2, 2>();
   covered.diagonal().array() += cell_m * cell_m;
   Eigen::Matrix3d information = covariance.inverse();
@@ -127,7 +134,7 @@ CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const Block& bloc
     sum += value;
     known += value != 0 ? 1 : 0;
   }
-  return {static_cast<double>(sum) / (255.0 * static_cast<double>(std::max(known, list.size() / 2))),
+  return {static_cast<double>(sum) / (255.0 * static_cast<double>(std::max<std::size_t>(known, 1))),
           static_cast<double>(known) / static_cast<double>(list.size())};
 }
 
@@ -199,7 +206,7 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 /// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
 /// lies between the cells: the refinement below the grid's resolution. Every second cell is enough under a
 /// kernel of three.
-void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
+bool CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
   const double cell_m = grid_.resolution_m;
   const double reach_m = std::clamp(window_.radius_m, kLeastSpreadM, kMostSpreadM);
   const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
@@ -207,33 +214,39 @@ void CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& r
   const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
   Moments likely;
   Moments covered;
-  const double reference = known_cells({0, best.steps_x, best.steps_y, best.steps_yaw, 0.0, 0.0}).score;
+  const KnownCells reference = known_cells({0, best.steps_x, best.steps_y, best.steps_yaw, 0.0, 0.0});
+  if (reference.share < kLeastKnownShare) return false;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
     for (int dy = -reach; dy <= reach; dy += kSpreadStride) {
       for (int dx = -reach; dx <= reach; dx += kSpreadStride) {
         const KnownCells at = known_cells({0, best.steps_x + dx, best.steps_y + dy, yaw, 0.0, 0.0});
+        if (at.share < kLeastKnownShare) continue;
         const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
-        likely.add(std::exp(kLikelihoodPerScore * (at.score - reference)), d);
-        if (at.share >= 0.5) covered.add(1.0, d);
+        // Points on unknown ground speak neither for the pose nor against it.
+        likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - reference.score)), d);
+        covered.add(1.0, d);
       }
     }
   }
   result.covariance = likely.covariance();
   result.covariance.diagonal() += Eigen::Vector3d(kFloorSigmaM * kFloorSigmaM, kFloorSigmaM * kFloorSigmaM,
                                                   kFloorSigmaYawRad * kFloorSigmaYawRad);
-  if (covered.weight > 0.0) take_out_coverage(covered.covariance(), cell_m, result.covariance);
+  take_out_coverage(covered.covariance(), cell_m, result.covariance);
   const Pose2 T = T_submap_scan(best);
   const Eigen::Vector3d mean = likely.mean();
   result.T_submap_scan = Pose2(T.x_m() + mean.x(), T.y_m() + mean.y(), T.yaw_rad() + mean.z());
+  return true;
 }
 
 std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
   const std::optional<DiscreteMatch> best = best_by_branch_and_bound(min_score);
   if (!best) return std::nullopt;
+  if (std::max(std::abs(best->steps_x), std::abs(best->steps_y)) > kEdgeOfWindow * linear_steps_)
+    return std::nullopt;
   MatchResult result;
   result.T_submap_scan_best = T_submap_scan(*best);
   result.score = best->score;
-  spread_around(*best, result);
+  if (!spread_around(*best, result)) return std::nullopt;
   return result;
 }
 

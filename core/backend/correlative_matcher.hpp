@@ -46,7 +46,8 @@ class CorrelativeMatcher {
  public:
   CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan, const SearchWindow& window);
 
-  /// The best match with score >= min_score, or nothing.
+  /// The best match with score >= min_score, or nothing. Nothing either where the best lies at the
+  /// window's edge, or many of the points on ground the submap does not know.
   [[nodiscard]] std::optional<MatchResult> match(double min_score) const;
   [[nodiscard]] std::optional<DiscreteMatch> best_by_branch_and_bound(double min_score) const;
   /// The same by trying everything: the slow twin that tests hold the fast one against.
@@ -75,7 +76,8 @@ class CorrelativeMatcher {
     const int from_lowest = steps_yaw + yaw_steps_;
     return static_cast<std::size_t>(from_lowest);
   }
-  void spread_around(const DiscreteMatch& best, MatchResult& result) const;
+  /// Says whether enough of the points lie on known ground.
+  bool spread_around(const DiscreteMatch& best, MatchResult& result) const;
 
   GridGeometry grid_;
   SearchWindow window_;

@@ -278,18 +278,25 @@ TEST(CorrelativeMatcher, CovariancesArePositiveDefinite) {
 
 TEST(CorrelativeMatcher, AnswersNothingBelowTheLeastScore) {
   const Submap submap = submap_of(kRoom);
-  // Half of the scan fits, the other half lies outside of everything.
+  // Three quarters of the scan fit, the rest lies outside of everything.
   std::vector<Point2> points = wall_points(kRoom);
   const std::size_t fitting = points.size();
-  for (std::size_t i = 0; i < fitting; ++i) points.push_back({50.0 + 0.01 * static_cast<double>(i), 0.0});
+  for (std::size_t i = 0; 3 * i < fitting; ++i) points.push_back({50.0 + 0.01 * static_cast<double>(i), 0.0});
   const SearchWindow window{Pose2(), 0.3, 0.001};
   const CorrelativeMatcher matcher(submap, points, window);
   const auto best = matcher.match(0.1);
   ASSERT_TRUE(best);
-  EXPECT_NEAR(best->score, 0.5 * 240.0 / 255.0, 0.01);
+  EXPECT_NEAR(best->score, 0.75 * 240.0 / 255.0, 0.01);
   EXPECT_TRUE(matcher.match(best->score));
   EXPECT_FALSE(matcher.match(best->score + 1e-6));
   EXPECT_FALSE(matcher.best_by_exhaustion(best->score + 1e-6));
+}
+
+TEST(CorrelativeMatcher, AnswersNothingWhereHalfOfTheScanLiesOnUnknownGround) {
+  std::vector<Point2> points = wall_points(kRoom);
+  const std::size_t fitting = points.size();
+  for (std::size_t i = 0; i < fitting; ++i) points.push_back({50.0 + 0.01 * static_cast<double>(i), 0.0});
+  EXPECT_FALSE(match(submap_of(kRoom), points, Pose2(), 0.1));
 }
 
 TEST(CorrelativeMatcher, AnswersNothingWhereTheSubmapIsOutOfReach) {
@@ -316,6 +323,33 @@ TEST_F(CorrelativeMatcherInACorridor, AShortSubmapsEndsAreNoEvidenceOfThePositio
     ASSERT_TRUE(result);
     EXPECT_GT(std::sqrt(result->covariance(0, 0)), 2.0) << cells << " cells long: it may lie anywhere along";
     EXPECT_LT(std::sqrt(result->covariance(1, 1)), 0.15);
+  }
+}
+
+TEST_F(CorrelativeMatcherInACorridor, TheMeanStaysOnTheWalls) {
+  // Moved across by the corridor's width, one of the walls lies on the other and the rest on unknown ground.
+  const SearchWindow window{Pose2(0.2, 0.1, 0.0), 3.0, 0.1};
+  const auto result = CorrelativeMatcher(submap_, points_, window).match(0.5);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->T_submap_scan.y_m(), 0.0, kHalfCellM);
+  EXPECT_LT(std::sqrt(result->covariance(1, 1)), 0.15);
+}
+
+TEST_F(CorrelativeMatcherInACorridor, AHundredMatchesOfAPassageDoNotAddUpToAPlaceAlongIt) {
+  const SearchWindow window{Pose2(0.2, 0.1, 0.0), 3.0, 0.1};
+  const auto result = CorrelativeMatcher(submap_, points_, window).match(0.5);
+  ASSERT_TRUE(result);
+  EXPECT_GT(std::sqrt(result->covariance(0, 0) / 100.0), 3.0);
+}
+
+TEST_F(CorrelativeMatcherInACorridor, AScanDrawnToTheWindowsEdgeByWhatTheSubmapCoversIsNoMatch) {
+  // In truth all of it may lie where the submap knows nothing.
+  for (const double predicted_x_m : {-6.05, 6.05}) {
+    const CorrelativeMatcher matcher(submap_, points_, {Pose2(predicted_x_m, 0.0, 0.0), 2.0, 0.1});
+    const auto best = matcher.best_by_branch_and_bound(0.5);
+    ASSERT_TRUE(best);
+    EXPECT_EQ(std::abs(best->steps_x), 20);
+    EXPECT_FALSE(matcher.match(0.5));
   }
 }
 
