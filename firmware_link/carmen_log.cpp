@@ -103,7 +103,11 @@ class CarmenParser {
     if (!read_odometry_pose(numbers, corrected) || !read_odometry_pose(numbers, scan) ||
         !read_stamp(numbers, scan.stamp))
       return "FLASER line cut off or garbled";
-    if (!log_.scans.empty() && scan.stamp < log_.scans.back().stamp) ++log_.scan_reversals;
+    if (!log_.scans.empty() && scan.stamp < log_.scans.back().stamp) {
+      ++log_.scan_reversals;
+      log_.pose_lead.interrupt();
+    }
+    log_.pose_lead.add(scratch_m_, scan.yaw_rad, step_rad_);
     log_.scans.push_back(scan);
     for (const std::size_t i : picked_) log_.distances_m.push_back(scratch_m_[i]);
     return nullptr;
@@ -124,6 +128,7 @@ class CarmenParser {
     const std::optional<double> step_rad = step_between_readings_rad(readings);
     if (!step_rad) return;
     readings_ = readings;
+    step_rad_ = *step_rad;
     picked_ = pick_beams(readings, beam_count_);
     beams_.count = static_cast<std::uint8_t>(picked_.size());
     for (std::size_t i = 0; i < picked_.size(); ++i)
@@ -159,6 +164,7 @@ class CarmenParser {
   CarmenLog log_;
   BeamLayout beams_;
   std::size_t readings_ = 0;
+  double step_rad_ = 0.0;
   std::vector<std::size_t> picked_;
   std::vector<float> scratch_m_;
   std::uint64_t malformed_ = 0;

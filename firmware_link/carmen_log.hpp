@@ -13,6 +13,7 @@
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/sensing/sensor_model.hpp"
+#include "firmware_link/pose_lead.hpp"
 
 namespace swiftlet {
 
@@ -38,6 +39,7 @@ struct CarmenLog {
       0;  ///< ODOM lines with a stamp before that of the line before, in file order
   std::uint64_t scan_reversals = 0;   ///< the same of FLASER lines
   std::uint64_t duplicate_scans = 0;  ///< same stamp, same distances: dropped
+  PoseLead pose_lead;                 ///< of the FLASER lines' odometry, told from all their readings
   std::uint64_t lines = 0;
   std::vector<std::string> problems;  ///< malformed lines and damage, by line number or byte offset
 

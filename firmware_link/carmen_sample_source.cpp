@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace swiftlet {
 namespace {
@@ -24,9 +26,24 @@ bool trusts_odometry_lines(const CarmenLog& log) {
          log.odometry.back().stamp >= log.scans.back().stamp - kMostUncovered;
 }
 
-SensorModel sensor_model(bool uses_odometry_lines, const SampleSourceOptions& options) {
+/// Median of the times from one scan to the next; 0 for fewer than two.
+Duration usual_interval(const std::vector<CarmenOdometry>& scans) {
+  std::vector<Duration> intervals;
+  for (std::size_t i = 1; i < scans.size(); ++i) intervals.push_back(scans[i].stamp - scans[i - 1].stamp);
+  if (intervals.empty()) return Duration::zero();
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+Duration range_age(const CarmenLog& log, bool uses_odometry_lines) {
+  if (uses_odometry_lines) return kAgeAgainstOdometryLines;
+  return log.pose_lead.runs_a_line_ahead() ? usual_interval(log.scans) : Duration::zero();
+}
+
+SensorModel sensor_model(const CarmenLog& log, bool uses_odometry_lines, const SampleSourceOptions& options) {
   SensorModel sensor = SensorModel::carmen_laser();
-  sensor.range_age = uses_odometry_lines ? kAgeAgainstOdometryLines : Duration::zero();
+  sensor.range_age = range_age(log, uses_odometry_lines);
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
   if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
@@ -61,6 +78,15 @@ std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Du
   return choice + "the ODOM lines do not span the scans";
 }
 
+std::string describe_lead(const PoseLead& lead, Duration range_age) {
+  char turns[64];
+  std::snprintf(turns, sizeof turns, "%.2f deg off on average, not %.2f",
+                degrees(lead.difference_to_line_before_rad()), degrees(lead.difference_rad()));
+  return "the scans turn with the poses of the line before (" + std::string(turns) + "): ranges taken for " +
+         std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(range_age).count()) +
+         " ms older than their poses";
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SampleSource>> CarmenSampleSource::open(const std::string& path,
@@ -74,12 +100,14 @@ Result<std::unique_ptr<SampleSource>> CarmenSampleSource::open(const std::string
 CarmenSampleSource::CarmenSampleSource(CarmenLog log, const SampleSourceOptions& options)
     : log_(std::move(log)),
       uses_odometry_lines_(trusts_odometry_lines(log_)),
-      sensor_(sensor_model(uses_odometry_lines_, options)),
+      sensor_(sensor_model(log_, uses_odometry_lines_, options)),
       assembler_(assembly_config(log_, sensor_), report_) {
   report_.frames = log_.lines;
   report_.duplicates = log_.duplicate_scans;
   report_.problems = log_.problems;
   report_.notes.push_back(describe_odometry(log_, uses_odometry_lines_, sensor_.range_age));
+  if (!uses_odometry_lines_ && !options.range_age && log_.pose_lead.runs_a_line_ahead())
+    report_.notes.push_back(describe_lead(log_.pose_lead, sensor_.range_age));
   if (log_.scan_reversals > 0)
     report_.notes.push_back("scans out of time order were sorted (" + std::to_string(log_.scan_reversals) +
                             " steps back)");
