@@ -22,7 +22,8 @@ def static_objects(text):
     """Name and bytes of the largest objects with an address of their own outside the code, from what
     `nm -C -S --size-sort` says; largest first."""
     found = re.findall(r"^\w+ (\w+) [bBdD] (.+)$", text, re.MULTILINE)
-    return [(name.replace("(anonymous namespace)::", ""), int(size, 16)) for size, name in reversed(found)][:LARGEST]
+    return [(re.sub(r"\(anonymous namespace\)::|\([^()]*\)( const)?", "", name), int(size, 16))
+            for size, name in reversed(found)][:LARGEST]
 
 
 def fixed_parts(text):
@@ -77,8 +78,8 @@ kept once in the daemon. Its share of libraries of the system is not in it.
 
 {code_table(report['code'])}
 
-**Static storage.** {kilobytes(data + bss)} kB in the daemon, nearly all of it tables that never change after start-up.
-The largest:
+**Static storage.** {kilobytes(data + bss)} kB in the daemon (data and zeroed), most of it tables that never change after
+start-up. The largest:
 
 {page.table(["object", "bytes:"], [[f"`{name}`", f"{size:,}"] for name, size in report['objects']])}
 
@@ -89,10 +90,9 @@ The largest:
 **Stack.** The deepest byte that each thread wrote in a whole run of `swiftletd` at full speed, below the thread's first
 frame, in kB. Stacks are painted before a thread begins and looked through when it ends
 (`tests/benchmarks/painted_stacks.cpp`, preloaded into the daemon), so this is what was used, no bound for what might
-be. Each stack holds another {kilobytes(report['above'])} kB at its top, for the C library and for thread-local
-variables, most of them METIS', which CHOLMOD brings along. How large a stack is, the system says, usually 8 MB; only
-what was touched takes memory. The simulated vehicle lives in the radio thread; no run has a dongle, so libusb is not in
-it.{missing}
+be. Each stack holds another {kilobytes(report['above'])} kB at its top, for the C library and for thread-local variables, most of them
+METIS', which CHOLMOD brings along. How large a stack is, the system says, usually 8 MB; only what was touched takes
+memory. The simulated vehicle lives in the radio thread; no run has a dongle, so libusb is not in it.{missing}
 
 {stack_table(report['stacks'])}
 

@@ -18,7 +18,7 @@ SIZE = """   text\t   data\t    bss\t    dec\t    hex\tfilename
 """
 NM = """0000000000001000 0000000000000008 b swiftlet::(anonymous namespace)::count
 0000000000001010 0000000000000010 V vtable for swiftlet::Link
-0000000000001020 0000000000000020 d swiftlet::kRows
+0000000000001020 0000000000000020 d swiftlet::Extractor::resolve(swiftlet::Slots&) const::kRows
 0000000000001040 0000000000000100 T main
 """
 REPORT = {
@@ -35,7 +35,7 @@ class SizePage(unittest.TestCase):
         self.assertEqual(size_page.sizes(SIZE), [3000, 30, 3])
 
     def test_static_objects_are_data_alone_and_the_largest_first(self):
-        self.assertEqual(size_page.static_objects(NM), [("swiftlet::kRows", 32), ("swiftlet::count", 8)])
+        self.assertEqual(size_page.static_objects(NM), [("swiftlet::Extractor::resolve::kRows", 32), ("swiftlet::count", 8)])
 
     def test_a_part_is_its_own_bytes_and_those_on_the_heap(self):
         self.assertEqual(size_page.fixed_parts("frontend\t8\t992\nqueues\t500\t0\n"),
