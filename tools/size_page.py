@@ -97,7 +97,7 @@ memory. The simulated vehicle lives in the radio thread; no run has a dongle, so
 {stack_table(report['stacks'])}
 
 **Memory.** The most that `swiftletd` held resident over such runs, libraries of the system included; from run to run it
-differs by up to 1 MiB. Outputs, which `--output` asks for, come on top.
+differs by up to 2 MiB. Outputs, which `--output` asks for, come on top.
 
 {page.table(["input", "MiB:"], [[name, f"{size / MIB:.1f}"] for name, size in report['peaks']])}
 
