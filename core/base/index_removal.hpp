@@ -52,11 +52,13 @@ class IndexRemoval {
   template <typename T>
   void apply(std::vector<T>& sequence) const {
     if (holes_.empty()) return;
-    auto to = sequence.begin() + holes_.front().range.first;
+    const auto at = [&sequence](std::uint32_t index) {
+      return sequence.begin() + static_cast<std::ptrdiff_t>(index);
+    };
+    auto to = at(holes_.front().range.first);
     for (std::size_t i = 0; i < holes_.size(); ++i) {
-      const auto from = sequence.begin() + holes_[i].range.end;
-      const auto end = i + 1 < holes_.size() ? sequence.begin() + holes_[i + 1].range.first : sequence.end();
-      to = std::move(from, end, to);
+      const auto end = i + 1 < holes_.size() ? at(holes_[i + 1].range.first) : sequence.end();
+      to = std::move(at(holes_[i].range.end), end, to);
     }
     sequence.erase(to, sequence.end());
   }
