@@ -18,7 +18,8 @@ static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t), "the 
 timespec at(std::chrono::steady_clock::time_point time) {
   const auto since_boot = time.time_since_epoch();
   const auto seconds = std::chrono::floor<std::chrono::seconds>(since_boot);
-  return {.tv_sec = seconds.count(), .tv_nsec = std::chrono::nanoseconds(since_boot - seconds).count()};
+  const std::chrono::nanoseconds rest = since_boot - seconds;
+  return {.tv_sec = static_cast<time_t>(seconds.count()), .tv_nsec = static_cast<long>(rest.count())};
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ Result<fs::path> default_recordings_directory() {
 }
 
 std::string recording_name(HostTime began, int part) {
-  const std::time_t seconds = std::chrono::floor<std::chrono::seconds>(began.time_since_epoch()).count();
+  const auto seconds =
+      static_cast<std::time_t>(std::chrono::floor<std::chrono::seconds>(began.time_since_epoch()).count());
   std::tm utc{};
   gmtime_r(&seconds, &utc);
   std::array<char, 32> time{};
