@@ -75,7 +75,8 @@ void RetiredScans::write(const Backend& backend, ScanIndex scan, const Pose2& T_
 
 bool RetiredScans::visit_block(const Backend& backend, const Block& block,
                                const std::function<void(const TrajectoryPoint&)>& visit) const {
-  if (::fseeko(file_.get(), static_cast<off_t>(block.first_record * sizeof(Record)), SEEK_SET) != 0)
+  if (::fseeko(file_.get(), static_cast<off_t>(block.first_record * std::uint64_t{sizeof(Record)}),
+               SEEK_SET) != 0)
     return false;
   for (std::uint32_t i = 0; i < block.count; ++i) {
     Record record{};
