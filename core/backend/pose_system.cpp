@@ -65,7 +65,7 @@ void PoseSystem::add(const HeadingConstraint& constraint, double weight,
 void PoseSystem::add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs) {
   if (pose == 0) return;
   system_.add(pose - 1, pose - 1, H.data());
-  for (std::uint32_t k = 0; k < 3; ++k) system_.rhs[3 * (pose - 1) + k] += rhs[k];
+  for (std::uint32_t k = 0; k < 3; ++k) system_.rhs[3 * (pose - 1) + k] += rhs[static_cast<Eigen::Index>(k)];
 }
 
 Result<double> PoseSystem::step(std::vector<Pose2>& T_map_pose) {

@@ -179,8 +179,8 @@ WallRow JointProblem::wall_row(const WallReturn& wall) const {
   const Point2 p = T * wall.p_body;
   const Point2 off{p.x_m - patch.at.center_map.x_m, p.y_m - patch.at.center_map.y_m};
   WallRow row;
-  row.pose = 3 * Index{wall.scan};
-  row.patch = static_cast<Index>(3 * T_.size()) + 2 * Index{wall.patch};
+  row.pose = 3 * static_cast<Index>(wall.scan);
+  row.patch = static_cast<Index>(3 * T_.size()) + 2 * static_cast<Index>(wall.patch);
   row.error = normal.x_m * off.x_m + normal.y_m * off.y_m - patch.distance_m;
   row.by_pose << normal.x_m, normal.y_m, -normal.x_m * (p.y_m - T.y_m()) + normal.y_m * (p.x_m - T.x_m());
   row.by_patch << -1.0, -normal.y_m * off.x_m + normal.x_m * off.y_m;
