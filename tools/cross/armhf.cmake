@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+set(arch armhf)
+set(processor armv7l)
+set(triplet arm-linux-gnueabihf)
+set(emulator qemu-arm-static)
+# Says of templates that GCC 7 changed how they are called; nothing here is older.
+set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)
+include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)
