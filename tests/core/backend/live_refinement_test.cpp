@@ -188,7 +188,8 @@ TEST(LiveRefinement, EveryPartOfTheRunHasItsTurn) {
   for (int i = 0; i < 60; ++i) run->refine();
   std::vector<bool> has_moved(run->scans.size(), false);
   for (std::size_t k = run->moved.size() - 60; k < run->moved.size(); ++k)
-    std::fill(has_moved.begin() + run->moved[k].first, has_moved.begin() + run->moved[k].end, true);
+    std::fill_n(has_moved.begin() + static_cast<std::ptrdiff_t>(run->moved[k].first), run->moved[k].size(),
+                true);
   EXPECT_GT(std::count(has_moved.begin(), has_moved.end(), true),
             static_cast<std::ptrdiff_t>(run->scans.size() / 2));
 }
