@@ -28,7 +28,8 @@ double disagreement_m(std::span<const float> before, std::span<const float> now,
   float sum_m = 0.0F;
   std::size_t count = 0;
   for (int i = std::max(0, -steps); i < std::min(size, size - steps); ++i) {
-    const float a = before[static_cast<std::size_t>(i + steps)];
+    const int same_direction = i + steps;
+    const float a = before[static_cast<std::size_t>(same_direction)];
     const float b = now[static_cast<std::size_t>(i)];
     if (!(a < kFarthestM && b < kFarthestM)) continue;
     sum_m += std::min(std::abs(a - b), kMostDifferenceM);
