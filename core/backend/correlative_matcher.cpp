@@ -206,7 +206,8 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 /// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
 /// lies between the cells: the refinement below the grid's resolution. Every second cell is enough under a
 /// kernel of three.
-bool CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& result) const {
+void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_score,
+                                       MatchResult& result) const {
   const double cell_m = grid_.resolution_m;
   const double reach_m = std::clamp(window_.radius_m, kLeastSpreadM, kMostSpreadM);
   const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
@@ -214,8 +215,6 @@ bool CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& r
   const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
   Moments likely;
   Moments covered;
-  const KnownCells reference = known_cells({0, best.steps_x, best.steps_y, best.steps_yaw, 0.0, 0.0});
-  if (reference.share < kLeastKnownShare) return false;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
     for (int dy = -reach; dy <= reach; dy += kSpreadStride) {
       for (int dx = -reach; dx <= reach; dx += kSpreadStride) {
@@ -223,7 +222,7 @@ bool CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& r
         if (at.share < kLeastKnownShare) continue;
         const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
         // Points on unknown ground speak neither for the pose nor against it.
-        likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - reference.score)), d);
+        likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - best_score)), d);
         covered.add(1.0, d);
       }
     }
@@ -235,7 +234,6 @@ bool CorrelativeMatcher::spread_around(const DiscreteMatch& best, MatchResult& r
   const Pose2 T = T_submap_scan(best);
   const Eigen::Vector3d mean = likely.mean();
   result.T_submap_scan = Pose2(T.x_m() + mean.x(), T.y_m() + mean.y(), T.yaw_rad() + mean.z());
-  return true;
 }
 
 std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
@@ -243,10 +241,12 @@ std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
   if (!best) return std::nullopt;
   if (std::max(std::abs(best->steps_x), std::abs(best->steps_y)) > kEdgeOfWindow * linear_steps_)
     return std::nullopt;
+  const KnownCells known = known_cells({0, best->steps_x, best->steps_y, best->steps_yaw, 0.0, 0.0});
+  if (known.share < kLeastKnownShare) return std::nullopt;
   MatchResult result;
   result.T_submap_scan_best = T_submap_scan(*best);
   result.score = best->score;
-  if (!spread_around(*best, result)) return std::nullopt;
+  spread_around(*best, known.score, result);
   return result;
 }
 

@@ -76,8 +76,8 @@ class CorrelativeMatcher {
     const int from_lowest = steps_yaw + yaw_steps_;
     return static_cast<std::size_t>(from_lowest);
   }
-  /// Says whether enough of the points lie on known ground.
-  bool spread_around(const DiscreteMatch& best, MatchResult& result) const;
+  /// `best_score`: of the best, on known cells alone.
+  void spread_around(const DiscreteMatch& best, double best_score, MatchResult& result) const;
 
   GridGeometry grid_;
   SearchWindow window_;
