@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/check.hpp"
+
 namespace swiftlet {
 
 std::int8_t occupancy_percent(const CellCounts& counts, const MapConfig& config) {
@@ -18,6 +20,26 @@ TileStore::TileStore(const MapConfig& config) : config_(config) {
   for (std::uint32_t hits = 0; hits < kTableHits; ++hits)
     for (std::uint32_t misses = 0; misses < kTableMisses; ++misses)
       percent_table_.push_back(occupancy_percent({hits, misses}, config));
+}
+
+CellCounts TileStore::Tile::wide_counts_at(std::size_t i) const {
+  const NarrowCounts& above = (*middle)[i];
+  const auto carried = carries.empty() ? carries.end() : carries.find(i);
+  const CellCounts top = carried == carries.end() ? CellCounts{} : carried->second;
+  return {low[i].hits + (std::uint32_t{above.hits} << 8U) + (top.hits << 16U),
+          low[i].misses + (std::uint32_t{above.misses} << 8U) + (top.misses << 16U)};
+}
+
+void TileStore::Tile::carry(std::size_t i, std::uint8_t NarrowCounts::*narrow,
+                            std::uint32_t CellCounts::*wide) {
+  if (middle == nullptr) middle = std::make_unique<CountPlane>();
+  if (++((*middle)[i].*narrow) == 0) ++(carries[i].*wide);
+}
+
+void TileStore::Tile::borrow(std::size_t i, std::uint8_t NarrowCounts::*narrow,
+                             std::uint32_t CellCounts::*wide) {
+  SWIFTLET_CHECK(middle != nullptr, "what is taken back was counted");
+  if (((*middle)[i].*narrow)-- == 0) --(carries[i].*wide);
 }
 
 TileStore::Tile& TileStore::touch(TileIndex index) {
@@ -34,7 +56,7 @@ TileStore::Tile& TileStore::touch(TileIndex index) {
 bool TileStore::refresh(Tile& tile) const {
   bool changed = false;
   bool empty = true;
-  for (std::size_t i = 0; i < tile.counts.size(); ++i) {
+  for (std::size_t i = 0; i < kCellsInTile; ++i) {
     const std::int8_t percent = percent_of(tile.counts_at(i));
     empty = empty && percent < 0;
     if (percent == tile.published.occupancy_percent[i]) continue;

@@ -50,39 +50,44 @@ class TileStore {
   [[nodiscard]] std::vector<TileIndex> tiles() const;
 
  private:
-  /// The lower halves of CellCounts: few cells ever need more.
+  /// One byte of each of CellCounts.
   struct NarrowCounts {
-    std::uint16_t hits = 0;
-    std::uint16_t misses = 0;
+    std::uint8_t hits = 0;
+    std::uint8_t misses = 0;
   };
+  using CountPlane = std::array<NarrowCounts, kCellsInTile>;
+  /// Counts lie byte over byte: most tiles never need more than the lowest, where none lingers or returns.
   struct Tile {
-    std::array<NarrowCounts, kCellsInTile> counts{};
-    std::map<std::size_t, CellCounts> carries;  ///< upper halves, of the cells that have them
+    CountPlane low{};
+    std::unique_ptr<CountPlane> middle;         ///< once a count of this tile has needed it
+    std::map<std::size_t, CellCounts> carries;  ///< what is above both, of the few cells that have it
     MapTile published;
     bool touched = false;  ///< counted in since the last publish()
     bool empty = true;     ///< as published: no cell is known
 
     [[nodiscard]] CellCounts counts_at(std::size_t i) const {
-      const NarrowCounts& low = counts[i];
-      const auto high = carries.empty() ? carries.end() : carries.find(i);
-      if (high == carries.end()) return {low.hits, low.misses};
-      return {low.hits + (high->second.hits << 16U), low.misses + (high->second.misses << 16U)};
+      if (middle == nullptr) return {low[i].hits, low[i].misses};
+      return wide_counts_at(i);
     }
+    [[nodiscard]] CellCounts wide_counts_at(std::size_t i) const;
+    /// The lowest byte of a count has run over, or below 0.
+    void carry(std::size_t i, std::uint8_t NarrowCounts::*narrow, std::uint32_t CellCounts::*wide);
+    void borrow(std::size_t i, std::uint8_t NarrowCounts::*narrow, std::uint32_t CellCounts::*wide);
   };
 
-  void count(CellIndex cell, Change change, std::uint16_t NarrowCounts::*low,
-             std::uint32_t CellCounts::*high) {
+  void count(CellIndex cell, Change change, std::uint8_t NarrowCounts::*narrow,
+             std::uint32_t CellCounts::*wide) {
     // Tiles are a power of two wide: shifting and masking round downwards for negative cells too.
     const TileIndex index{cell.x >> kTileShift, cell.y >> kTileShift};
     if (last_tile_ == nullptr || index != last_tile_->published.index) last_tile_ = &touch(index);
     const auto column = static_cast<std::uint32_t>(cell.x) & (kTileCells - 1U);
     const auto row = static_cast<std::uint32_t>(cell.y) & (kTileCells - 1U);
     const std::size_t i = row * kTileCells + column;
-    std::uint16_t& counted = last_tile_->counts[i].*low;
+    std::uint8_t& counted = last_tile_->low[i].*narrow;
     if (change == Change::kCount) {
-      if (++counted == 0) ++(last_tile_->carries[i].*high);
+      if (++counted == 0) last_tile_->carry(i, narrow, wide);
     } else {
-      if (counted-- == 0) --(last_tile_->carries[i].*high);
+      if (counted-- == 0) last_tile_->borrow(i, narrow, wide);
     }
   }
   Tile& touch(TileIndex index);

@@ -95,6 +95,26 @@ TEST(TileStore, CountsBeyondSixteenBitsAndTakesThemBack) {
   EXPECT_EQ(percent_at(store, {3, 3}), -1);
 }
 
+TEST(TileStore, ACountThatPassesTheBoundsOfItsBytesAgainAndAgainLeavesNoTrace) {
+  const MapConfig config;
+  TileStore store(config);
+  for (const std::uint32_t bound : {256U, 65'536U}) {
+    for (std::uint32_t i = 0; i < bound - 1; ++i) store.add_miss({9, 9}, Change::kCount);
+    for (int round = 0; round < 3; ++round) {
+      store.add_miss({9, 9}, Change::kCount);
+      store.add_hit({9, 9}, Change::kCount);
+      store.publish();
+      EXPECT_EQ(percent_at(store, {9, 9}), occupancy_percent({1, bound}, config));
+      store.add_miss({9, 9}, Change::kTakeBack);
+      store.add_hit({9, 9}, Change::kTakeBack);
+    }
+    for (std::uint32_t i = 0; i < bound - 1; ++i) store.add_miss({9, 9}, Change::kTakeBack);
+    store.add_hit({8, 8}, Change::kCount);
+    store.publish();
+    EXPECT_EQ(percent_at(store, {9, 9}), -1);
+  }
+}
+
 TEST(TileStore, AnswersForATileThatNeverWas) {
   const MapTile tile = TileStore{MapConfig{}}.tile({7, -3});
   EXPECT_EQ(tile.index, (TileIndex{7, -3}));
