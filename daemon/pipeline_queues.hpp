@@ -26,9 +26,9 @@ namespace swiftlet {
 /// radio -> frontend: 25 s at 10 Hz. Full: a recording waits; from a live link the newest sample is refused
 /// and counted. The only place where anything on the way into the map can be lost.
 using SampleQueue = StageQueue<HeardSample, 256>;
-/// frontend -> backend: 100 s at 10 Hz. Full: the frontend waits, so no keyframe is ever missing from the
-/// graph; the samples wait (or are refused) in the queue before it.
-using StepQueue = StageQueue<FrontendStep, 1024>;
+/// frontend -> backend: 25 s at 10 Hz, many times its longest step. Full: the frontend waits, so no keyframe
+/// is ever missing from the graph; the samples wait (or are refused) in the queue before it.
+using StepQueue = StageQueue<FrontendStep, 256>;
 /// backend -> frontend: newest wins.
 using CorrectionValue = LatestValue<MapCorrection>;
 
@@ -37,7 +37,7 @@ using CorrectionValue = LatestValue<MapCorrection>;
 using PoseQueue = StageQueue<PoseUpdate, 256>;
 /// backend -> publisher. Full: what did not fit stays with the backend's worker, which offers its newest
 /// state again later. Closed when everything has been handed over, after the final pass.
-using TileQueue = StageQueue<MapTile, 256>;
+using TileQueue = StageQueue<MapTile, 64>;
 /// backend -> publisher. Full: as for tiles.
 using WallQueue = SpscQueue<WallInMap, 1024>;
 /// backend -> publisher. Full: as for tiles.

@@ -116,12 +116,13 @@ TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {
 TEST(FrontendWorker, GoesOnWhenThePublisherTakesNoPoses) {
   Bench bench;
   const std::vector<RangeSample> samples = resting_samples(PoseQueue::capacity() + 1);
+  const auto handed_on = std::make_unique<FrontendStep>();
   for (const RangeSample& sample : samples) {
     bench.push(sample);
     ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+    ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*handed_on));
   }
   EXPECT_EQ(bench.queues->to_publisher.poses.rejected_count(), 1U);
-  EXPECT_EQ(bench.queues->steps.high_water(), PoseQueue::capacity() + 1);
 }
 
 }  // namespace

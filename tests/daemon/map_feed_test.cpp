@@ -72,9 +72,11 @@ TEST(MapFeed, KeepsTheTilesThatTheQueueHasNoRoomForAndOffersThemAgain) {
   EXPECT_FALSE(bench.feed.is_empty());
   std::vector<TileIndex> received = bench.take_tiles();
   EXPECT_EQ(received.size(), TileQueue::capacity());
-  bench.feed.flush(bench.backend, bench.map);
-  const std::vector<TileIndex> rest = bench.take_tiles();
-  received.insert(received.end(), rest.begin(), rest.end());
+  while (!bench.feed.is_empty() && received.size() < all.size()) {
+    bench.feed.flush(bench.backend, bench.map);
+    const std::vector<TileIndex> more = bench.take_tiles();
+    received.insert(received.end(), more.begin(), more.end());
+  }
   EXPECT_TRUE(bench.feed.is_empty());
   EXPECT_EQ(received, all);
   EXPECT_EQ(bench.queues->tiles.rejected_count(), 0U);
