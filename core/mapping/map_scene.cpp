@@ -53,10 +53,13 @@ void add_walls(MapScene& scene, const Backend& backend) {
 MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
   MapScene scene;
   scene.resolution_m = map.config().resolution_m;
-  for (const TileIndex index : map.tiles()) scene.tiles.push_back(map.tile(index));
+  const std::vector<TileIndex> tiles = map.tiles();
+  scene.tiles.reserve(tiles.size());
+  for (const TileIndex index : tiles) scene.tiles.push_back(map.tile(index));
 
   const ScanStore& scans = backend.scans();
   const auto scan_count = static_cast<ScanIndex>(scans.size());
+  scene.scans.reserve(scan_count);
   if (scan_count > 0) {
     Pose2 T_map_odom;
     for (ScanIndex i = 0; i < scan_count; ++i) {

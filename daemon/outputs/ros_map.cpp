@@ -5,34 +5,44 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <string_view>
 
 namespace swiftlet {
 
 namespace {
 
+/// The rectangle around all tiles, both corners included.
 struct TileRange {
   TileIndex low;
   TileIndex high;
+
+  [[nodiscard]] std::size_t width_cells() const {
+    return static_cast<std::size_t>(high.x - low.x + 1) * kTileCells;
+  }
+  [[nodiscard]] std::size_t height_cells() const {
+    return static_cast<std::size_t>(high.y - low.y + 1) * kTileCells;
+  }
 };
 
-TileRange range_of(std::span<const MapTile> tiles) {
+TileRange range_of(std::span<const TileIndex> tiles) {
   if (tiles.empty()) return {};
-  TileRange range{tiles.front().index, tiles.front().index};
-  for (const MapTile& tile : tiles) {
-    range.low = {std::min(range.low.x, tile.index.x), std::min(range.low.y, tile.index.y)};
-    range.high = {std::max(range.high.x, tile.index.x), std::max(range.high.y, tile.index.y)};
+  TileRange range{tiles.front(), tiles.front()};
+  for (const TileIndex index : tiles) {
+    range.low = {std::min(range.low.x, index.x), std::min(range.low.y, index.y)};
+    range.high = {std::max(range.high.x, index.x), std::max(range.high.y, index.y)};
   }
   return range;
 }
 
-void copy_tile(RosMap& map, const MapTile& tile, TileIndex low) {
-  for (int row = 0; row < kTileCells; ++row) {
-    const int y_from_bottom = (tile.index.y - low.y) * kTileCells + row;
-    const int first_column = (tile.index.x - low.x) * kTileCells;
-    const auto from = tile.occupancy_percent.begin() + static_cast<std::ptrdiff_t>(row) * kTileCells;
-    const auto to = map.pixels.begin() +
-                    static_cast<std::ptrdiff_t>(map.height - 1 - y_from_bottom) * map.width + first_column;
-    std::transform(from, from + kTileCells, to, pgm_value);
+/// Into the pixels of its row of tiles, which come from the top as well.
+void copy_tile(const MapTile& tile, const TileRange& range, std::string& pixels) {
+  const std::size_t left = static_cast<std::size_t>(tile.index.x - range.low.x) * kTileCells;
+  for (std::size_t row = 0; row < kTileCells; ++row) {
+    const auto from = tile.occupancy_percent.begin() + static_cast<std::ptrdiff_t>(row * kTileCells);
+    const std::size_t row_from_top = kTileCells - 1 - row;
+    const auto to = pixels.begin() + static_cast<std::ptrdiff_t>(row_from_top * range.width_cells() + left);
+    std::transform(from, from + kTileCells, to,
+                   [](std::int8_t percent) { return static_cast<char>(pgm_value(percent)); });
   }
 }
 
@@ -44,27 +54,23 @@ std::string number(double value) {
 
 }  // namespace
 
-RosMap make_ros_map(std::span<const MapTile> tiles, double resolution_m) {
+void write_pgm(std::span<const TileIndex> tiles, const TileContent& content, const FileSink& write) {
   const TileRange range = range_of(tiles);
-  RosMap map;
-  map.width = (range.high.x - range.low.x + 1) * kTileCells;
-  map.height = (range.high.y - range.low.y + 1) * kTileCells;
-  map.origin_map = {range.low.x * kTileCells * resolution_m, range.low.y * kTileCells * resolution_m};
-  map.pixels.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height), kPgmUnknown);
-  for (const MapTile& tile : tiles) copy_tile(map, tile, range.low);
-  return map;
+  write("P5\n" + std::to_string(range.width_cells()) + " " + std::to_string(range.height_cells()) +
+        "\n255\n");
+  std::string pixels;
+  for (std::int32_t y = range.high.y; y >= range.low.y; --y) {
+    pixels.assign(range.width_cells() * kTileCells, static_cast<char>(kPgmUnknown));
+    for (const TileIndex index : tiles)
+      if (index.y == y) copy_tile(content(index), range, pixels);
+    write(pixels);
+  }
 }
 
-std::string pgm_text(const RosMap& map) {
-  std::string text = "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
-  text.reserve(text.size() + map.pixels.size());
-  text.append(map.pixels.begin(), map.pixels.end());
-  return text;
-}
-
-std::string ros_map_yaml(const RosMap& map, double resolution_m, const std::string& pgm_name) {
+std::string ros_map_yaml(std::span<const TileIndex> tiles, double resolution_m, const std::string& pgm_name) {
+  const TileIndex corner = range_of(tiles).low;
   return "image: " + pgm_name + "\nmode: trinary\nresolution: " + number(resolution_m) + "\norigin: [" +
-         number(map.origin_map.x_m) + ", " + number(map.origin_map.y_m) +
+         number(corner.x * kTileCells * resolution_m) + ", " + number(corner.y * kTileCells * resolution_m) +
          ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 }
 

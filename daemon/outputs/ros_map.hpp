@@ -3,22 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "core/geometry/pose2.hpp"
 #include "core/mapping/map_tile.hpp"
+#include "daemon/outputs/file_writer.hpp"
 
 namespace swiftlet {
 
-/// The map as ROS's map_server reads it (https://wiki.ros.org/map_server, mode trinary).
-struct RosMap {
-  int width = 0;
-  int height = 0;
-  Point2 origin_map;                 ///< lower left corner of the lower left cell
-  std::vector<std::uint8_t> pixels;  ///< row by row from the top, which is the highest y
-};
+// The map as ROS's map_server reads it (https://wiki.ros.org/map_server, mode trinary): an image, and a YAML
+// file that says where it lies. Both cover all tiles, in whole tiles; where there is none, the one at the
+// origin. The order of the tiles does not matter.
 
 inline constexpr std::uint8_t kPgmOccupied = 0;
 inline constexpr std::uint8_t kPgmFree = 254;
@@ -32,13 +28,14 @@ inline constexpr std::uint8_t kPgmUnknown = 205;
   return occupancy_percent < 45 ? kPgmFree : kPgmUnknown;
 }
 
-/// Covers all tiles, in whole tiles; where there is none, the one at the origin. The order of the tiles does
-/// not matter.
-[[nodiscard]] RosMap make_ros_map(std::span<const MapTile> tiles, double resolution_m);
+/// The content of one of the tiles.
+using TileContent = std::function<MapTile(TileIndex)>;
 
-/// The bytes of a binary PGM file.
-[[nodiscard]] std::string pgm_text(const RosMap& map);
+/// Hands the bytes of a binary PGM file to the sink, one row of tiles at a time from the top, which is the
+/// highest y: a building's map at once is tens of megabytes. Asks for each tile once.
+void write_pgm(std::span<const TileIndex> tiles, const TileContent& content, const FileSink& write);
 /// The YAML file beside it.
-[[nodiscard]] std::string ros_map_yaml(const RosMap& map, double resolution_m, const std::string& pgm_name);
+[[nodiscard]] std::string ros_map_yaml(std::span<const TileIndex> tiles, double resolution_m,
+                                       const std::string& pgm_name);
 
 }  // namespace swiftlet

@@ -17,12 +17,14 @@ namespace swiftlet {
 namespace {
 
 Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map) {
-  std::vector<MapTile> tiles;
-  for (const TileIndex index : map.tiles()) tiles.push_back(map.tile(index));
-  const double resolution_m = map.config().resolution_m;
-  const RosMap ros_map = make_ros_map(tiles, resolution_m);
-  if (Status written = write_file(directory / "map.pgm", pgm_text(ros_map)); !written) return written;
-  return write_file(directory / "map.yaml", ros_map_yaml(ros_map, resolution_m, "map.pgm"));
+  const std::vector<TileIndex> tiles = map.tiles();
+  Status written = write_file(directory / "map.pgm", [&](const FileSink& write) {
+    write_pgm(
+        tiles, [&map](TileIndex index) { return map.tile(index); }, write);
+    return Status();
+  });
+  if (!written) return written;
+  return write_file(directory / "map.yaml", ros_map_yaml(tiles, map.config().resolution_m, "map.pgm"));
 }
 
 Status write_picture(const std::filesystem::path& directory, const RunView& run) {

@@ -13,6 +13,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/outputs/ros_map.hpp"
@@ -39,12 +40,14 @@ class MapConsumer {
            version_sum == status_.version_sum;
   }
 
-  [[nodiscard]] std::string pgm() const {
-    std::vector<MapTile> tiles;
+  void write_map(std::ostream& file) const {
+    std::vector<TileIndex> tiles;
     for (const auto& [index, tile] : tiles_) {
-      if (holds_anything(tile)) tiles.push_back(tile);
+      if (holds_anything(tile)) tiles.push_back(index);
     }
-    return pgm_text(make_ros_map(tiles, resolution_m_));
+    write_pgm(
+        tiles, [this](TileIndex index) { return tiles_.at(index); },
+        [&file](std::string_view bytes) { file << bytes; });
   }
 
   [[nodiscard]] std::string state() const {
@@ -55,7 +58,6 @@ class MapConsumer {
  private:
   status_t status_{};
   std::int64_t map_id_ = 0;
-  double resolution_m_ = 0.0;
   std::map<TileIndex, MapTile> tiles_;
 
   /// False where a correction rubbed everything out again.
@@ -76,7 +78,6 @@ class MapConsumer {
   void take(const map_tile_t& message) {
     if (message.map_id != map_id_) tiles_.clear();
     map_id_ = message.map_id;
-    resolution_m_ = message.resolution;
     MapTile tile{.index = {message.tile_x, message.tile_y},
                  .version = static_cast<std::uint32_t>(message.version)};
     std::memcpy(tile.occupancy_percent.data(), message.occupancy_percent, sizeof(message.occupancy_percent));
@@ -98,7 +99,8 @@ int consume(const std::string& url, const std::string& pgm_path, int timeout_s) 
     std::fprintf(stderr, "no complete map in time: %s\n", consumer.state().c_str());
     return EXIT_FAILURE;
   }
-  std::ofstream(pgm_path, std::ios::binary) << consumer.pgm();
+  std::ofstream file(pgm_path, std::ios::binary);
+  consumer.write_map(file);
   std::printf("%s\n", consumer.state().c_str());
   return EXIT_SUCCESS;
 }

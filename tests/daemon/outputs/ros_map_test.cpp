@@ -4,6 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
 namespace swiftlet {
 namespace {
 
@@ -14,9 +19,45 @@ MapTile unknown_tile(TileIndex index) {
   return tile;
 }
 
-std::uint8_t pixel(const RosMap& map, int column, int row_from_top) {
-  return map.pixels[static_cast<std::size_t>(row_from_top) * static_cast<std::size_t>(map.width) +
-                    static_cast<std::size_t>(column)];
+/// A PGM file, read back.
+struct Image {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  std::string pixels;
+
+  [[nodiscard]] std::uint8_t pixel(std::size_t column, std::size_t row_from_top) const {
+    return static_cast<std::uint8_t>(pixels.at(row_from_top * width + column));
+  }
+};
+
+std::vector<TileIndex> indices_of(const std::vector<MapTile>& tiles) {
+  std::vector<TileIndex> indices;
+  for (const MapTile& tile : tiles) indices.push_back(tile.index);
+  return indices;
+}
+
+std::string pgm_of(const std::vector<MapTile>& tiles) {
+  std::string bytes;
+  const auto content = [&](TileIndex index) {
+    return *std::find_if(tiles.begin(), tiles.end(),
+                         [index](const MapTile& tile) { return tile.index == index; });
+  };
+  write_pgm(indices_of(tiles), content, [&bytes](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+Image image_of(const std::vector<MapTile>& tiles) {
+  const std::string bytes = pgm_of(tiles);
+  std::istringstream header(bytes);
+  std::string kind;
+  int brightest = 0;
+  Image image;
+  header >> kind >> image.width >> image.height >> brightest;
+  EXPECT_EQ(kind, "P5");
+  EXPECT_EQ(brightest, 255);
+  image.pixels = bytes.substr(static_cast<std::size_t>(header.tellg()) + 1);  // after one white space
+  EXPECT_EQ(image.pixels.size(), image.width * image.height);
+  return image;
 }
 
 TEST(PgmValue, FollowsMapServersTrinaryValues) {
@@ -41,12 +82,12 @@ TEST(RosMap, PutsTheHighestRowFirst) {
   MapTile tile = unknown_tile({0, 0});
   tile.occupancy_percent[0] = 98;                // lower left cell
   tile.occupancy_percent[kCellsInTile - 1] = 2;  // upper right cell
-  const RosMap map = make_ros_map({&tile, 1}, 0.05);
-  EXPECT_EQ(map.width, kTileCells);
-  EXPECT_EQ(map.height, kTileCells);
-  EXPECT_EQ(pixel(map, 0, kTileCells - 1), kPgmOccupied);
-  EXPECT_EQ(pixel(map, kTileCells - 1, 0), kPgmFree);
-  EXPECT_EQ(pixel(map, 0, 0), kPgmUnknown);
+  const Image image = image_of({tile});
+  EXPECT_EQ(image.width, std::size_t{kTileCells});
+  EXPECT_EQ(image.height, std::size_t{kTileCells});
+  EXPECT_EQ(image.pixel(0, kTileCells - 1), kPgmOccupied);
+  EXPECT_EQ(image.pixel(kTileCells - 1, 0), kPgmFree);
+  EXPECT_EQ(image.pixel(0, 0), kPgmUnknown);
 }
 
 TEST(RosMap, CoversAllTilesInAnyOrder) {
@@ -54,30 +95,31 @@ TEST(RosMap, CoversAllTilesInAnyOrder) {
   MapTile high = unknown_tile({0, 1});
   low.occupancy_percent[0] = 98;
   high.occupancy_percent[kCellsInTile - 1] = 98;
-  const std::vector<MapTile> forth = {low, high};
-  const std::vector<MapTile> back = {high, low};
-  const RosMap map = make_ros_map(forth, 0.05);
-  EXPECT_EQ(map.width, 3 * kTileCells);
-  EXPECT_EQ(map.height, 3 * kTileCells);
-  EXPECT_DOUBLE_EQ(map.origin_map.x_m, -2 * kTileCells * 0.05);
-  EXPECT_DOUBLE_EQ(map.origin_map.y_m, -1 * kTileCells * 0.05);
-  EXPECT_EQ(pixel(map, 0, map.height - 1), kPgmOccupied);
-  EXPECT_EQ(pixel(map, map.width - 1, 0), kPgmOccupied);
-  EXPECT_EQ(pgm_text(map), pgm_text(make_ros_map(back, 0.05)));
+  const Image image = image_of({low, high});
+  EXPECT_EQ(image.width, std::size_t{3 * kTileCells});
+  EXPECT_EQ(image.height, std::size_t{3 * kTileCells});
+  EXPECT_EQ(image.pixel(0, image.height - 1), kPgmOccupied);
+  EXPECT_EQ(image.pixel(image.width - 1, 0), kPgmOccupied);
+  EXPECT_EQ(std::count(image.pixels.begin(), image.pixels.end(), static_cast<char>(kPgmOccupied)), 2);
+  EXPECT_EQ(pgm_of({low, high}), pgm_of({high, low}));
 }
 
 TEST(RosMap, OfNothingIsOneUnknownTile) {
-  const RosMap map = make_ros_map({}, 0.05);
-  EXPECT_EQ(map.pixels.size(), kCellsInTile);
-  EXPECT_THAT(map.pixels, testing::Each(kPgmUnknown));
+  const Image image = image_of({});
+  EXPECT_EQ(image.pixels.size(), kCellsInTile);
+  EXPECT_THAT(image.pixels, testing::Each(static_cast<char>(kPgmUnknown)));
 }
 
-TEST(RosMap, WritesTheTwoFiles) {
-  const MapTile tile = unknown_tile({-1, 2});
-  const RosMap map = make_ros_map({&tile, 1}, 0.05);
-  EXPECT_EQ(pgm_text(map).substr(0, 13), "P5\n64 64\n255\n");
-  EXPECT_EQ(pgm_text(map).size(), 13U + 64U * 64U);
-  EXPECT_EQ(ros_map_yaml(map, 0.05, "map.pgm"),
+TEST(RosMap, HandsOnOneRowOfTilesAtATime) {
+  const std::vector<TileIndex> tiles = {{0, 0}, {1, 9}};
+  std::size_t longest = 0;
+  write_pgm(tiles, unknown_tile, [&](std::string_view piece) { longest = std::max(longest, piece.size()); });
+  EXPECT_EQ(longest, 2 * kCellsInTile);
+}
+
+TEST(RosMap, SaysWhereTheLowestCornerLies) {
+  const std::vector<TileIndex> tiles = {{-1, 5}, {3, 2}};
+  EXPECT_EQ(ros_map_yaml(tiles, 0.05, "map.pgm"),
             "image: map.pgm\n"
             "mode: trinary\n"
             "resolution: 0.050000\n"
