@@ -17,6 +17,8 @@ from pathlib import Path
 
 URL = "udpm://239.255.76.67:7667?ttl=0"
 TIMEOUT_S = 300
+LISTENS_WITHIN_S = 30
+NOT_LISTENING = 3
 # A network of its own, so that nothing else is heard and nothing leaves the machine.
 NETWORK = ["unshare", "--user", "--map-root-user", "--net", "--", "sh", "-c",
            'ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo && exec "$@"', "sh"]
@@ -58,19 +60,34 @@ def in_own_network(command):
     allowed = subprocess.run([*NETWORK, "true"], capture_output=True, check=False)
     if allowed.returncode != 0:
         raise Skipped("network namespaces are not permitted here: " + allowed.stderr.decode().strip())
-    return subprocess.run([*NETWORK, *command], timeout=TIMEOUT_S + 30, check=False).returncode
+    limit_s = TIMEOUT_S + 30
+    with subprocess.Popen([*NETWORK, *command], start_new_session=True) as process:
+        try:
+            return process.wait(timeout=limit_s)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise Failed(f"not over after {limit_s} s") from None
 
 
 def rebuild_over_multicast(bench, uri, rate):
     """Daemon and consumer in two processes; both maps must be the same bytes."""
-    out, rebuilt = bench.folder / "out", bench.folder / "rebuilt.pgm"
+    out, rebuilt, said = bench.folder / "out", bench.folder / "rebuilt.pgm", bench.folder / "consumer.txt"
     script = bench.folder / "both.sh"
     script.write_text(
-        f"'{bench.consumer}' '{URL}' '{rebuilt}' {TIMEOUT_S} > '{bench.folder}/consumer.txt' &\n"
-        f"until grep -q listening '{bench.folder}/consumer.txt'; do sleep 0.05; done\n"
+        f"'{bench.consumer}' '{URL}' '{rebuilt}' {TIMEOUT_S} > '{said}' 2>&1 &\n"
+        "consumer=$!\n"
+        "trap 'kill $consumer 2> /dev/null' EXIT\n"
+        f"looks_left={20 * LISTENS_WITHIN_S}\n"
+        f"until grep -q listening '{said}'; do\n"
+        f"  [ $((looks_left -= 1)) -gt 0 ] && kill -0 $consumer 2> /dev/null || exit {NOT_LISTENING}\n"
+        "  sleep 0.05\n"
+        "done\n"
         f"'{bench.swiftletd}' --input '{uri}' --lcm-url '{URL}' --rate {rate} -o '{out}' || exit 1\n"
-        "wait $!\n", encoding="utf-8")
-    expect(in_own_network(["sh", str(script)]) == 0, "the daemon or its consumer failed")
+        "wait $consumer\n", encoding="utf-8")
+    code = in_own_network(["sh", str(script)])
+    last_said = (said.read_text(encoding="utf-8").splitlines() or ["nothing"])[-1]
+    expect(code != NOT_LISTENING, f"no consumer listened within {LISTENS_WITHIN_S} s; it said: {last_said}")
+    expect(code == 0, f"the daemon or its consumer failed; the consumer said: {last_said}")
     expect(rebuilt.read_bytes() == (out / "map.pgm").read_bytes(), "the consumer's map is not the daemon's map.pgm")
     report = json.loads((out / "report.json").read_text(encoding="utf-8"))
     expect(report, "the report is empty")
