@@ -25,7 +25,7 @@ Status write_all(const fs::path& unfinished, const fs::path& path, const FileCon
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
   if (file == nullptr) return failed();
   bool written = true;
-  const Status made = content([&](std::string_view bytes) {
+  Status made = content([&](std::string_view bytes) {
     written = written && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   });
   written = written && std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
