@@ -73,7 +73,8 @@ void frame_to_queued_sample(benchmark::State& state) {
 
   link.pause = std::chrono::microseconds(state.range(0));
   StageHistogram latencies;
-  for (auto _ : state) {  // NOLINT(readability-identifier-naming): as Google Benchmark has it
+  for (auto _ : state) {  // NOLINT(readability-identifier-naming,clang-analyzer-deadcode.DeadStores): as
+                          // Google Benchmark has it
     static_cast<void>(worker.step());
     const Duration took = std::chrono::steady_clock::now() - link.handed_over;
     SWIFTLET_CHECK(consumer.try_pop(sample), "every log packet makes a sample");

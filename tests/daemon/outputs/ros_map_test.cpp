@@ -32,6 +32,7 @@ struct Image {
 
 std::vector<TileIndex> indices_of(const std::vector<MapTile>& tiles) {
   std::vector<TileIndex> indices;
+  indices.reserve(tiles.size());
   for (const MapTile& tile : tiles) indices.push_back(tile.index);
   return indices;
 }
@@ -96,8 +97,8 @@ TEST(RosMap, CoversAllTilesInAnyOrder) {
   low.occupancy_percent[0] = 98;
   high.occupancy_percent[kCellsInTile - 1] = 98;
   const Image image = image_of({low, high});
-  EXPECT_EQ(image.width, std::size_t{3 * kTileCells});
-  EXPECT_EQ(image.height, std::size_t{3 * kTileCells});
+  EXPECT_EQ(image.width, 3 * std::size_t{kTileCells});
+  EXPECT_EQ(image.height, 3 * std::size_t{kTileCells});
   EXPECT_EQ(image.pixel(0, image.height - 1), kPgmOccupied);
   EXPECT_EQ(image.pixel(image.width - 1, 0), kPgmOccupied);
   EXPECT_EQ(std::count(image.pixels.begin(), image.pixels.end(), static_cast<char>(kPgmOccupied)), 2);
