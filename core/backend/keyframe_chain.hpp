@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,21 @@ class KeyframeChain {
 
   /// T_w_body of a scan, given T_w_keyframe of all keyframes in any one frame w.
   [[nodiscard]] Pose2 T_w_body(ScanIndex scan, std::span<const Pose2> T_w_keyframe) const;
+  /// Of consecutive scans, or every so many of them, for less than one by one. Allocates.
+  [[nodiscard]] std::vector<Pose2> T_w_bodies(const ScanRange& scans, std::span<const Pose2> T_w_keyframe,
+                                              ScanIndex every = 1) const;
 
  private:
+  /// From one keyframe to the next: what dead reckoning misses at its end, none where that is not known.
+  struct Stretch {
+    ScanIndex first = 0;
+    ScanIndex last = 0;
+    std::optional<Pose2> missed;
+  };
+  [[nodiscard]] Stretch stretch_after(KeyframeId keyframe, std::span<const Pose2> T_w_keyframe) const;
+  [[nodiscard]] Pose2 T_w_body(ScanIndex scan, const Stretch& stretch,
+                               std::span<const Pose2> T_w_keyframe) const;
+
   const ScanStore* scans_;
   std::vector<ScanIndex> scan_of_keyframe_;
 };

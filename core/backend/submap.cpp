@@ -76,8 +76,10 @@ Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanSt
   std::vector<PlacedScan> placed;
   Point2 low{1e9, 1e9};
   Point2 high{-1e9, -1e9};
-  for (ScanIndex i = chain.scan_of(first); i < chain.scan_of(last); ++i) {
-    placed.push_back({i, T_submap_w * chain.T_w_body(i, T_w_keyframe)});
+  const ScanRange drawn{chain.scan_of(first), chain.scan_of(last)};
+  const std::vector<Pose2> T_w_body = chain.T_w_bodies(drawn, T_w_keyframe);
+  for (ScanIndex i = drawn.first; i < drawn.end; ++i) {
+    placed.push_back({i, T_submap_w * T_w_body[i - drawn.first]});
     include(placed.back().T_submap_body.position(), low, high);
     for (const ScanReturn& beam : scans.returns(i)) {
       if (beam.is_hit) include(placed.back().T_submap_body * scans.point_body(beam), low, high);

@@ -108,6 +108,23 @@ TEST_F(KeyframeChainTest, ThePastAloneCanBePlaced) {
     EXPECT_TRUE(poses_near(chain_.T_w_body(i, T_odom_early), scans_[i].T_odom_body, kExact, kExact));
 }
 
+TEST_F(KeyframeChainTest, PlacesManyScansAsItPlacesEach) {
+  fly(45, 10, 20);
+  std::mt19937 random(43);
+  std::vector<Pose2> T_map_keyframe;
+  for (std::size_t k = 0; k < chain_.size(); ++k) T_map_keyframe.push_back(random_pose(random, 5.0));
+  for (const ScanRange& scans : {ScanRange{0, 45}, ScanRange{7, 33}, ScanRange{42, 45}, ScanRange{5, 5}}) {
+    for (const ScanIndex every : {1U, 3U, 12U}) {
+      const std::vector<Pose2> poses = chain_.T_w_bodies(scans, T_map_keyframe, every);
+      ASSERT_EQ(poses.size(), (scans.size() + every - 1) / every);
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        const auto i = static_cast<ScanIndex>(scans.first + k * every);
+        EXPECT_TRUE(poses_near(poses[k], chain_.T_w_body(i, T_map_keyframe), 0.0, 0.0)) << i;
+      }
+    }
+  }
+}
+
 TEST_F(KeyframeChainTest, DoesNotBridgeIntoANewSegment) {
   fly(21, 10, 10);
   // Wherever the next segment is put, the scans before it stay with their own keyframe.
