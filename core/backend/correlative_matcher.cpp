@@ -11,6 +11,8 @@
 namespace swiftlet {
 namespace {
 
+constexpr int kTileLevel = 3;  // blocks of which are tried pose by pose, for they are one tile
+static_assert(1 << kTileLevel == ByteTiles::kSide);
 // How much score a match at the edge of the window gives up against one at its centre: less than any real
 // difference, enough to settle ties.
 constexpr double kEdgePenalty = 0.02;
@@ -41,6 +43,33 @@ double farthest_m(std::span<const Point2> points) {
 int levels_for(int linear_steps) {
   const auto farthest = static_cast<unsigned>(std::max(1, linear_steps - 1));
   return 1 + static_cast<int>(std::bit_width(farthest));
+}
+
+/// Of submap cells, which hold 255 times theirs.
+double mean_probability(std::uint32_t sum, std::size_t count) {
+  return static_cast<double>(sum) / (255.0 * static_cast<double>(count));
+}
+
+std::vector<std::uint8_t> known_of(std::span<const std::uint8_t> submap_cells) {
+  std::vector<std::uint8_t> known(submap_cells.size());
+  std::transform(submap_cells.begin(), submap_cells.end(), known.begin(),
+                 [](std::uint8_t value) { return static_cast<std::uint8_t>(value != 0 ? 1 : 0); });
+  return known;
+}
+
+/// The sums at `side` x `side` positions, kSpreadStride apart from (x, y) on, row by row.
+std::vector<std::uint32_t> sums_of_square(const ByteTiles& tiles, std::span<const CellIndex> cells, int x,
+                                          int y, int side) {
+  std::vector<std::uint32_t> square(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  for (int row = 0; row < side; row += ByteTiles::kSide) {
+    for (int column = 0; column < side; column += ByteTiles::kSide) {
+      const ByteTiles::Sums sums = tiles.sums(cells, x + kSpreadStride * column, y + kSpreadStride * row);
+      const int count = std::min(ByteTiles::kSide, side - column);
+      for (int k = 0; k < ByteTiles::kSide && row + k < side; ++k)
+        std::copy_n(sums.begin() + k * ByteTiles::kSide, count, square.begin() + (row + k) * side + column);
+    }
+  }
+  return square;
 }
 
 /// Weighted moments of steps from the optimum.
@@ -87,9 +116,11 @@ struct CorrelativeMatcher::Block {
 CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
                                        const SearchWindow& window)
     : grid_(submap.geometry),
+      submap_cells_(submap.cells),
       window_(window),
       linear_steps_(static_cast<int>(std::ceil(window.radius_m / grid_.resolution_m))),
-      pyramid_(submap.geometry, submap.cells, levels_for(linear_steps_)) {
+      pyramid_(submap.geometry, submap.cells, levels_for(linear_steps_)),
+      tiles_(submap.geometry, submap.cells, 1) {
   // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
   const double ratio = grid_.resolution_m / farthest_m(points_scan);
   angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
@@ -122,20 +153,25 @@ double CorrelativeMatcher::block_score(const Block& block) const {
   std::uint32_t sum = 0;
   const auto& list = cells(block.yaw);
   for (const CellIndex& c : list) sum += pyramid_.max_at(block.level, c.x + block.x, c.y + block.y);
-  return static_cast<double>(sum) / (255.0 * static_cast<double>(list.size()));
+  return mean_probability(sum, list.size());
 }
 
-CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const Block& block) const {
+CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(std::uint32_t sum, std::uint32_t known,
+                                                               std::size_t points) {
+  return {static_cast<double>(sum) / (255.0 * std::max(known, 1U)),
+          static_cast<double>(known) / static_cast<double>(points)};
+}
+
+CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const DiscreteMatch& at) const {
   std::uint32_t sum = 0;
-  std::size_t known = 0;
-  const auto& list = cells(block.yaw);
+  std::uint32_t known = 0;
+  const auto& list = cells(at.steps_yaw);
   for (const CellIndex& c : list) {
-    const std::uint8_t value = pyramid_.max_at(0, c.x + block.x, c.y + block.y);
+    const std::uint8_t value = pyramid_.max_at(0, c.x + at.steps_x, c.y + at.steps_y);
     sum += value;
     known += value != 0 ? 1 : 0;
   }
-  return {static_cast<double>(sum) / (255.0 * static_cast<double>(std::max<std::size_t>(known, 1))),
-          static_cast<double>(known) / static_cast<double>(list.size())};
+  return known_cells(sum, known, list.size());
 }
 
 CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw) const {
@@ -150,8 +186,8 @@ CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y
 
 void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMatch& best) const {
   if (block.bound <= best.preferred || block.score < min_score) return;
-  if (block.level == 0) {
-    best = {block.x, block.y, block.yaw, block.score, block.bound};
+  if (block.level <= kTileLevel) {
+    search_all_of(block, min_score, best);
     return;
   }
   const int half = 1 << (block.level - 1);
@@ -166,6 +202,20 @@ void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMa
   std::stable_sort(children, children + count,
                    [](const Block& a, const Block& b) { return a.bound > b.bound; });
   for (int i = 0; i < count; ++i) search(children[i], min_score, best);
+}
+
+void CorrelativeMatcher::search_all_of(const Block& block, double min_score, DiscreteMatch& best) const {
+  const auto& list = cells(block.yaw);
+  const ByteTiles::Sums sums = tiles_.sums(list, block.x, block.y);
+  const int side = 1 << block.level;
+  for (int y = block.y; y < block.y + side && y <= linear_steps_; ++y) {
+    for (int x = block.x; x < block.x + side && x <= linear_steps_; ++x) {
+      const auto at = static_cast<std::size_t>(ByteTiles::kSide * (y - block.y) + x - block.x);
+      const double score = mean_probability(sums[at], list.size());
+      const double preferred = score + preference(x, y, block.yaw);
+      if (score >= min_score && preferred > best.preferred) best = {x, y, block.yaw, score, preferred};
+    }
+  }
 }
 
 std::optional<DiscreteMatch> CorrelativeMatcher::best_by_branch_and_bound(double min_score) const {
@@ -213,18 +263,24 @@ void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_sc
   const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
   const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - kYawSpreadSteps);
   const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
+  const int side = 2 * reach / kSpreadStride + 1;  // positions
+  const ByteTiles values(grid_, submap_cells_, kSpreadStride);
+  const ByteTiles knowns(grid_, known_of(submap_cells_), kSpreadStride);
   Moments likely;
   Moments covered;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
-    for (int dy = -reach; dy <= reach; dy += kSpreadStride) {
-      for (int dx = -reach; dx <= reach; dx += kSpreadStride) {
-        const KnownCells at = known_cells({0, best.steps_x + dx, best.steps_y + dy, yaw, 0.0, 0.0});
-        if (at.share < kLeastKnownShare) continue;
-        const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
-        // Points on unknown ground speak neither for the pose nor against it.
-        likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - best_score)), d);
-        covered.add(1.0, d);
-      }
+    const auto& list = cells(yaw);
+    const auto sums = sums_of_square(values, list, best.steps_x - reach, best.steps_y - reach, side);
+    const auto known = sums_of_square(knowns, list, best.steps_x - reach, best.steps_y - reach, side);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const KnownCells at = known_cells(sums[i], known[i], list.size());
+      if (at.share < kLeastKnownShare) continue;
+      const int dx = kSpreadStride * (static_cast<int>(i) % side) - reach;
+      const int dy = kSpreadStride * (static_cast<int>(i) / side) - reach;
+      const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
+      // Points on unknown ground speak neither for the pose nor against it.
+      likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - best_score)), d);
+      covered.add(1.0, d);
     }
   }
   result.covariance = likely.covariance();
@@ -241,7 +297,7 @@ std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
   if (!best) return std::nullopt;
   if (std::max(std::abs(best->steps_x), std::abs(best->steps_y)) > kEdgeOfWindow * linear_steps_)
     return std::nullopt;
-  const KnownCells known = known_cells({0, best->steps_x, best->steps_y, best->steps_yaw, 0.0, 0.0});
+  const KnownCells known = known_cells(*best);
   if (known.share < kLeastKnownShare) return std::nullopt;
   MatchResult result;
   result.T_submap_scan_best = T_submap_scan(*best);

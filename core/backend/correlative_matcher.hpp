@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/backend/byte_tiles.hpp"
 #include "core/backend/max_pyramid.hpp"
 #include "core/backend/submap.hpp"
 #include "core/geometry/pose2.hpp"
@@ -66,9 +67,12 @@ class CorrelativeMatcher {
     double score = 0.0;
     double share = 0.0;
   };
-  [[nodiscard]] KnownCells known_cells(const Block& block) const;
+  /// `sum` of the probabilities under all points, `known` of them on known cells.
+  [[nodiscard]] static KnownCells known_cells(std::uint32_t sum, std::uint32_t known, std::size_t points);
+  [[nodiscard]] KnownCells known_cells(const DiscreteMatch& at) const;
   [[nodiscard]] Block make_block(int level, int x, int y, int yaw) const;
   void search(const Block& block, double min_score, DiscreteMatch& best) const;
+  void search_all_of(const Block& block, double min_score, DiscreteMatch& best) const;
   [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {
     return cells_by_yaw_[slot(steps_yaw)];
   }
@@ -80,11 +84,13 @@ class CorrelativeMatcher {
   void spread_around(const DiscreteMatch& best, double best_score, MatchResult& result) const;
 
   GridGeometry grid_;
+  std::span<const std::uint8_t> submap_cells_;
   SearchWindow window_;
   double angle_step_rad_ = 0.0;
   int linear_steps_ = 0;
   int yaw_steps_ = 0;
   MaxPyramid pyramid_;
+  ByteTiles tiles_;
   std::vector<std::vector<CellIndex>> cells_by_yaw_;  // points as cells, one list for each heading
 };
 
