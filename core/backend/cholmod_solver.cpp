@@ -43,7 +43,7 @@ void BlockSystem3::set_zero() {
 
 void BlockSystem3::add(std::uint32_t row, std::uint32_t column, const double* block) {
   const auto& rows = block_rows_[column];
-  const auto found = std::lower_bound(rows.begin(), rows.end(), row);
+  const auto found = row == column ? rows.begin() : std::lower_bound(rows.begin(), rows.end(), row);
   SWIFTLET_CHECK(found != rows.end() && *found == row, "the block is in the pattern");
   const auto k = static_cast<std::size_t>(found - rows.begin());
   for (std::size_t c = 0; c < 3; ++c) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
+#include "core/backend/cell_numbers.hpp"
 #include "core/backend/wall_factor.hpp"
 
 namespace swiftlet {
@@ -106,11 +106,10 @@ WindowPoses LiveRefinement::poses_of(const ScanRange& window, std::span<const Po
   WindowPoses poses;
   poses.first_scan = window.first > 0 ? window.first - 1 : 0;
   const ScanIndex end = std::min(window.end + 1, static_cast<ScanIndex>(scans_->size()));
-  for (ScanIndex i = poses.first_scan; i < end; ++i) {
-    poses.T_map_graph.push_back(chain_->T_w_body(i, T_map_keyframe));
-    poses.T_map_body.push_back(refined(i, poses.T_map_graph.back()));
-    poses.T_local_body.push_back(chain_->T_w_body(i, T_local_keyframe));
-  }
+  poses.T_map_graph = chain_->T_w_bodies({poses.first_scan, end}, T_map_keyframe);
+  poses.T_local_body = chain_->T_w_bodies({poses.first_scan, end}, T_local_keyframe);
+  for (ScanIndex i = poses.first_scan; i < end; ++i)
+    poses.T_map_body.push_back(refined(i, poses.T_map_graph[i - poses.first_scan]));
   return poses;
 }
 
@@ -171,16 +170,17 @@ void LiveRefinement::file_pass(std::uint32_t pass, std::span<const Pose2> T_map_
   walls.reference = scans.first + scans.size() / 2;
   const Pose2 T_map_reference = T_map_body(walls.reference, T_map_keyframe);
   const Pose2 T_reference_map = T_map_reference.inverse();
-  std::set<std::pair<int, int>> taken;
-  for (ScanIndex i = scans.first; i < scans.end; i += 1 + scans.size() / kMostScansPerPass) {
-    const Pose2 T_reference_body = T_reference_map * T_map_body(i, T_map_keyframe);
+  const ScanIndex every = 1 + scans.size() / kMostScansPerPass;
+  const std::vector<Pose2> T_map_graph = chain_->T_w_bodies(scans, T_map_keyframe, every);
+  CellNumbers cells(kThinningM);
+  cells.reset(std::min<std::size_t>(scans_->return_count(scans), kMostScansPerPass * kMaxBeams));
+  for (ScanIndex i = scans.first; i < scans.end; i += every) {
+    const Pose2 T_reference_body = T_reference_map * refined(i, T_map_graph[(i - scans.first) / every]);
     const std::span<const ScanReturn> beams = scans_->returns(i);
     for (std::size_t k = 0; k < beams.size(); ++k) {
       if (!beams[k].is_hit || is_held_back(*scans_, i, k)) continue;
       const Point2 p = T_reference_body * scans_->point_body(beams[k]);
-      const std::pair<int, int> cell(static_cast<int>(std::floor(p.x_m / kThinningM)),
-                                     static_cast<int>(std::floor(p.y_m / kThinningM)));
-      if (taken.insert(cell).second) walls.points_reference.push_back(p);
+      if (cells.is_first(p)) walls.points_reference.push_back(p);
     }
   }
   passes_.set(pass, std::move(walls), T_map_reference);

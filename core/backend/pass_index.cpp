@@ -86,10 +86,13 @@ void PassIndex::unfile(std::uint32_t pass) {
 std::vector<std::uint32_t> PassIndex::near(std::span<const Point2> places_map, std::uint32_t excluded_first,
                                            std::uint32_t excluded_end) const {
   std::vector<Tile> tiles;
-  for (const Point2& p : places_map)
-    for (const double dx : {-kMarginM, kMarginM})
-      for (const double dy : {-kMarginM, kMarginM})
-        tiles.emplace_back(tile_of(p.x_m + dx), tile_of(p.y_m + dy));
+  for (const Point2& p : places_map) {
+    const Tile low(tile_of(p.x_m - kMarginM), tile_of(p.y_m - kMarginM));
+    const Tile high(tile_of(p.x_m + kMarginM), tile_of(p.y_m + kMarginM));
+    for (std::int32_t x = low.first; x <= high.first; ++x)
+      for (std::int32_t y = low.second; y <= high.second; ++y)
+        if (tiles.empty() || tiles.back() != Tile(x, y)) tiles.emplace_back(x, y);
+  }
   sort_unique(tiles);
 
   std::vector<std::vector<std::uint32_t>> choices;  // of each tile

@@ -28,6 +28,21 @@ bool same(const std::vector<BlockSystem3::BlockIndex>& a, const std::vector<Bloc
 
 }  // namespace
 
+Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_map_pose) {
+  double largest = 0.0;
+  for (const double component : steps) {
+    if (!std::isfinite(component))
+      return Error{ErrorCode::kSolver, "pose graph diverged: poses are no longer finite"};
+    largest = std::max(largest, std::abs(component));
+  }
+  for (std::size_t b = 0; b + 1 < T_map_pose.size(); ++b) {
+    const double* d = steps.data() + 3 * b;
+    Pose2& T = T_map_pose[b + 1];
+    T = Pose2(T.x_m() + d[0], T.y_m() + d[1], T.yaw_rad() + d[2]);
+  }
+  return largest;
+}
+
 Status PoseSystem::prepare(std::size_t pose_count, std::span<const PoseConstraint> constraints) {
   SWIFTLET_CHECK(pose_count >= 2, "there is a pose to move");
   std::vector<BlockSystem3::BlockIndex> pattern = pattern_of(constraints);
@@ -71,18 +86,7 @@ void PoseSystem::add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::
 Result<double> PoseSystem::step(std::vector<Pose2>& T_map_pose) {
   const Result<std::vector<double>> solution = solver_.solve(system_);
   if (!solution) return solution.error();
-  double largest = 0.0;
-  for (const double component : *solution) {
-    if (!std::isfinite(component))
-      return Error{ErrorCode::kSolver, "pose graph diverged: poses are no longer finite"};
-    largest = std::max(largest, std::abs(component));
-  }
-  for (std::size_t b = 0; b + 1 < T_map_pose.size(); ++b) {
-    const double* d = solution->data() + 3 * b;
-    Pose2& T = T_map_pose[b + 1];
-    T = Pose2(T.x_m() + d[0], T.y_m() + d[1], T.yaw_rad() + d[2]);
-  }
-  return largest;
+  return move_poses(*solution, T_map_pose);
 }
 
 }  // namespace swiftlet

@@ -13,6 +13,10 @@
 
 namespace swiftlet {
 
+/// Moves all poses but the first by (x, y, yaw) each. Returns the largest component, in metres or radians.
+/// Errors: kSolver where one is not finite; the poses are then as they were.
+Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_map_pose);
+
 /// One Gauss-Newton step over a list of poses, the first of which is held as gauge: gathers the normal
 /// equations of constraints and of anything else that pulls at a pose, and solves them. The symbolic analysis
 /// is kept while the constraints join the same pairs. Allocates. One thread at a time.

@@ -2,10 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/reverse_verification.hpp"
 
-#include <cmath>
 #include <cstdint>
-#include <set>
-#include <utility>
+
+#include "core/backend/cell_numbers.hpp"
 
 namespace swiftlet {
 namespace {
@@ -22,15 +21,15 @@ constexpr std::uint8_t kEven = 128;
 std::vector<Point2> thinned_hits(const ScanStore& scans, const KeyframeChain& chain, ScanRange in,
                                  std::span<const Pose2> T_w_keyframe, const Pose2& T_frame_w) {
   std::vector<Point2> points;
-  std::set<std::pair<int, int>> taken;
+  const std::vector<Pose2> T_w_body = chain.T_w_bodies(in, T_w_keyframe);
+  CellNumbers cells(kThinningM);
+  cells.reset(scans.return_count(in));
   for (ScanIndex i = in.end; i-- > in.first;) {
-    const Pose2 T_frame_body = T_frame_w * chain.T_w_body(i, T_w_keyframe);
+    const Pose2 T_frame_body = T_frame_w * T_w_body[i - in.first];
     for (const ScanReturn& beam : scans.returns(i)) {
       if (!beam.is_hit) continue;
       const Point2 p = T_frame_body * scans.point_body(beam);
-      const std::pair<int, int> cell(static_cast<int>(std::floor(p.x_m / kThinningM)),
-                                     static_cast<int>(std::floor(p.y_m / kThinningM)));
-      if (taken.insert(cell).second) points.push_back(p);
+      if (cells.is_first(p)) points.push_back(p);
     }
   }
   return points;

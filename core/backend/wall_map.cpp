@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+
+#include "core/backend/cell_numbers.hpp"
 
 namespace swiftlet {
 namespace {
@@ -13,14 +14,6 @@ constexpr double kThinningM = 0.08;
 constexpr int kFewestPoints = 5;
 constexpr double kLeastLengthM2 = 0.004;  // variance along the wall: shorter stretches have no direction
 constexpr double kWidestRatio = 0.35;     // variance across to variance along: more is clutter, not a wall
-
-struct ThinCell {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  Point2 p;
-  bool operator<(const ThinCell& o) const { return std::tie(x, y) < std::tie(o.x, o.y); }
-  [[nodiscard]] bool same_cell(const ThinCell& o) const { return x == o.x && y == o.y; }
-};
 
 /// Weighted moments of the points around a place.
 struct Moments {
@@ -39,33 +32,42 @@ struct Moments {
 
 }  // namespace
 
-WallMap::WallMap(std::span<const PassPoint> points, double radius_m) : radius_m_(radius_m) {
-  thin(points);
-  sort_into_cells();
-}
-
-void WallMap::thin(std::span<const PassPoint> points) {
-  std::vector<ThinCell> cells;
+void append_thinned(std::span<const PassPoint> points, std::vector<PassPoint>& thinned) {
+  CellNumbers numbers(kThinningM);
+  std::vector<std::uint32_t> counts;
   for (std::size_t begin = 0; begin < points.size();) {
-    cells.clear();
     const std::uint32_t pass = points[begin].pass;
-    for (; begin < points.size() && points[begin].pass == pass; ++begin) {
-      const Point2& p = points[begin].p_map;
-      cells.push_back({static_cast<std::int32_t>(std::floor(p.x_m / kThinningM)),
-                       static_cast<std::int32_t>(std::floor(p.y_m / kThinningM)), p});
-    }
-    std::stable_sort(cells.begin(), cells.end());
-    for (std::size_t i = 0; i < cells.size();) {
-      Point2 sum;
-      const std::size_t first = i;
-      for (; i < cells.size() && cells[i].same_cell(cells[first]); ++i) {
-        sum.x_m += cells[i].p.x_m;
-        sum.y_m += cells[i].p.y_m;
+    const auto is_other = [&](const PassPoint& p) { return p.pass != pass; };
+    const auto rest = points.subspan(begin);
+    const auto of_pass =
+        rest.first(static_cast<std::size_t>(std::find_if(rest.begin(), rest.end(), is_other) - rest.begin()));
+    begin += of_pass.size();
+    numbers.reset(of_pass.size());
+    counts.clear();
+    const std::size_t first = thinned.size();
+    for (const PassPoint& p : of_pass) {
+      const std::size_t number = numbers.number_of(p.p_map);
+      if (number == counts.size()) {
+        counts.push_back(0);
+        thinned.push_back({{}, pass});
       }
-      const auto n = static_cast<double>(i - first);
-      points_.push_back({{sum.x_m / n, sum.y_m / n}, pass});
+      Point2& sum = thinned[first + number].p_map;
+      sum = {sum.x_m + p.p_map.x_m, sum.y_m + p.p_map.y_m};
+      ++counts[number];
+    }
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      Point2& p = thinned[first + k].p_map;
+      p = {p.x_m / counts[k], p.y_m / counts[k]};
     }
   }
+}
+
+WallMap::WallMap(std::span<const PassPoint> thinned, std::span<const PassPoint> points, double radius_m)
+    : radius_m_(radius_m) {
+  points_.reserve(thinned.size() + points.size());
+  points_.assign(thinned.begin(), thinned.end());
+  append_thinned(points, points_);
+  sort_into_cells();
 }
 
 void WallMap::sort_into_cells() {
@@ -120,12 +122,16 @@ std::optional<LocalWall> WallMap::wall_near(const PassPoint& place) const {
   const double xx = m.xx / m.w - mx * mx;
   const double xy = m.xy / m.w - mx * my;
   const double yy = m.yy / m.w - my * my;
-  const double along = 0.5 * (xx + yy) + std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+  const double half = 0.5 * (xx - yy);
+  const double root = std::sqrt(half * half + xy * xy);
+  const double along = 0.5 * (xx + yy) + root;
   const double across = xx + yy - along;
   if (along < kLeastLengthM2 || across > kWidestRatio * along) return std::nullopt;
-  const double direction_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  // The eigenvector along the wall: of its two forms the longer, which loses no digits.
+  const Point2 direction = half >= 0.0 ? Point2{half + root, xy} : Point2{xy, root - half};
+  const double length = std::sqrt(direction.x_m * direction.x_m + direction.y_m * direction.y_m);
   return LocalWall{{place.p_map.x_m + mx, place.p_map.y_m + my},
-                   {-std::sin(direction_rad), std::cos(direction_rad)}};
+                   {-direction.y_m / length, direction.x_m / length}};
 }
 
 }  // namespace swiftlet

@@ -23,12 +23,17 @@ struct LocalWall {
   Point2 normal_map;  ///< unit length
 };
 
+/// Appends one point for each pass and cell of 8 cm, in the middle of those there. `points` ordered by pass.
+void append_thinned(std::span<const PassPoint> points, std::vector<PassPoint>& thinned);
+
 /// The returns of all passes, one point a pass and cell, for asking what the *other* passes draw around a
 /// place. Built once, then read by any thread. Allocates in the constructor.
 class WallMap {
  public:
   /// `points` ordered by pass. `radius_m`: how far around a place its wall is looked for.
-  WallMap(std::span<const PassPoint> points, double radius_m);
+  WallMap(std::span<const PassPoint> points, double radius_m) : WallMap({}, points, radius_m) {}
+  /// The same with points of other passes that are thinned already.
+  WallMap(std::span<const PassPoint> thinned, std::span<const PassPoint> points, double radius_m);
 
   /// The line through the points of other passes within the radius, near ones counting more; nothing where
   /// they are too few or not clearly a line.
@@ -36,7 +41,6 @@ class WallMap {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
  private:
-  void thin(std::span<const PassPoint> points);
   void sort_into_cells();
 
   double radius_m_;

@@ -44,13 +44,12 @@ void WindowRefinement::take_returns(const ScanRange& window, ScanIndex first_sca
 
 /// Of all that are not held back.
 WallMap WindowRefinement::walls_at(const std::vector<Pose2>& T_map_body,
-                                   std::span<const PassPoint> others) const {
+                                   std::span<const PassPoint> others_thinned) const {
   std::vector<PassPoint> points;
-  points.reserve(others.size() + returns_.size());
-  points.assign(others.begin(), others.end());
+  points.reserve(returns_.size());
   for (const PlacedReturn& r : returns_)
     if (!r.held_back) points.push_back({T_map_body[r.pose] * r.p_body, r.pass});
-  return {points, kRadiusM};
+  return {others_thinned, points, kRadiusM};
 }
 
 double WindowRefinement::held_back_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const {
@@ -85,7 +84,7 @@ void WindowRefinement::add_walls(const WallMap& walls, const std::vector<Pose2>&
     const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.pass});
     if (!wall) continue;
     const WallPull pull = wall_pull(*wall, T, r.p_body);
-    system_.add(r.pose, pull.H, pull.rhs);
+    chain_.add(r.pose, pull.H, pull.rhs);
   }
 }
 
@@ -94,13 +93,13 @@ void WindowRefinement::add_steps(const std::vector<Pose2>& T_map_body, std::size
     const std::uint32_t from = index_of(step.from);
     const std::uint32_t to = index_of(step.to);
     if (to < moving) {
-      system_.add(step, 1.0, T_map_body);
+      chain_.add(step, T_map_body);
       continue;
     }
     // To the scan behind the window, which stays.
     const PoseResidual r = pose_residual(step.T_from_to, T_map_body[from], T_map_body[to]);
     const Eigen::Matrix3d A = r.J_from.transpose() * step.information;
-    system_.add(from, A * r.J_from, -A * r.error);
+    chain_.add(from, A * r.J_from, -A * r.error);
   }
 }
 
@@ -114,7 +113,7 @@ void WindowRefinement::add_ties(const WindowPoses& poses, std::size_t moving) {
     if ((*scans_)[scan].keyframe == (*scans_)[scan - 1].keyframe) continue;
     const PoseResidual r = pose_residual(Pose2(), poses.T_map_graph[i], poses.T_map_body[i]);
     const Eigen::Matrix3d A = r.J_to.transpose() * information;
-    system_.add(i, A * r.J_to, -A * r.error);
+    chain_.add(i, A * r.J_to, -A * r.error);
   }
 }
 
@@ -125,20 +124,20 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   if (moving < 2) return report;
   take_returns(window, poses.first_scan);
   take_steps(poses);
-  if (Status ready = system_.prepare(moving, std::span(steps_).first(moving - 1)); !ready)
-    return ready.error();
-  const WallMap before = walls_at(poses.T_map_body, others);
+  std::vector<PassPoint> others_thinned;
+  append_thinned(others, others_thinned);
+  const WallMap before = walls_at(poses.T_map_body, others_thinned);
   report.returns = returns_.size();
   report.points = before.size();
   report.held_back_before_m = held_back_error_m(before, poses.T_map_body);
-  system_.set_zero();
+  chain_.reset(moving);
   add_walls(before, poses.T_map_body);
   add_steps(poses.T_map_body, moving);
   add_ties(poses, moving);
   std::vector<Pose2> T = poses.T_map_body;
   T.resize(moving);
-  if (const Result<double> largest = system_.step(T); !largest) return largest.error();
-  report.held_back_after_m = held_back_error_m(walls_at(T, others), T);
+  if (const Status moved = chain_.step(T); !moved) return moved.error();
+  report.held_back_after_m = held_back_error_m(walls_at(T, others_thinned), T);
   report.accepted = report.held_back_after_m <= report.held_back_before_m;
   if (report.accepted) std::copy(T.begin(), T.end(), poses.T_map_body.begin());
   return report;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/pose_system.hpp"
+#include "core/backend/pose_chain.hpp"
 #include "core/backend/scan_store.hpp"
 #include "core/backend/wall_map.hpp"
 #include "core/base/result.hpp"
@@ -59,7 +59,7 @@ class WindowRefinement {
   };
   void take_returns(const ScanRange& window, ScanIndex first_scan);
   [[nodiscard]] WallMap walls_at(const std::vector<Pose2>& T_map_body,
-                                 std::span<const PassPoint> others) const;
+                                 std::span<const PassPoint> others_thinned) const;
   [[nodiscard]] double held_back_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
   void take_steps(const WindowPoses& poses);
   void add_walls(const WallMap& walls, const std::vector<Pose2>& T_map_body);
@@ -68,7 +68,7 @@ class WindowRefinement {
 
   const ScanStore* scans_;
   OdometryNoise noise_;
-  PoseSystem system_;
+  PoseChain chain_;
   std::vector<PlacedReturn> returns_;
   std::vector<PoseConstraint> steps_;  // from each pose to the next
 };

@@ -124,6 +124,28 @@ TEST(WallMap, EqualsTheSearchThroughAllPoints) {
   EXPECT_GT(none, 300U);
 }
 
+TEST(WallMap, PointsThatAreThinnedAlreadyCountTheSame) {
+  std::mt19937 random(82);
+  const std::vector<PassPoint> points = random_places(random);
+  const auto later =
+      std::find_if(points.begin(), points.end(), [](const PassPoint& p) { return p.pass == 3; });
+  std::vector<PassPoint> thinned;
+  append_thinned(std::vector<PassPoint>(points.begin(), later), thinned);
+  const WallMap of_both(thinned, std::vector<PassPoint>(later, points.end()), kRadiusM);
+  const WallMap of_all(points, kRadiusM);
+  ASSERT_EQ(of_both.size(), of_all.size());
+  EXPECT_LT(of_all.size(), points.size());
+  for (int query = 0; query < 300; ++query) {
+    const PassPoint place{{random_in(random, -3.0, 3.0), random_in(random, -3.0, 3.0)}, kAskingPass};
+    const auto wall = of_both.wall_near(place);
+    const auto expected = of_all.wall_near(place);
+    ASSERT_EQ(wall.has_value(), expected.has_value());
+    if (!wall) continue;
+    EXPECT_EQ(wall->center_map.x_m, expected->center_map.x_m);
+    EXPECT_EQ(wall->center_map.y_m, expected->center_map.y_m);
+  }
+}
+
 TEST(WallMap, TheNormalStandsAcrossTheWallInEveryDirection) {
   for (int i = 0; i < 24; ++i) {
     const double direction_rad = i * kPi / 12.0;
