@@ -20,14 +20,14 @@ ByteTiles::ByteTiles(const GridGeometry& geometry, std::span<const std::uint8_t>
       rows_((geometry.height + stride - 1) / stride + 2 * kMargin) {
   SWIFTLET_CHECK(stride == 1 || stride == 2, "positions lie one or two cells apart");
   SWIFTLET_CHECK(bytes.size() == geometry.cell_count(), "the bytes fill the grid");
-  planes_.resize(static_cast<std::size_t>(stride * stride));
+  planes_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
   for (auto& plane : planes_)
     plane.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
   for (int y = 0; y < geometry.height; ++y) {
     for (int x = 0; x < geometry.width; ++x) {
-      const auto plane = static_cast<std::size_t>(stride * (y % stride) + x % stride);
+      const int plane = stride * (y % stride) + x % stride;
       const int at = (y / stride + kMargin) * columns_ + x / stride + kMargin;
-      planes_[plane][static_cast<std::size_t>(at)] = bytes[geometry.offset({x, y})];
+      planes_[static_cast<std::size_t>(plane)][static_cast<std::size_t>(at)] = bytes[geometry.offset({x, y})];
     }
   }
 }
@@ -38,8 +38,9 @@ const std::uint8_t* ByteTiles::tile_at(int x, int y) const {
   const int column = (x >> shift) + kMargin;
   const int row = (y >> shift) + kMargin;
   if (column < 0 || row < 0 || column > columns_ - kSide || row > rows_ - kSide) return nullptr;
-  const auto plane = static_cast<std::size_t>(stride_ * (y & shift) + (x & shift));
-  return planes_[plane].data() + row * columns_ + column;
+  const int plane = stride_ * (y & shift) + (x & shift);
+  const int at = row * columns_ + column;
+  return planes_[static_cast<std::size_t>(plane)].data() + at;
 }
 
 ByteTiles::Sums ByteTiles::sums(std::span<const CellIndex> cells, int x, int y) const {

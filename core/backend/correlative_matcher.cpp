@@ -65,8 +65,11 @@ std::vector<std::uint32_t> sums_of_square(const ByteTiles& tiles, std::span<cons
     for (int column = 0; column < side; column += ByteTiles::kSide) {
       const ByteTiles::Sums sums = tiles.sums(cells, x + kSpreadStride * column, y + kSpreadStride * row);
       const int count = std::min(ByteTiles::kSide, side - column);
-      for (int k = 0; k < ByteTiles::kSide && row + k < side; ++k)
-        std::copy_n(sums.begin() + k * ByteTiles::kSide, count, square.begin() + (row + k) * side + column);
+      for (int k = 0; k < ByteTiles::kSide && row + k < side; ++k) {
+        const int from = k * ByteTiles::kSide;
+        const int to = (row + k) * side + column;
+        std::copy_n(sums.begin() + from, count, square.begin() + to);
+      }
     }
   }
   return square;
@@ -210,8 +213,8 @@ void CorrelativeMatcher::search_all_of(const Block& block, double min_score, Dis
   const int side = 1 << block.level;
   for (int y = block.y; y < block.y + side && y <= linear_steps_; ++y) {
     for (int x = block.x; x < block.x + side && x <= linear_steps_; ++x) {
-      const auto at = static_cast<std::size_t>(ByteTiles::kSide * (y - block.y) + x - block.x);
-      const double score = mean_probability(sums[at], list.size());
+      const int at = ByteTiles::kSide * (y - block.y) + x - block.x;
+      const double score = mean_probability(sums[static_cast<std::size_t>(at)], list.size());
       const double preferred = score + preference(x, y, block.yaw);
       if (score >= min_score && preferred > best.preferred) best = {x, y, block.yaw, score, preferred};
     }

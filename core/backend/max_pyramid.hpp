@@ -24,13 +24,17 @@ class MaxPyramid {
   [[nodiscard]] std::uint8_t max_at(int level, int x, int y) const {
     // A level's grid begins (2^h - 1) cells before the base grid, where blocks first touch it.
     const int reach = (1 << level) - 1;
-    const auto shifted_x = static_cast<std::size_t>(x + reach);  // huge where negative
-    const auto shifted_y = static_cast<std::size_t>(y + reach);
-    const auto width = static_cast<std::size_t>(geometry_.width + reach);
-    const auto height = static_cast<std::size_t>(geometry_.height + reach);
-    if (shifted_x >= width || shifted_y >= height) return 0;
+    const int shifted_x = x + reach;
+    const int shifted_y = y + reach;
+    const int width = geometry_.width + reach;
+    const int height = geometry_.height + reach;
+    const auto is_inside = [](int at, int count) {  // negative ones are huge
+      return static_cast<unsigned>(at) < static_cast<unsigned>(count);
+    };
+    if (!is_inside(shifted_x, width) || !is_inside(shifted_y, height)) return 0;
     const std::uint8_t* grid = level == 0 ? base_.data() : above_[static_cast<std::size_t>(level - 1)].data();
-    return grid[shifted_y * width + shifted_x];
+    return grid[static_cast<std::size_t>(shifted_y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(shifted_x)];
   }
 
  private:
