@@ -10,13 +10,20 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kSigmas = 3.0;
-constexpr double kWidestRad = radians(30);  // nearer to the middle between two axes nothing can be told
+constexpr double kSigmas = 4.0;  // wheels that slip in a turn lose more than their model says
+// That the heading is off by this much, and not the other way round by the rest of a quarter turn: 400 to 1.
+constexpr double kLeastLogOdds = 6.0;
 constexpr double kSharedWalls =
     3.0;  // headings a few metres apart are told by the same walls: they err together
 
 double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
   return graph.T_map_keyframe[index_of(keyframe)].yaw_rad();
+}
+
+bool is_told(double off_rad, double variance_rad2) {
+  const double other_rad = kPi / 2.0 - std::abs(off_rad);
+  return off_rad * off_rad <= kSigmas * kSigmas * variance_rad2 &&
+         other_rad * other_rad - off_rad * off_rad >= 2.0 * kLeastLogOdds * variance_rad2;
 }
 
 }  // namespace
@@ -38,9 +45,7 @@ double HeadingHold::building_axis_rad(const PoseGraph& graph) const {
 void HeadingHold::add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2, PoseGraph& graph) {
   if (!axes_.empty()) {
     const double off_rad = wrap_axis(yaw_map_rad(graph, keyframe) + axis.yaw_rad - building_axis_rad(graph));
-    const double sigma_rad = std::sqrt(yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad);
-    if (kSigmas * sigma_rad > kPi / 4.0) return;  // it may as well be a quarter turn off
-    if (std::abs(off_rad) > std::min(kWidestRad, kSigmas * sigma_rad)) return;
+    if (!is_told(off_rad, yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad)) return;
   }
   axes_.push_back(axis);
   const double variance_rad2 = kSharedWalls * axis.sigma_rad * axis.sigma_rad;

@@ -96,6 +96,21 @@ TEST(HeadingHold, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
   EXPECT_EQ(flight.graph.headings.size(), before);
 }
 
+TEST(HeadingHold, TurnsBackAsFarAsTheOtherWayRoundIsMuchLessLikely) {
+  const auto is_taken = [](double off_rad, double sigma_rad) {
+    PoseGraph graph;
+    graph.T_map_keyframe = {Pose2(), Pose2(5.0, 0.0, off_rad)};
+    HeadingHold hold;
+    hold.add(keyframe(0), axis_seen_at(0.0), 0.0, graph);
+    hold.add(keyframe(1), axis_seen_at(0.0), sigma_rad * sigma_rad, graph);
+    return graph.headings.size() == 2;
+  };
+  EXPECT_TRUE(is_taken(radians(34), radians(9))) << "after a spin; the other way round it were 56";
+  EXPECT_FALSE(is_taken(radians(34), radians(6))) << "farther than can be believed";
+  EXPECT_FALSE(is_taken(radians(34), radians(18))) << "the other way round is no wonder either";
+  EXPECT_TRUE(is_taken(radians(16), radians(18)));
+}
+
 TEST(HeadingHold, AFalseAxisIsScaledAwayByTheOthers) {
   Flight flight;
   for (int i = 0; i < 120; ++i) flight.step(true);
