@@ -22,6 +22,14 @@ constexpr double kExpectedChiSquare = 1.0;
 constexpr std::uint32_t kMostKeyframesWaiting = 8;
 // ... and solutions need not be finer than this, in metres and radians: the next is at hand.
 constexpr double kLiveConvergedStep = 1e-3;
+// Of a group, chi-square a closure. The matches' covariances are wide: right groups have 0.8, false ones 1.6
+// and more.
+constexpr double kMostMisfit = 1.5;
+
+PoseConstraint constraint_of(const LoopClosure& closure) {
+  return {closure.from, closure.to, closure.T_from_to,
+          residual_information(closure.T_from_to, closure.covariance.matrix()), true};
+}
 
 }  // namespace
 
@@ -125,21 +133,46 @@ bool Backend::State::hold_heading(KeyframeId newest) {
 
 std::uint32_t Backend::State::close_loops(KeyframeId newest) {
   if (!config.close_loops || static_cast<int>(index_of(newest)) % config.match_every_keyframes != 0) return 0;
-  std::vector<LoopClosure> found =
+  const std::size_t before = closures.size();
+  const FoundLoops found =
       detector.find(newest, submaps, graph, T_local_keyframe, counters.candidates_matched);
-  for (LoopClosure& closure : found) {
-    closure.number = static_cast<std::uint32_t>(counters.closures_accepted++);
-    closure_constraint.push_back(graph.constraints.size());
-    graph.constraints.push_back({closure.from, closure.to, closure.T_from_to,
-                                 residual_information(closure.T_from_to, closure.covariance.matrix()), true});
-    closures.push_back(closure);
+  for (const LoopClosure& closure : found.sure) add_closure(closure);
+  if (!found.maybe.empty()) believe(groups.add(found.maybe, graph));
+  return static_cast<std::uint32_t>(closures.size() - before);
+}
+
+void Backend::State::add_closure(LoopClosure closure) {
+  closure.number = static_cast<std::uint32_t>(counters.closures_accepted++);
+  closure_constraint.push_back(graph.constraints.size());
+  graph.constraints.push_back(constraint_of(closure));
+  closures.push_back(closure);
+}
+
+/// A group may lie farther off than DCS lets a closure pull: the map goes there first. Where the group does
+/// not hold together then, against what else is known, nothing has happened.
+void Backend::State::believe(const std::vector<LoopClosure>& group) {
+  if (group.empty()) return;
+  PoseGraph trial = graph;
+  for (const LoopClosure& closure : group) {
+    trial.constraints.push_back(constraint_of(closure));
+    trial.constraints.back().is_closure = false;
   }
-  return static_cast<std::uint32_t>(found.size());
+  if (!optimizer.optimize(trial, kLiveConvergedStep)) {
+    ++counters.solver_failures;
+    return;
+  }
+  double misfit = 0.0;
+  for (const LoopClosure& closure : group) misfit += chi_square(constraint_of(closure), trial.T_map_keyframe);
+  if (misfit > kMostMisfit * static_cast<double>(group.size())) return;
+  graph.T_map_keyframe = std::move(trial.T_map_keyframe);
+  group_moved_map = true;
+  for (const LoopClosure& closure : group) add_closure(closure);
 }
 
 /// Whether what is new disagrees with the graph, or something that does not has waited long enough.
 bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId newest) {
   news_waits |= turned || new_closures > 0;
+  if (group_moved_map) return true;
   if (!news_waits) return false;
   if (index_of(newest) - index_of(optimized_upto) >= kMostKeyframesWaiting) return true;
   if (turned) {
@@ -155,6 +188,7 @@ bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId 
 bool Backend::State::optimize(double converged_step) {
   ++counters.optimizations;
   news_waits = false;
+  group_moved_map = false;
   heading_hold.update(graph);
   if (!optimizer.optimize(graph, converged_step)) {
     ++counters.solver_failures;

@@ -25,6 +25,7 @@ std::vector<std::string> BackendConfig::validate() const {
   require(search_angle_rad > 0.0 && search_angle_rad <= kPi, "backend.search_angle_rad must lie in 0..pi");
   require(max_candidates >= 1, "backend.max_candidates must be at least 1");
   require(min_score > 0.0 && min_score < 1.0, "backend.min_score must lie between 0 and 1");
+  require(min_group_score > 0.0 && min_group_score < 1.0, "backend.min_group_score must lie between 0 and 1");
   require(min_match_points >= 3, "backend.min_match_points must be at least 3");
   require(dcs_phi > 0.0, "backend.dcs_phi must be above 0");
   require(drop_scale >= 0.0 && drop_scale < 1.0, "backend.drop_scale must lie in 0..1");

@@ -25,9 +25,10 @@ struct BackendConfig {
   double min_travel_between_m = 12.0;     ///< travel between the two ends of a closure
   double search_radius_m = 8.0;           ///< widest search around the predicted position
   double search_angle_rad = radians(30);  ///< widest search around the predicted heading
-  int max_candidates = 8;     ///< submaps searched per keyframe at most, the most overlapping first
-  double min_score = 0.5;     ///< mean probability under the scan's points that makes a closure
-  int min_match_points = 30;  ///< fewer points decide nothing
+  int max_candidates = 8;        ///< submaps searched per keyframe at most, the most overlapping first
+  double min_score = 0.5;        ///< mean probability under the scan's points that makes a closure
+  double min_group_score = 0.4;  ///< ... that makes one together with others that agree
+  int min_match_points = 30;     ///< fewer points decide nothing
 
   // Pose graph
   bool align_to_walls = true;     ///< hold the heading by the axis that a building's walls share

@@ -152,6 +152,7 @@ void Backend::retire(const Retirement& retirement) {
   s.heading_hold.remove(keyframes, s.graph);
   s.remove_submaps(keyframes);
   s.remove_walls(keyframes);
+  s.groups.clear();
   keyframes.apply(s.graph.T_map_keyframe);
   keyframes.apply(s.T_local_keyframe);
   keyframes.apply(s.frontend_ids);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/backend/backend.hpp"
+#include "core/backend/closure_groups.hpp"
 #include "core/backend/heading_hold.hpp"
 #include "core/backend/keyframe_chain.hpp"
 #include "core/backend/live_refinement.hpp"
@@ -32,6 +33,7 @@ struct Backend::State {
         scans(beams),
         chain(scans),
         detector(config, scans, chain),
+        groups(chain),
         optimizer(config.dcs_phi, config.optimizer_iterations),
         live(scans, chain, sensor),
         retires_at(static_cast<std::size_t>(config.max_scans)) {}
@@ -44,6 +46,8 @@ struct Backend::State {
   bool hold_heading(KeyframeId newest);
   [[nodiscard]] double yaw_variance_rad2(KeyframeId from, KeyframeId to) const;
   std::uint32_t close_loops(KeyframeId newest);
+  void add_closure(LoopClosure closure);
+  void believe(const std::vector<LoopClosure>& group);
   [[nodiscard]] bool is_due(bool turned, std::uint32_t new_closures, KeyframeId newest);
   bool optimize(double converged_step = PoseGraphOptimizer::kConvergedStep);
   bool drop_false_closures();
@@ -65,6 +69,7 @@ struct Backend::State {
   ScanStore scans;
   KeyframeChain chain;
   LoopDetector detector;
+  ClosureGroups groups;
   HeadingHold heading_hold;
   KeyframeId heading_sought_at{};
   PoseGraphOptimizer optimizer;
@@ -78,6 +83,7 @@ struct Backend::State {
   std::vector<std::size_t> motion_constraint;   // of the step to keyframe i (i >= 1), by i - 1
   std::vector<std::size_t> closure_constraint;  // of closure i
   bool news_waits = false;
+  bool group_moved_map = false;          // since it was last optimised
   KeyframeId optimized_upto{};           // later keyframes hang on by their motion
   std::vector<KeyframeId> open_submaps;  // where the ones being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps;

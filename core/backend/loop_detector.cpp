@@ -17,9 +17,11 @@ constexpr double kSigmas = 3.0;  // the window reaches this many standard deviat
 constexpr double kLeastRadiusM =
     0.5;  // ... and never less than this: the constraints' covariances are models
 constexpr double kLeastAngleRad = 0.1;
-// Of one query. More of the same travel tell little that is new, and where every lap overlaps all those before
-// it they fill the pose graph's factor.
+// Of one query. More of the same travel tell little that is new, and where every lap overlaps all those
+// before it they fill the pose graph's factor.
 constexpr std::size_t kMostClosures = 3;
+
+double least_score(const BackendConfig& config) { return std::min(config.min_group_score, config.min_score); }
 
 }  // namespace
 
@@ -66,7 +68,7 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
                 q.y_m > submap->low_m.y_m - r && q.y_m < submap->high_m.y_m + r;
     }
     c.overlap = static_cast<double>(inside) / static_cast<double>(points_query.size());
-    if (c.overlap >= config_->min_score) found.push_back(c);
+    if (c.overlap >= least_score(*config_)) found.push_back(c);
   }
   const auto most = static_cast<std::size_t>(config_->max_candidates);
   std::stable_sort(found.begin(), found.end(),
@@ -75,29 +77,29 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
   return found;
 }
 
-std::vector<LoopClosure> LoopDetector::find(KeyframeId query,
-                                            std::span<const std::shared_ptr<const Submap>> submaps,
-                                            const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
-                                            std::uint64_t& tried) const {
-  std::vector<LoopClosure> closures;
+FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
+                              const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
+                              std::uint64_t& tried) const {
+  FoundLoops loops;
   const ScanRange recent = recent_scans(query);
   const std::vector<Point2> points =
       thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[index_of(query)].inverse());
-  if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return closures;
+  if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;
   ReverseVerification reverse(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
   for (const Candidate& c : candidates(query, points, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
-        CorrelativeMatcher(*c.submap, points, c.window).match(config_->min_score);
+        CorrelativeMatcher(*c.submap, points, c.window).match(least_score(*config_));
     if (!match || !reverse.holds(*c.submap, match->T_submap_scan_best)) continue;
-    closures.push_back({.from = c.submap->reference,
-                        .to = query,
-                        .T_from_to = match->T_submap_scan,
-                        .covariance = Covariance3::from_matrix(match->covariance),
-                        .score = match->score});
-    if (closures.size() == kMostClosures) break;
+    (match->score < config_->min_score ? loops.maybe : loops.sure)
+        .push_back({.from = c.submap->reference,
+                    .to = query,
+                    .T_from_to = match->T_submap_scan,
+                    .covariance = Covariance3::from_matrix(match->covariance),
+                    .score = match->score});
+    if (loops.sure.size() == kMostClosures) break;
   }
-  return closures;
+  return loops;
 }
 
 }  // namespace swiftlet

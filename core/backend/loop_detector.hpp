@@ -13,6 +13,12 @@
 
 namespace swiftlet {
 
+/// What one query found.
+struct FoundLoops {
+  std::vector<LoopClosure> sure;   ///< scores of at least config.min_score: closures
+  std::vector<LoopClosure> maybe;  ///< of at least config.min_group_score: each alone proves nothing
+};
+
 /// Finds where the recent travel overlaps earlier submaps (Algorithm 3, lines 1-2).
 class LoopDetector {
  public:
@@ -23,9 +29,9 @@ class LoopDetector {
   /// Matches the recent multiscan, as seen from keyframe `query`, against every submap it may overlap, given
   /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `tried` counts
   /// the submaps searched. Allocates.
-  std::vector<LoopClosure> find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
-                                const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
-                                std::uint64_t& tried) const;
+  FoundLoops find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
+                  const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
+                  std::uint64_t& tried) const;
 
  private:
   struct Candidate;

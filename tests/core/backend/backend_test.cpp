@@ -301,6 +301,21 @@ TEST(Backend, AFlightThatGoesOnElsewhereIsJoinedByItsLoops) {
   EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.15);
 }
 
+TEST(Backend, MatchesTooWeakAloneCloseLoopsTogether) {
+  BackendConfig config;
+  config.min_score = 0.99;
+  const auto together = make_backend(config);
+  feed(*together, two_laps().samples());
+  together->finish();
+  EXPECT_GE(together->closures().size(), 6U);
+  EXPECT_LT(aligned_rms_error_m(corrected(*together), two_laps().T_world_body()), 0.15);
+  config.min_group_score = 0.99;
+  const auto alone = make_backend(config);
+  feed(*alone, two_laps().samples());
+  alone->finish();
+  EXPECT_THAT(alone->closures(), IsEmpty());
+}
+
 TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
   const auto backend = make_backend();
   DeadReckoningFrontend frontend;

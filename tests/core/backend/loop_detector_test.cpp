@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/loop_detector.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -13,6 +14,8 @@
 
 namespace swiftlet {
 namespace {
+
+using testing::IsEmpty;
 
 constexpr std::uint32_t kSubmapKeyframes = 12;
 constexpr double kChiSquare99 = 11.34;  // of three degrees of freedom
@@ -44,11 +47,12 @@ class LoopDetectorTest : public testing::Test {
     }
   }
 
-  std::vector<LoopClosure> find(KeyframeId query) {
+  FoundLoops find_all(KeyframeId query) {
     tried_ = 0;
     return LoopDetector(config_, run_.scans(), run_.chain())
         .find(query, submaps_, graph_, run_.T_local_keyframe(), tried_);
   }
+  std::vector<LoopClosure> find(KeyframeId query) { return find_all(query).sure; }
   [[nodiscard]] Pose2 T_from_to_truth(const LoopClosure& c) const {
     return between(run_.T_local_keyframe()[index_of(c.from)], run_.T_local_keyframe()[index_of(c.to)]);
   }
@@ -117,6 +121,22 @@ TEST_F(LoopDetectorTest, KeepsNoMatchBelowTheLeastScore) {
   for (const LoopClosure& c : find(run_.newest())) EXPECT_GE(c.score, 0.95);
   config_.min_score = 0.999;
   EXPECT_TRUE(find(run_.newest()).empty());
+  config_.min_group_score = 0.999;
+  EXPECT_THAT(find_all(run_.newest()).maybe, IsEmpty());
+}
+
+TEST_F(LoopDetectorTest, WeakerMatchesMayBeLoops) {
+  const std::size_t count = find(run_.newest()).size();
+  ASSERT_GT(count, 0U);
+  config_.min_group_score = 0.5;
+  config_.min_score = 0.999;
+  const FoundLoops found = find_all(run_.newest());
+  EXPECT_THAT(found.sure, IsEmpty());
+  EXPECT_GE(found.maybe.size(), count);
+  for (const LoopClosure& c : found.maybe) {
+    EXPECT_GE(c.score, 0.5);
+    EXPECT_LT(chi_square_against(c, T_from_to_truth(c)), kChiSquare99);
+  }
 }
 
 /// After a lap someone carries the vehicle on; it has hardly flown since.
