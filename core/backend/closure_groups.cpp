@@ -13,8 +13,9 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kReachM = 30.0;          // travel over which one is remembered
-constexpr double kAgreeChiSquare = 7.81;  // three degrees of freedom, 95 %
+constexpr double kReachM = 30.0;           // travel over which one is remembered,
+constexpr std::size_t kMostWaiting = 100;  // until there are so many
+constexpr double kAgreeChiSquare = 7.81;   // three degrees of freedom, 95 %
 constexpr std::size_t kLeastMembers = 6;
 constexpr double kLeastTravelM = 6.0;  // between the first query and the last: their scans overlap no more
 // Of the position in the worst direction, by all but any one and those found around it: along a corridor many
@@ -53,9 +54,10 @@ void ClosureGroups::forget_before(double path_m) {
   const auto first_kept = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) {
     return chain_->path_m(w.closure.to) >= path_m;
   });
-  const auto gone = static_cast<std::size_t>(first_kept - waiting_.begin());
+  const std::size_t surplus = waiting_.size() > kMostWaiting ? waiting_.size() - kMostWaiting : 0;
+  const std::size_t gone = std::max(static_cast<std::size_t>(first_kept - waiting_.begin()), surplus);
   if (gone == 0) return;
-  waiting_.erase(waiting_.begin(), first_kept);
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(gone));
   for (Waiting& w : waiting_) {
     w.agreeing.erase(w.agreeing.begin(), std::lower_bound(w.agreeing.begin(), w.agreeing.end(), gone));
     for (std::size_t& other : w.agreeing) other -= gone;
@@ -107,11 +109,11 @@ std::vector<std::size_t> ClosureGroups::agreeing_set(std::size_t seed) const {
   return set;
 }
 
-/// Of those that do not agree with the whole set.
+/// Shares no member with the set.
 std::size_t ClosureGroups::largest_rival(std::span<const std::size_t> set) const {
   std::size_t largest = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
-    if (std::binary_search(set.begin(), set.end(), i)) continue;
+    if (std::binary_search(set.begin(), set.end(), i) || waiting_[i].agreeing.size() < largest) continue;
     const std::vector<std::size_t> rival = agreeing_set(i);
     std::vector<std::size_t> shared;
     std::set_intersection(set.begin(), set.end(), rival.begin(), rival.end(), std::back_inserter(shared));

@@ -19,7 +19,7 @@ namespace swiftlet {
 /// here of one vehicle with its own past). A set in which all agree is believed once it is large, fixes the
 /// position in every direction, and no other set is nearly as large (Olson et al. 2005, "Single-cluster
 /// graph partitioning for robotics applications": a second best half as good is ambiguity). One thread at a
-/// time. Allocates; what waits is bounded by the travel it is remembered for.
+/// time. Allocates; what waits is bounded.
 class ClosureGroups {
  public:
   /// Views `chain`, which must outlive it.
