@@ -20,8 +20,8 @@ constexpr std::size_t kKeyframesOfCorrection = 4;  // about 2 m
 // While flying, news that the graph had expected waits for others ...
 constexpr double kExpectedChiSquare = 1.0;
 constexpr std::uint32_t kMostKeyframesWaiting = 8;
-// ... and solutions need not be finer than this, in metres and radians: the next is at hand.
-constexpr double kLiveConvergedStep = 1e-3;
+// ... and solutions need not be as fine, nor to be ends of a long way: the next is at hand.
+constexpr OptimizeEffort kLiveEffort{1e-3, 10};
 // Of a group, chi-square a closure. The matches' covariances are wide: right groups have 0.8, false ones 1.6
 // and more.
 constexpr double kMostMisfit = 1.5;
@@ -157,7 +157,7 @@ void Backend::State::believe(const std::vector<LoopClosure>& group) {
     trial.constraints.push_back(constraint_of(closure));
     trial.constraints.back().is_closure = false;
   }
-  if (!optimizer.optimize(trial, kLiveConvergedStep)) {
+  if (!optimizer.optimize(trial, kLiveEffort)) {
     ++counters.solver_failures;
     return;
   }
@@ -185,12 +185,12 @@ bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId 
   });
 }
 
-bool Backend::State::optimize(double converged_step) {
+bool Backend::State::optimize(const OptimizeEffort& effort) {
   ++counters.optimizations;
   news_waits = false;
   group_moved_map = false;
   heading_hold.update(graph);
-  if (!optimizer.optimize(graph, converged_step)) {
+  if (!optimizer.optimize(graph, effort)) {
     ++counters.solver_failures;
     return false;
   }
@@ -319,7 +319,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.finish_submaps(made.id);
   const bool turned = s.hold_heading(made.id);
   update.new_closures = s.close_loops(made.id);
-  update.poses_changed = s.is_due(turned, update.new_closures, made.id) && s.optimize(kLiveConvergedStep);
+  update.poses_changed = s.is_due(turned, update.new_closures, made.id) && s.optimize(kLiveEffort);
   s.refine_live(update);
   return update;
 }

@@ -49,7 +49,7 @@ struct Backend::State {
   void add_closure(LoopClosure closure);
   void believe(const std::vector<LoopClosure>& group);
   [[nodiscard]] bool is_due(bool turned, std::uint32_t new_closures, KeyframeId newest);
-  bool optimize(double converged_step = PoseGraphOptimizer::kConvergedStep);
+  bool optimize(const OptimizeEffort& effort = {});
   bool drop_false_closures();
   [[nodiscard]] bool refines() const { return config.refine && config.close_loops; }
   bool refine();

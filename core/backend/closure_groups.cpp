@@ -67,8 +67,9 @@ void ClosureGroups::forget_before(double path_m) {
 /// Whether the travel from one query to the other is the same by way of the graph and by way of both submaps.
 void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
                           const std::vector<Eigen::Matrix3d>& covariances_query) {
-  const std::vector<Eigen::Matrix3d> covariances_submap = relative_covariances(graph, closure.from);
   Waiting entry{closure, {}};
+  const std::vector<Eigen::Matrix3d> covariances_submap =
+      waiting_.empty() ? std::vector<Eigen::Matrix3d>() : relative_covariances(graph, closure.from);
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const LoopClosure& other = waiting_[i].closure;
     const UncertainPose T_q_other =

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/pose_graph_optimizer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace swiftlet {
@@ -15,13 +16,14 @@ double PoseGraphOptimizer::robust_cost(double chi_square) const {
   return dcs_phi_ * (3.0 * chi_square - dcs_phi_) / (dcs_phi_ + chi_square);
 }
 
-Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, double converged_step) {
+Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const OptimizeEffort& effort) {
   OptimizeReport report;
   if (graph.T_map_keyframe.size() < 2) return report;
   if (Status status = system_.prepare(graph.T_map_keyframe.size(), graph.constraints); !status)
     return status.error();
   std::vector<Pose2> poses = graph.T_map_keyframe;
-  while (report.iterations < max_iterations_) {
+  const int most = std::min(max_iterations_, effort.max_iterations);
+  while (report.iterations < most) {
     system_.set_zero();
     for (const PoseConstraint& c : graph.constraints) {
       const double s = scale(c, chi_square(c, poses));
@@ -34,7 +36,7 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, double con
     const Result<double> largest = system_.step(poses);
     if (!largest) return largest.error();
     ++report.iterations;
-    if (*largest < converged_step) break;
+    if (*largest < effort.converged_step) break;
   }
   for (PoseConstraint& c : graph.constraints) {
     const double error = chi_square(c, poses);
