@@ -5,10 +5,12 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/backend/relative_uncertainty.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
 namespace {
@@ -23,28 +25,17 @@ constexpr double kLeastTravelM = 6.0;  // between the first query and the last: 
 constexpr double kMostSigmaM = 1.0;
 constexpr double kAlikeM = 2.0;  // of travel
 
-struct UncertainPose {
-  Pose2 T;
-  Eigen::Matrix3d covariance;  ///< of T's vector
-};
-
-UncertainPose operator*(const UncertainPose& a, const UncertainPose& b) {
-  const Eigen::Matrix3d J1 = jacobian_compose_first(a.T, b.T);
-  const Eigen::Matrix3d J2 = jacobian_compose_second(a.T);
-  return {a.T * b.T, J1 * a.covariance * J1.transpose() + J2 * b.covariance * J2.transpose()};
+UncertainMotion inverse(const UncertainMotion& a) {
+  const Eigen::Matrix3d J = jacobian_inverse(a.T_from_to);
+  return {a.T_from_to.inverse(), J * a.covariance * J.transpose()};
 }
 
-UncertainPose inverse(const UncertainPose& a) {
-  const Eigen::Matrix3d J = jacobian_inverse(a.T);
-  return {a.T.inverse(), J * a.covariance * J.transpose()};
-}
-
-UncertainPose measured(const LoopClosure& closure) {
+UncertainMotion measured(const LoopClosure& closure) {
   return {closure.T_from_to, closure.covariance.matrix()};
 }
 
-UncertainPose by_graph(const PoseGraph& graph, KeyframeId from, KeyframeId to,
-                       const Eigen::Matrix3d& covariance) {
+UncertainMotion by_graph(const PoseGraph& graph, KeyframeId from, KeyframeId to,
+                         const Eigen::Matrix3d& covariance) {
   return {between(graph.T_map_keyframe[index_of(from)], graph.T_map_keyframe[index_of(to)]), covariance};
 }
 
@@ -72,12 +63,12 @@ void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
       waiting_.empty() ? std::vector<Eigen::Matrix3d>() : relative_covariances(graph, closure.from);
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const LoopClosure& other = waiting_[i].closure;
-    const UncertainPose T_q_other =
+    const UncertainMotion T_q_other =
         by_graph(graph, closure.to, other.to, covariances_query[index_of(other.to)]);
-    const UncertainPose T_s_other =
+    const UncertainMotion T_s_other =
         by_graph(graph, closure.from, other.from, covariances_submap[index_of(other.from)]);
-    const UncertainPose T_q_other_matched = inverse(measured(closure)) * T_s_other * measured(other);
-    Eigen::Vector3d off = T_q_other_matched.T.vector() - T_q_other.T.vector();
+    const UncertainMotion T_q_other_matched = inverse(measured(closure)) * T_s_other * measured(other);
+    Eigen::Vector3d off = T_q_other_matched.T_from_to.vector() - T_q_other.T_from_to.vector();
     off(2) = wrap_angle(off(2));
     const Eigen::Matrix3d covariance = T_q_other_matched.covariance + T_q_other.covariance;
     if (off.dot(covariance.inverse() * off) > kAgreeChiSquare) continue;
