@@ -5,6 +5,7 @@ everywhere: the result of a run, None where it has not been made."""
 
 import textwrap
 
+import accuracy_changes as changes
 import accuracy_runs as runs
 import accuracy_sweeps as sweeps
 import benchmark_page as page
@@ -259,4 +260,7 @@ refinement. For Killian it is the paper's figure: by rounding alone its code giv
 
 {bands_text(rows["laser"])}
 {swept}
+## Changed logs
+
+{changes.text(get) or NOT_MADE}
 {times_text(made("times", get))}"""

@@ -11,13 +11,28 @@ import tempfile
 from pathlib import Path
 
 import benchmark_page as page
+import changed_log
 import whole_runs
+from changed_log import Change
 
 DATASETS = Path(os.environ.get("SWIFTLET_DATASETS", page.ROOT.parent / "shared/datasets"))
 TRAJECTORIES = {"odometry": "odometry.tum", "live": "live.tum", "final": "trajectory.tum"}
 BEAMS = [4, 6, 9, 11, 13, 30, 60]
 KERNELS = [1, 3, 5, 7]
 MULTISCANS = [92, 100, 108, 116, 124, 132]
+CHANGED_BEAMS = [11, 4]
+CHANGES = [
+    Change("backwards", backwards=True),
+    Change("mirrored", mirrored=True),
+    Change("turns 4 % long", turns=1.04),
+    Change("turns 4 % short", turns=0.96),
+    Change("metres 3 % long", metres=1.03),
+    Change("drift 0.5 deg/m left", drift_deg_per_m=0.5),
+    Change("drift 0.5 deg/m right", drift_deg_per_m=-0.5),
+    Change("random turns of 6 deg, seed 1", random_turns_deg=6.0, seed=1),
+    Change("random turns of 6 deg, seed 2", random_turns_deg=6.0, seed=2),
+    Change("backwards, with random turns of 6 deg", backwards=True, random_turns_deg=6.0, seed=3),
+]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,6 +40,7 @@ class Log:
     name: str
     source: str  # file of the data sets, or URI
     reference: str | None  # file of the data sets; None: the true path that the run itself writes
+    lines_ahead: int = 0  # by which the poses in its scans run ahead of the ranges
 
     def missing(self):
         """Its files that are not there."""
@@ -34,7 +50,7 @@ class Log:
 
 ACES = Log("ACES", "radish/aces.clf.gz", "radish/aces.relations")
 INTEL = Log("Intel", "radish/intel.clf.gz", "radish/intel.relations")
-KILLIAN = Log("Killian", "radish/mit-killian.clf.gz", "radish/mit-killian.relations")
+KILLIAN = Log("Killian", "radish/mit-killian.clf.gz", "radish/mit-killian.relations", lines_ahead=1)
 OLSSON = Log("Olsson Hall", "flights/olsson.pcap", "flights/olsson.pcap")
 RICE = Log("Rice Hall", "flights/rice.pcap", "flights/rice.pcap")
 LASER_LOGS = [ACES, INTEL, KILLIAN]
@@ -50,6 +66,7 @@ class Run:
     refine: bool = True
     kernel: int | None = None  # None: as configured by default, like the next
     multiscan: int | None = None
+    change: Change | None = None  # laser logs only
 
     def settings(self):
         """What differs from the defaults: keys of the configuration, by section."""
@@ -62,7 +79,8 @@ class Run:
     def title(self):
         beams = [] if self.beams is None else [f"{self.beams} beams"]
         keys = [f"{key} {json.dumps(value)}" for section in self.settings().values() for key, value in section.items()]
-        return ", ".join([self.log.name, *beams, *keys])
+        change = [] if self.change is None else [self.change.name]
+        return ", ".join([self.log.name, *change, *beams, *keys])
 
 
 def both(**choices):
@@ -83,6 +101,8 @@ PARTS = {
                for log in SWEPT_LOGS for beams in (4, 11) for refine in (False, True) for kernel in KERNELS],
     "multiscan": [run for log in SWEPT_LOGS for beams in (4, 11) for points in MULTISCANS
                   for run in both(log=log, beams=beams, multiscan=points)],
+    "changed": [Run(log, beams=beams, change=change)
+                for log in LASER_LOGS for beams in CHANGED_BEAMS for change in (None, *CHANGES)],
     "times": [Run(log, beams=11) for log in LASER_LOGS],
 }
 
@@ -107,15 +127,33 @@ def judge(swiftlet, trajectory, reference):
     return figures
 
 
+def changed_copy(run, target):
+    """Writes it; returns what leads a trajectory mapped from it back to the log, where it stands. Raises OSError,
+    EOFError or ValueError where the log cannot be read."""
+    recording = changed_log.read(DATASETS / run.log.source, run.log.lines_ahead)
+    changed_log.write(recording, run.change, target)
+
+    def lead_back(trajectory):
+        changed_log.lead_back(trajectory, recording, run.change, trajectory)
+
+    return lead_back
+
+
 def execute(run, swiftlet):
-    """Maps and judges. Raises OSError or subprocess.CalledProcessError."""
+    """Maps and judges. Raises OSError, EOFError, ValueError or subprocess.CalledProcessError."""
     with tempfile.TemporaryDirectory() as name:
         output = Path(name, "out")
         config = Path(name, "settings.toml")
         config.write_text(configuration(run.settings()), encoding="utf-8")
         source = run.log.source if run.log.reference is None else str(DATASETS / run.log.source)
+        if run.change is not None:
+            source = str(Path(name, "changed.clf"))
+            lead_back = changed_copy(run, source)
         beams = [] if run.beams is None else ["--beams", str(run.beams)]
         report = whole_runs.run(swiftlet, [source, *beams, "--config", str(config)], output)
+        if run.change is not None:
+            for trajectory in output.glob("*.tum"):
+                lead_back(trajectory)
         reference = output / "ground_truth.tum" if run.log.reference is None else DATASETS / run.log.reference
         judged = {which: judge(swiftlet, output / file, reference) for which, file in TRAJECTORIES.items()}
     return {"report": report, **judged}
@@ -129,14 +167,14 @@ class Results:
         self.swiftlet = swiftlet
         self.program = hashlib.sha256(Path(swiftlet).read_bytes()).hexdigest()[:12]
 
-    def _file(self, run):
+    def file(self, run):
         name = re.sub("[^A-Za-z0-9]+", "-", run.title())
         return self.folder / f"{name}_{self.program}.json"
 
     def get(self, run):
         """None where the run has not been made."""
         try:
-            return json.loads(self._file(run).read_text(encoding="utf-8"))
+            return json.loads(self.file(run).read_text(encoding="utf-8"))
         except FileNotFoundError:
             return None
 
@@ -144,6 +182,6 @@ class Results:
         """`at_once`: how many runs share the machine. Raises as execute() does."""
         result = {"run": run.title(), "program": self.program, "at_once": at_once, **execute(run, self.swiftlet)}
         self.folder.mkdir(parents=True, exist_ok=True)
-        begun = self._file(run).with_suffix(".part")
+        begun = self.file(run).with_suffix(".part")
         begun.write_text(json.dumps(result, indent=1), encoding="utf-8")
-        begun.replace(self._file(run))  # whole or not at all, however this ends
+        begun.replace(self.file(run))  # whole or not at all, however this ends

@@ -3,11 +3,13 @@
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """tools/accuracy_runs.py runs what a part asks for, with its settings, once for each build."""
 
+import gzip
 import sys
 import tempfile
 import tomllib
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
@@ -23,9 +25,10 @@ if [ "$1" = map ]; then
     shift
   done
   mkdir "$2"
-  touch "$2/trajectory.tum" "$2/odometry.tum" "$2/ground_truth.tum"
+  echo "5.0 1.0 2.0 0 0 0 0.6 0.8" | tee "$2/trajectory.tum" "$2/odometry.tum" > "$2/ground_truth.tum"
   echo '{"backend": 1}' > "$2/report.json"
 else
+  cp "$2" "$0.judged"
   echo "{\\"references\\": [{\\"of\\": \\"$(basename "$2")\\", \\"by\\": \\"$(basename "$3")\\"}]}"
 fi
 """
@@ -48,6 +51,26 @@ class AccuracyRuns(unittest.TestCase):
         self.assertEqual(sum(run == runs.Run(runs.INTEL, beams=11) for run in together), 1)
         self.assertIn(runs.Run(runs.ACES, beams=4, refine=False, kernel=7), together)
         self.assertNotIn(3, {run.kernel for run in together}, "3 is the default, and that run is there already")
+
+    def test_no_two_runs_are_kept_in_one_file(self):
+        every = runs.runs_of(runs.PARTS)
+        self.assertEqual(len({self.results().file(run) for run in every}), len(every))
+
+    def test_a_changed_log_is_mapped_as_a_copy_and_what_comes_of_it_led_back(self):
+        data = Path(self.folder.name, "data")
+        data.mkdir()
+        with gzip.open(data / "log.gz", "wt") as file:
+            file.write("FLASER 2 1.0 2.0 0 0 0 0 0 0 5.0 host 5.0\nFLASER 2 1.0 2.0 0 0 0 1 0 0 6.0 host 6.0\n")
+        log = runs.Log("a log", "log.gz", "log.gz")
+        run = runs.Run(log, beams=2, change=runs.Change("mirrored", mirrored=True))
+        with mock.patch.object(runs, "DATASETS", data):
+            self.results().make(run, at_once=1)
+        calls = Path(f"{self.swiftlet}.calls").read_text().splitlines()
+        self.assertRegex(calls[0], "^map /.*/changed.clf --beams 2 ")
+        self.assertIsNotNone(self.results().get(run))
+        self.assertIsNone(self.results().get(runs.Run(log, beams=2)))
+        self.assertEqual(Path(f"{self.swiftlet}.judged").read_text(),
+                         "5.000000 1.000000 -2.000000 0 0 0 -0.600000000 0.800000000\n")
 
     def test_settings_become_a_configuration(self):
         run = runs.Run(runs.INTEL, beams=4, refine=False, kernel=5, multiscan=92)
