@@ -22,8 +22,8 @@ constexpr double kExpectedChiSquare = 1.0;
 constexpr std::uint32_t kMostKeyframesWaiting = 8;
 // ... and solutions need not be as fine, nor to be ends of a long way: the next is at hand.
 constexpr OptimizeEffort kLiveEffort{1e-3, 10};
-// Of a group, chi-square a closure. The matches' covariances are wide: right groups have 0.8, false ones 1.6
-// and more.
+// Of a group, chi-square a closure: half of the three that a closure's degrees of freedom would allow, for
+// the matches' covariances are wide.
 constexpr double kMostMisfit = 1.5;
 
 PoseConstraint constraint_of(const LoopClosure& closure) {

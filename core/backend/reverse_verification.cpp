@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kThinningM = 0.1;
 constexpr std::size_t kLeastSeen = 20;  // hits of the submap; fewer verify nothing
-// Nine right matches in ten have 0.63 or more, false ones in wide windows mostly less than 0.6.
+// Right matches seldom have less, false ones in wide windows mostly do.
 constexpr double kLeastOnWalls = 0.6;
 constexpr int kKernelCells = 3;  // two visits draw a wall within a cell of each other; more hides free space
 constexpr std::uint8_t kEven = 128;
