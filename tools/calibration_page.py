@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""docs/results/calibration.md: what calibration found beside what is known, and what maps gain by it."""
+
+import dataclasses
+import math
+import statistics
+
+import benchmark_page as page
+
+NONE = "–"
+TELLING_SIGMAS = 2.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Figure:
+    heading: str
+    setting: str
+    form: str = ".3f"
+    factor: float = 1.0
+
+    def text(self, value):
+        return format(self.factor * value, self.form)
+
+    def found(self, value, sigma):
+        digits = self.form.lstrip("+")
+        return f"{self.text(value)} ± {self.factor * sigma:{digits}}"
+
+
+AGE = Figure("age, s", "sensor.range_age_s")
+FORWARD = Figure("forward scale", "sensor.odometry_forward_scale")
+SIDEWAYS = Figure("sideways scale", "sensor.odometry_sideways_scale")
+TURN = Figure("turn missed", "sensor.missed_yaw_per_radian", "+.3f")
+PER_METRE = Figure("yaw, deg/m", "sensor.missed_yaw_per_metre_rad", "+.2f", math.degrees(1))
+PER_SECOND = Figure("yaw, deg/s", "sensor.missed_yaw_per_second_rad", "+.2f", math.degrees(1))
+KNOWN = [AGE, FORWARD, SIDEWAYS, TURN, PER_SECOND]  # of simulated flights
+
+
+def of_setting(rows, figure):
+    [row] = [row for row in rows if row["setting"] == figure.setting]
+    return row
+
+
+def flights_table(flights):
+    def cell(flight, figure):
+        known = of_setting(flight["figures"], figure)
+        found = NONE if known["found"] is None else figure.found(known["found"], known["sigma"])
+        return f"{figure.text(known['true'])} / {found}"
+
+    def cells(flight):
+        return [str(flight["seed"]), f"{flight['least_age_s']:.2f} to {flight['greatest_age_s']:.2f}",
+                *(cell(flight, figure) for figure in KNOWN)]
+
+    return page.table(["seed", "age within the flight, s", *(f"{figure.heading}: true / found" for figure in KNOWN)],
+                      [cells(flight) for flight in flights])
+
+
+def agreement(flights):
+    """How figures that were found compare with the true ones."""
+    off = [(abs(known["found"] - known["true"]) / known["sigma"], figure.heading.split(",")[0], flight["seed"])
+           for flight in flights for figure in KNOWN
+           if (known := of_setting(flight["figures"], figure))["found"] is not None]
+    if not off:
+        return "No figure was observable."
+    near = sum(sigmas <= TELLING_SIGMAS for sigmas, _, _ in off)
+    sigmas, what, seed = max(off)
+    return (f"Of {len(off)} figures found, {near} lie within {TELLING_SIGMAS:g} standard deviations of the true one; "
+            f"farthest off is the {what} of seed {seed}, by {sigmas:.1f}.")
+
+
+def offices_table(rows):
+    figures = [[row[how][which]["rmse_m"] for which in ("live", "final") for how in ("without", "with")] for row in rows]
+    names = [row["input"] for row in rows]
+    if figures:
+        names.append("mean")
+        figures.append([statistics.mean(column) for column in zip(*figures)])
+    return page.table(["flight", "live, m:", "with the file:", "final, m:", "with the file:"],
+                      [[name, *(f"{value:.3f}" for value in values)] for name, values in zip(names, figures)])
+
+
+def findings_table(rows):
+    def cell(row, figure):
+        finding = of_setting(row["calibration"]["findings"], figure)
+        if finding["verdict"] == "not_observable":
+            return NONE
+        found = figure.found(finding["value"], finding["sigma"])
+        return {"matters": f"**{found}**", "learnt": f"{found}, learnt"}.get(finding["verdict"], found)
+
+    figures = [AGE, FORWARD, SIDEWAYS, TURN, PER_METRE, PER_SECOND]
+    return page.table(["input", *(figure.heading for figure in figures)],
+                      [[row["input"], *(cell(row, figure) for figure in figures)] for row in rows])
+
+
+def judged_text(judged):
+    """Of a final trajectory: relations in m and deg, or a flight's cells."""
+    if "cells_20_cm" in judged:
+        return f"{judged['cells_20_cm']} cells"
+    return f"{judged['all']['translation_m']['mean']:.4f} m, {judged['all']['rotation_deg']['mean']:.3f} deg"
+
+
+def gains_table(rows):
+    def cells(row):
+        check = row["calibration"]["check"]
+        held_back = [NONE, NONE] if check is None else [f"{1e3 * check['held_back_before_m']:.1f} mm",
+                                                        f"{1e3 * check['held_back_after_m']:.1f} mm"]
+        return [row["input"], *held_back, *(judged_text(row[how]["final"]) for how in ("without", "with"))]
+
+    return page.table(["input", "held back:", "with the file:", "map:", "with the file:"], [cells(row) for row in rows])
+
+
+def wheels_text(rows):
+    there = [row for row in rows if row["wheels"] is not None]
+    if not there:
+        return ""
+    table = page.table(["log", "relations:", "forward scale:", "yaw, deg/m:"],
+                       [[row["input"], str(row["wheels"]["relations"]), FORWARD.text(row["wheels"]["scale"]),
+                         PER_METRE.text(row["wheels"]["missed_yaw_per_metre_rad"])] for row in there])
+    return f"""
+What relations that span less than 20 s say of the same wheels, without any map:
+
+{table}
+"""
+
+
+def ages_table(rows):
+    ages = sorted({row["age_s"] for row in rows})
+    texts = {(row["input"], row["age_s"]): judged_text(row["final"]) for row in rows}
+    return page.table(["input", *(f"{age_s:g} s:" for age_s in ages)],
+                      [[name, *(texts[name, age_s] for age_s in ages)]
+                       for name in dict.fromkeys(row["input"] for row in rows)])
+
+
+def tables(report):
+    """All tables, as the program prints them and the page holds them."""
+    logs = f"""
+## Recorded inputs
+
+Bold: what matters and stands in the file. Learnt: what every run finds by itself.
+
+{findings_table(report['logs'])}
+
+What a map gains by the file. "Held back": how far returns that took no part in the refinement lie off the walls, as
+`swiftlet calibrate` tells. "Map": mean errors by relations, or the distinct cells of 0.2 m that a flight's map covers,
+as `swiftlet eval` tells; cells shrink with the metre, too, so that they compare ages but not scales.
+
+{gains_table(report['logs'])}
+{wheels_text(report['logs'])}
+## The age alone
+
+Final trajectories of the same inputs with `range_age_s` set and nothing else:
+
+{ages_table(report['ages'])}
+""" if report["logs"] else ""
+    return f"""## Simulated flights
+
+`sim://office?seed=N`. {agreement(report['flights'])}
+
+{flights_table(report['flights'])}
+
+## The same office with other sensors
+
+The age of a reading when it is published is 20, 60, 100, 40 and 130 ms in place of 78 ms (`VehicleModel::range_age`); the
+scales of flow and gyro are off by up to 10 and 5 % in place of 0.8 and 1 % (`scale_spread`, `turn_scale_spread`).
+{agreement(report['others'])}
+
+{flights_table(report['others'])}
+
+## What simulated flights gain by the file
+
+RMSE of the path against the true one, of the flights with the usual sensors:
+
+{offices_table(report['offices'])}
+{logs}"""
+
+
+def document(report):
+    missing = f"\nLeft out, for want of the data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
+    return f"""{page.head("Calibration", "benchmark-calibration", report)}{missing}
+What `swiftlet calibrate` finds, with its standard deviation, and what is known otherwise. {NONE}: not observable.
+[calibration.md](../calibration.md) says what the figures are and what they teach.
+
+True figures of simulated flights: the age is where the simulator's own rangers, without noise, fit the readings best
+along the true path, once for the whole flight and once for each eighth of it (least to greatest). A reading waits for
+the log packet that takes it along, hence it is older than when it was published. Scales and yaw are regressions of
+measured steps on true ones. The program is `tests/benchmarks/calibration_flights.cpp`.
+
+{tables(report)}"""

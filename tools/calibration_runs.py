@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""Runs of `swiftlet calibrate` and what is known of them otherwise: which there are, and what came of them."""
+
+import dataclasses
+import json
+import subprocess
+
+import accuracy_runs
+import wheels_by_relations
+import whole_runs
+from accuracy_runs import Log
+
+
+@dataclasses.dataclass(frozen=True)
+class Flight:
+    """One of tests/benchmarks/calibration_flights."""
+    seed: int
+    sensors: tuple[float, ...] = ()  # range age in ms, spread of scale and turn scale; none: the default ones
+
+
+@dataclasses.dataclass(frozen=True)
+class Input:
+    log: Log
+    beams: int | None = None  # laser logs only
+
+    def name(self):
+        return self.log.name if self.beams is None else f"{self.log.name}, {self.beams} beams"
+
+    def arguments(self):
+        source = self.log.source if self.log.reference is None else str(accuracy_runs.DATASETS / self.log.source)
+        return [source] if self.beams is None else [source, "--beams", str(self.beams)]
+
+
+DEFAULT_FLIGHTS = [Flight(seed) for seed in range(1, 6)]
+OTHER_FLIGHTS = [Flight(seed, (age_ms, 0.1, 0.05)) for seed, age_ms in enumerate((20, 60, 100, 40, 130), 11)]
+OFFICES = [Input(log) for log in accuracy_runs.OFFICES]
+LOGS = [Input(accuracy_runs.OLSSON), Input(accuracy_runs.RICE), Input(accuracy_runs.ACES, 11),
+        Input(accuracy_runs.INTEL, 11)]
+AGED = LOGS[:3]  # Intel's stamps come in bunches
+AGES_S = [0.0, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14]
+
+
+def said(*command):
+    """What the command says on stdout. Raises OSError, or subprocess.CalledProcessError with what it said in its
+    stderr."""
+    return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+
+
+def fly(flight, program):
+    """Raises as said() does, or ValueError."""
+    return json.loads(said(program, flight.seed, *flight.sensors))
+
+
+def mapped(swiftlet, wanted, config, output):
+    """Live and final trajectory as the reference judges them. Raises as said() does, or ValueError."""
+    arguments = [*wanted.arguments(), *([] if config is None else ["--config", str(config)])]
+    whole_runs.run(swiftlet, arguments, output)
+    reference = output / "ground_truth.tum" if wanted.log.reference is None else (
+        accuracy_runs.DATASETS / wanted.log.reference)
+    return {which: accuracy_runs.judge(swiftlet, output / accuracy_runs.TRAJECTORIES[which], reference)
+            for which in ("live", "final")}
+
+
+def calibrate(wanted, swiftlet, folder):
+    """What was found, the maps without and with the file that was written, and what relations say of the wheels.
+    `folder`: is filled. Raises as mapped() does."""
+    found = folder / "found.toml"
+    result = {"calibration": json.loads(said(swiftlet, "calibrate", *wanted.arguments(), "--json", "-o", found)),
+              "without": mapped(swiftlet, wanted, None, folder / "without"),
+              "with": mapped(swiftlet, wanted, found, folder / "with"),
+              "wheels": None}
+    if wanted.log in accuracy_runs.LASER_LOGS:
+        result["wheels"] = wheels_by_relations.estimate(accuracy_runs.DATASETS / wanted.log.reference,
+                                                        folder / "without" / accuracy_runs.TRAJECTORIES["odometry"])
+    return result
+
+
+def map_at(age_s, wanted, swiftlet, folder):
+    """The map with the ranges taken for so old. Otherwise as calibrate()."""
+    config = folder / "age.toml"
+    config.write_text(accuracy_runs.configuration({"sensor": {"range_age_s": age_s}}), encoding="utf-8")
+    return mapped(swiftlet, wanted, config, folder / "out")
