@@ -5,11 +5,14 @@
 import dataclasses
 import math
 import statistics
+import textwrap
 
 import benchmark_page as page
+import wheels_by_relations
 
 NONE = "–"
 TELLING_SIGMAS = 2.0
+WIDTH = 120  # of a line of text
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,7 +51,7 @@ def flights_table(flights):
         return f"{figure.text(known['true'])} / {found}"
 
     def cells(flight):
-        return [str(flight["seed"]), f"{flight['least_age_s']:.2f} to {flight['greatest_age_s']:.2f}",
+        return [str(flight["seed"]), f"{flight['least_age_s']:.3f} to {flight['greatest_age_s']:.3f}",
                 *(cell(flight, figure) for figure in KNOWN)]
 
     return page.table(["seed", "age within the flight, s", *(f"{figure.heading}: true / found" for figure in KNOWN)],
@@ -64,12 +67,14 @@ def agreement(flights):
         return "No figure was observable."
     near = sum(sigmas <= TELLING_SIGMAS for sigmas, _, _ in off)
     sigmas, what, seed = max(off)
-    return (f"Of {len(off)} figures found, {near} lie within {TELLING_SIGMAS:g} standard deviations of the true one; "
-            f"farthest off is the {what} of seed {seed}, by {sigmas:.1f}.")
+    return textwrap.fill(
+        f"Of {len(off)} figures found, {near} lie within {TELLING_SIGMAS:g} standard deviations of the true one; "
+        f"farthest off is the {what} of seed {seed}, by {sigmas:.1f}.", WIDTH)
 
 
 def offices_table(rows):
-    figures = [[row[how][which]["rmse_m"] for which in ("live", "final") for how in ("without", "with")] for row in rows]
+    figures = [[row[how][which]["rmse_m"] for which in ("live", "final") for how in ("without", "with")]
+               for row in rows]
     names = [row["input"] for row in rows]
     if figures:
         names.append("mean")
@@ -87,8 +92,9 @@ def findings_table(rows):
         return {"matters": f"**{found}**", "learnt": f"{found}, learnt"}.get(finding["verdict"], found)
 
     figures = [AGE, FORWARD, SIDEWAYS, TURN, PER_METRE, PER_SECOND]
-    return page.table(["input", *(figure.heading for figure in figures)],
-                      [[row["input"], *(cell(row, figure) for figure in figures)] for row in rows])
+    return page.table(["input", *(figure.heading for figure in figures), "it takes, s:"],
+                      [[row["input"], *(cell(row, figure) for figure in figures), f"{row['seconds']:.0f}"]
+                       for row in rows])
 
 
 def judged_text(judged):
@@ -109,16 +115,19 @@ def gains_table(rows):
 
 
 def wheels_text(rows):
+    def cells(row):
+        wheels = row["wheels"]
+        return [row["input"], str(wheels["relations"]),
+                *(NONE if wheels[key] is None else figure.found(*wheels[key])
+                  for key, figure in (("scale", FORWARD), ("missed_yaw_per_metre_rad", PER_METRE)))]
+
     there = [row for row in rows if row["wheels"] is not None]
     if not there:
         return ""
-    table = page.table(["log", "relations:", "forward scale:", "yaw, deg/m:"],
-                       [[row["input"], str(row["wheels"]["relations"]), FORWARD.text(row["wheels"]["scale"]),
-                         PER_METRE.text(row["wheels"]["missed_yaw_per_metre_rad"])] for row in there])
     return f"""
-What relations that span less than 20 s say of the same wheels, without any map:
+What relations that span less than {wheels_by_relations.LONGEST_S:g} s say of the same wheels, without any map:
 
-{table}
+{page.table(["log", "relations:", "scale", "yaw, deg/m"], [cells(row) for row in there])}
 """
 
 
@@ -153,14 +162,15 @@ Final trajectories of the same inputs with `range_age_s` set and nothing else:
 """ if report["logs"] else ""
     return f"""## Simulated flights
 
-`sim://office?seed=N`. {agreement(report['flights'])}
+`sim://office?seed=N`.
+{agreement(report['flights'])}
 
 {flights_table(report['flights'])}
 
 ## The same office with other sensors
 
-The age of a reading when it is published is 20, 60, 100, 40 and 130 ms in place of 78 ms (`VehicleModel::range_age`); the
-scales of flow and gyro are off by up to 10 and 5 % in place of 0.8 and 1 % (`scale_spread`, `turn_scale_spread`).
+The age of a reading when it is published is 20, 60, 100, 40 and 130 ms in place of 78 ms (`VehicleModel::range_age`);
+the scales of flow and gyro are off by up to 10 and 5 % in place of 0.8 and 1 % (`scale_spread`, `turn_scale_spread`).
 {agreement(report['others'])}
 
 {flights_table(report['others'])}

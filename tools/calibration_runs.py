@@ -5,6 +5,7 @@
 import dataclasses
 import json
 import subprocess
+import time
 
 import accuracy_runs
 import wheels_by_relations
@@ -63,10 +64,13 @@ def mapped(swiftlet, wanted, config, output):
 
 
 def calibrate(wanted, swiftlet, folder):
-    """What was found, the maps without and with the file that was written, and what relations say of the wheels.
-    `folder`: is filled. Raises as mapped() does."""
+    """What was found and in how many seconds, the maps without and with the file that was written, and what relations
+    say of the wheels. `folder`: is filled. Raises as mapped() does."""
     found = folder / "found.toml"
-    result = {"calibration": json.loads(said(swiftlet, "calibrate", *wanted.arguments(), "--json", "-o", found)),
+    begun = time.monotonic()
+    calibration = json.loads(said(swiftlet, "calibrate", *wanted.arguments(), "--json", "-o", found))
+    result = {"calibration": calibration,
+              "seconds": time.monotonic() - begun,
               "without": mapped(swiftlet, wanted, None, folder / "without"),
               "with": mapped(swiftlet, wanted, found, folder / "with"),
               "wheels": None}

@@ -10,7 +10,7 @@ from pathlib import Path
 
 LONGEST_S = 20.0  # what lies farther apart is joined by more of the odometry than its steady errors
 SAME_STAMP_S = 0.002
-SHORTEST_M = 0.2  # of less the noise says more than the scale
+SHORTEST_M = 0.1  # less has no direction
 
 
 def rows(path):
@@ -55,21 +55,37 @@ def pairs(relations, odometry):
                    odometry.forward_m[j] - odometry.forward_m[i])
 
 
-def estimate(relations_file, odometry_file):
-    """`relations`: how many were used; `scale`: metres moved for each measured; `missed_yaw_per_metre_rad`, with a share
-    of each turn taken out. None where there are too few. Raises OSError or ValueError."""
-    used = list(pairs(rows(relations_file), Odometry(odometry_file)))
-    far = [(math.hypot(*true[:2]), math.hypot(*measured[:2])) for true, measured, _ in used
-           if math.hypot(*true[:2]) >= SHORTEST_M]
-    across = sum(true * measured for true, measured in far)
-    mm = sum(forward**2 for _, _, forward in used)
-    tt = sum(measured[2]**2 for _, measured, _ in used)
-    mt = sum(forward * measured[2] for _, measured, forward in used)
-    missed = [wrapped(true[2] - measured[2]) for true, measured, _ in used]
-    my = sum(yaw * forward for yaw, (_, _, forward) in zip(missed, used))
-    ty = sum(yaw * measured[2] for yaw, (_, measured, _) in zip(missed, used))
-    determinant = mm * tt - mt**2
-    if across <= 0.0 or determinant <= 0.0:
+def scale_of(used):
+    """Metres moved along the measured motion for each metre measured, and the standard deviation. A ratio of sums, for
+    single motions are hardly longer than the relations' own noise."""
+    along = [((true[0] * measured[0] + true[1] * measured[1]) / measured_m, measured_m)
+             for true, measured, _ in used if (measured_m := math.hypot(*measured[:2])) > SHORTEST_M]
+    if not along:
         return None
-    return {"relations": len(used), "scale": sum(true**2 for true, _ in far) / across,
-            "missed_yaw_per_metre_rad": (my * tt - ty * mt) / determinant}
+    total_m = sum(measured_m for _, measured_m in along)
+    scale = sum(moved_m for moved_m, _ in along) / total_m
+    return scale, math.sqrt(sum((moved_m - scale * measured_m)**2 for moved_m, measured_m in along)) / total_m
+
+
+def missed_yaw_of(used):
+    """Yaw missed per metre forward, once a share of each turn is taken out, and the standard deviation, in rad/m."""
+    rows_of = [(forward, measured[2], wrapped(true[2] - measured[2])) for true, measured, forward in used]
+    turned = sum(turn**2 for _, turn, _ in rows_of)
+    if turned == 0.0:
+        return None
+    forward_of_turn = sum(forward * turn for forward, turn, _ in rows_of) / turned
+    missed_of_turn = sum(missed * turn for _, turn, missed in rows_of) / turned
+    apart = [(forward - forward_of_turn * turn, missed - missed_of_turn * turn) for forward, turn, missed in rows_of]
+    squares = sum(forward**2 for forward, _ in apart)
+    if squares == 0.0:
+        return None
+    slope = sum(forward * missed for forward, missed in apart) / squares
+    scatter = sum((forward * (missed - slope * forward))**2 for forward, missed in apart)
+    return slope, math.sqrt(scatter) / squares
+
+
+def estimate(relations_file, odometry_file):
+    """`relations`: how many were used; `scale` and `missed_yaw_per_metre_rad`, each with its standard deviation, None
+    where there are too few. Raises OSError or ValueError."""
+    used = list(pairs(rows(relations_file), Odometry(odometry_file)))
+    return {"relations": len(used), "scale": scale_of(used), "missed_yaw_per_metre_rad": missed_yaw_of(used)}

@@ -49,10 +49,12 @@ def office(name, live, final):
 
 LOG = {"input": "a log", "calibration": {"findings": FINDINGS, "check": None}, "without": relations(0.0298, 0.799),
        "with": relations(0.029, 0.796),
-       "wheels": {"relations": 900, "scale": 0.976, "missed_yaw_per_metre_rad": math.radians(3.8)}}
+       "seconds": 29.6,
+       "wheels": {"relations": 900, "scale": (0.98, 0.004), "missed_yaw_per_metre_rad": None}}
 HALL = {"input": "a hall", "calibration": {"findings": FINDINGS, "check": {"held_back_before_m": 0.0638,
                                                                          "held_back_after_m": 0.0608}},
-        "without": {"final": {"cells_20_cm": 1760}}, "with": {"final": {"cells_20_cm": 1630}}, "wheels": None}
+        "without": {"final": {"cells_20_cm": 1760}}, "with": {"final": {"cells_20_cm": 1630}}, "seconds": 4.2,
+        "wheels": None}
 REPORT = {"date": "2026-01-02", "commit": "abc", "machine": "a machine", "missing": [], "flights": [flight(1)],
           "others": [flight(11)], "offices": [office("one", 0.4, 0.2), office("two", 0.6, 0.1)], "logs": [LOG, HALL],
           "ages": [{"input": "a hall", "age_s": age_s, "final": {"cells_20_cm": cells}}
@@ -61,11 +63,11 @@ REPORT = {"date": "2026-01-02", "commit": "abc", "machine": "a machine", "missin
 
 class CalibrationPage(unittest.TestCase):
     def test_a_flight_shows_the_truth_beside_what_was_found_and_what_was_not(self):
-        self.assertIn("| 1 | 0.08 to 0.09 | 0.088 / 0.096 ± 0.006 | 1.004 / 0.992 ± 0.004 | 0.990 / – | "
+        self.assertIn("| 1 | 0.081 to 0.094 | 0.088 / 0.096 ± 0.006 | 1.004 / 0.992 ± 0.004 | 0.990 / – | "
                       "+0.009 / +0.007 ± 0.003 | -0.06 / -0.04 ± 0.02 |", page.flights_table([flight()]))
 
     def test_says_how_many_figures_agree_and_which_is_farthest_off(self):
-        self.assertEqual(page.agreement([flight(1)]),
+        self.assertEqual(" ".join(page.agreement([flight(1)]).split()),
                          "Of 4 figures found, 3 lie within 2 standard deviations of the true one; farthest off is the "
                          "forward scale of seed 1, by 3.0.")
 
@@ -73,7 +75,7 @@ class CalibrationPage(unittest.TestCase):
         self.assertIn("| mean | 0.500 | 0.250 | 0.150 | 0.075 |", page.offices_table(REPORT["offices"]))
 
     def test_what_matters_is_bold_and_what_is_learnt_says_so(self):
-        self.assertIn("| a log | 0.089 ± 0.008 | **0.963 ± 0.003** | – | – | +3.20 ± 0.05, learnt | – |",
+        self.assertIn("| a log | 0.089 ± 0.008 | **0.963 ± 0.003** | – | – | +3.20 ± 0.05, learnt | – | 30 |",
                       page.findings_table([LOG]))
 
     def test_gains_are_told_by_what_there_is_to_judge_by(self):
@@ -83,7 +85,7 @@ class CalibrationPage(unittest.TestCase):
 
     def test_wheels_are_told_of_logs_only(self):
         text = page.wheels_text([LOG, HALL])
-        self.assertIn("| a log | 900 | 0.976 | +3.80 |", text)
+        self.assertIn("| a log | 900 | 0.980 ± 0.004 | – |", text)
         self.assertNotIn("a hall", text)
         self.assertEqual(page.wheels_text([HALL]), "")
 

@@ -74,6 +74,7 @@ class CalibrationRuns(unittest.TestCase):
         self.assertEqual(result["with"], {"live": {"of": "live.tum", "by": "ground_truth.tum"},
                                           "final": {"of": "trajectory.tum", "by": "ground_truth.tum"}})
         self.assertEqual(result["calibration"], {"findings": []})
+        self.assertGreater(result["seconds"], 0.0)
         self.assertIsNone(result["wheels"])
 
     def test_a_laser_log_keeps_its_beams_and_its_wheels_are_held_against_the_relations(self):

@@ -42,10 +42,12 @@ class WheelsByRelations(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.relations, self.odometry = (Path(self.folder.name, name) for name in ("relations", "odometry"))
 
-    def write(self, relations, true, measured):
+    def write(self, relations, true, measured, noise_m=0.0):
+        chance = random.Random(2)
         lines = []
         for i, j in relations:
             x, y, yaw = wheels.between(true[i], true[j])
+            x, y = (at_m + chance.gauss(0, noise_m) for at_m in (x, y))
             lines.append(f"{100 + i} {100 + j} {x} {y} 0 0 0 {yaw}\n")
         self.relations.write_text("# from to x y z roll pitch yaw\n" + "".join(lines))
         self.odometry.write_text("".join(
@@ -56,8 +58,17 @@ class WheelsByRelations(unittest.TestCase):
         self.write([(i, i + 1) if i % 2 else (i + 1, i) for i in range(300)], *drive(300))
         found = wheels.estimate(self.relations, self.odometry)
         self.assertEqual(found["relations"], 300)
-        self.assertAlmostEqual(found["scale"], SCALE, 4)
-        self.assertAlmostEqual(found["missed_yaw_per_metre_rad"], MISSED_RAD_PER_M, 4)
+        for name, true in (("scale", SCALE), ("missed_yaw_per_metre_rad", MISSED_RAD_PER_M)):
+            value, sigma = found[name]
+            self.assertAlmostEqual(value, true, 3)
+            self.assertLess(sigma, 1e-3)
+
+    def test_noise_of_relations_shows_in_the_deviation_and_draws_the_scale_nowhere(self):
+        true, measured = drive(2000)
+        self.write([(i, i + 1) for i in range(2000)], true, measured, noise_m=0.05)
+        value, sigma = wheels.estimate(self.relations, self.odometry)["scale"]
+        self.assertLess(abs(value - SCALE), 3 * sigma)
+        self.assertAlmostEqual(sigma, 0.05 / (0.4 * math.sqrt(2000)), delta=0.0003)
 
     def test_leaves_out_relations_that_span_long_and_those_without_poses(self):
         true, measured = drive(100)
@@ -66,7 +77,8 @@ class WheelsByRelations(unittest.TestCase):
 
     def test_too_few_say_nothing(self):
         self.write([], *drive(10))
-        self.assertIsNone(wheels.estimate(self.relations, self.odometry))
+        self.assertEqual(wheels.estimate(self.relations, self.odometry),
+                         {"relations": 0, "scale": None, "missed_yaw_per_metre_rad": None})
 
 
 if __name__ == "__main__":
