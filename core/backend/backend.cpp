@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/backend/backend_state.hpp"
 #include "core/backend/refinement.hpp"
@@ -91,9 +92,9 @@ void Backend::State::finish_submaps(KeyframeId newest) {
     open_submaps.push_back(newest);
   }
   while (here_m - chain.path_m(open_submaps.front()) >= config.submap_length_m) {
-    submaps.push_back(std::make_shared<const Submap>(build_submap(static_cast<SubmapId>(counters.submaps++),
-                                                                  open_submaps.front(), newest, scans, chain,
-                                                                  T_local_keyframe, config)));
+    submaps.push_back(std::make_shared<const Submap>(
+        build_submap(open_submaps.front(), newest, scans, chain, T_local_keyframe, config)));
+    ++counters.submaps;
     open_submaps.erase(open_submaps.begin());
   }
 }
@@ -116,7 +117,8 @@ bool Backend::State::hold_heading(KeyframeId newest) {
   heading_sought_at = newest;
   std::vector<WallRun> around;
   for (const Wall& wall : walls) {
-    if (here_m - chain.path_m(wall.anchor) > config.submap_length_m) continue;
+    if (wall.anchor < motion_known_since || here_m - chain.path_m(wall.anchor) > config.submap_length_m)
+      continue;
     const double dx_m = wall.end_keyframe.x_m - wall.start_keyframe.x_m;
     const double dy_m = wall.end_keyframe.y_m - wall.start_keyframe.y_m;
     const double turned_rad =
@@ -152,6 +154,7 @@ void Backend::State::add_closure(LoopClosure closure) {
 /// not hold together then, against what else is known, nothing has happened.
 void Backend::State::believe(const std::vector<LoopClosure>& group) {
   if (group.empty()) return;
+  heading_hold.update(graph);
   PoseGraph trial = graph;
   for (const LoopClosure& closure : group) {
     trial.constraints.push_back(constraint_of(closure));
@@ -188,11 +191,12 @@ bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId 
 bool Backend::State::optimize(const OptimizeEffort& effort) {
   ++counters.optimizations;
   news_waits = false;
-  group_moved_map = false;
+  const bool has_moved = std::exchange(group_moved_map, false);
   heading_hold.update(graph);
   if (!optimizer.optimize(graph, effort)) {
     ++counters.solver_failures;
-    return false;
+    version += has_moved ? 1 : 0;
+    return has_moved;
   }
   for (std::size_t i = 0; i < closures.size(); ++i) {
     if (!closures[i].dropped) closures[i].dcs_scale = graph.constraints[closure_constraint[i]].dcs_scale;
@@ -316,6 +320,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.carry_new_poses();
   s.take_walls(made);
   if (made.starts_segment) s.open_submaps.clear();  // a submap is one stretch of known motion
+  if (made.starts_segment && !made.odometry_ran_on) s.motion_known_since = made.id;
   s.finish_submaps(made.id);
   const bool turned = s.hold_heading(made.id);
   update.new_closures = s.close_loops(made.id);

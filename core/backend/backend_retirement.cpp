@@ -6,14 +6,9 @@
 
 #include "core/backend/backend_state.hpp"
 
-// How the backend forgets what others know as well: what holds the rest together, and renumbering.
+// How the backend forgets what others know as well: all that it holds is renumbered.
 namespace swiftlet {
 namespace {
-
-// What ties a stretch of travel to the map where its surroundings in time were retired: looser than what was
-// known of them.
-constexpr double kTieSigmaM = 0.1;
-constexpr double kTieSigmaRad = 0.05;
 
 constexpr double kRetiredShare = 0.05;  // of the most scans, at a time
 
@@ -33,29 +28,6 @@ KeyframeId Backend::State::first_recent() const {
   while (first > 0 && chain.path_m(static_cast<KeyframeId>(first)) > recent_m) --first;
   if (!open_submaps.empty()) first = std::min<std::size_t>(first, index_of(open_submaps.front()));
   return static_cast<KeyframeId>(first);
-}
-
-/// Holds both ends of every hole to keyframes that stay.
-std::vector<PoseConstraint> Backend::State::ties_around(const Retirement& retirement) const {
-  std::vector<PoseConstraint> ties;
-  const auto tie = [&](KeyframeId from, std::uint32_t to) {
-    PoseConstraint c;
-    c.from = from;
-    c.to = static_cast<KeyframeId>(to);
-    c.T_from_to = between(graph.T_map_keyframe[index_of(from)], graph.T_map_keyframe[to]);
-    c.information = Eigen::Vector3d(1.0 / (kTieSigmaM * kTieSigmaM), 1.0 / (kTieSigmaM * kTieSigmaM),
-                                    1.0 / (kTieSigmaRad * kTieSigmaRad))
-                        .asDiagonal();
-    c.is_closure = true;
-    ties.push_back(c);
-  };
-  for (const RetiredPass& pass : retirement.passes) {
-    if (const std::uint32_t before = pass.keyframes.first - 1; !retirement.keyframes.removes(before))
-      tie(pass.anchor, before);
-    if (const std::uint32_t after = pass.keyframes.end; !retirement.keyframes.removes(after))
-      tie(pass.anchor, after);
-  }
-  return ties;
 }
 
 /// Keeps those between keyframes that stay.
@@ -146,7 +118,7 @@ void Backend::retire(const Retirement& retirement) {
   if (retirement.empty()) return;
   SWIFTLET_CHECK(s.T_map_refined.empty(), "the run goes on");
   const IndexRemoval& keyframes = retirement.keyframes;
-  const std::vector<PoseConstraint> ties = s.ties_around(retirement);
+  const std::vector<PoseConstraint> ties = ties_around(retirement, s.scans, s.graph.T_map_keyframe);
   s.graph.constraints.insert(s.graph.constraints.end(), ties.begin(), ties.end());
   s.remove_constraints(keyframes);
   s.heading_hold.remove(keyframes, s.graph);
@@ -162,6 +134,7 @@ void Backend::retire(const Retirement& retirement) {
   for (KeyframeId& anchor : s.anchors) anchor = moved(anchor, keyframes);
   s.optimized_upto = moved(s.optimized_upto, keyframes);
   s.heading_sought_at = moved(s.heading_sought_at, keyframes);
+  s.motion_known_since = moved(s.motion_known_since, keyframes);
   for (KeyframeId& begin : s.open_submaps) begin = moved(begin, keyframes);
   s.scans.remove(retirement.scans, keyframes);
   s.chain.remove(retirement.scans, keyframes);

@@ -55,7 +55,6 @@ struct Backend::State {
   bool refine();
   void refine_live(BackendUpdate& update);
   [[nodiscard]] KeyframeId first_recent() const;
-  [[nodiscard]] std::vector<PoseConstraint> ties_around(const Retirement& retirement) const;
   void remove_constraints(const IndexRemoval& keyframes);
   void remove_motions(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
   void remove_closures(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
@@ -72,6 +71,7 @@ struct Backend::State {
   ClosureGroups groups;
   HeadingHold heading_hold;
   KeyframeId heading_sought_at{};
+  KeyframeId motion_known_since{};  // the first keyframe that the newest is joined to by measured motion
   PoseGraphOptimizer optimizer;
   LiveRefinement live;
 

@@ -26,7 +26,7 @@ class ClosureGroups {
   explicit ClosureGroups(const KeyframeChain& chain) : chain_(&chain) {}
 
   /// Takes what was found from one keyframe, the newest. Returns those that are now believed, with all that
-  /// agree with them, which wait no longer; mostly none.
+  /// agree with them; mostly none. Then all that waited is forgotten: a group is offered once.
   std::vector<LoopClosure> add(std::span<const LoopClosure> found, const PoseGraph& graph);
   /// Forgets all that waits: keyframes are renumbered.
   void clear() { waiting_.clear(); }

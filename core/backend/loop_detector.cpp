@@ -59,7 +59,8 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
     c.window.radius_m =
         std::clamp(kSigmas * sigma_m, kLeastRadiusM, std::max(kLeastRadiusM, config_->search_radius_m));
-    c.window.angle_rad = std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastAngleRad, config_->search_angle_rad);
+    c.window.angle_rad = std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastAngleRad,
+                                    std::max(kLeastAngleRad, config_->search_angle_rad));
     std::size_t inside = 0;
     for (const Point2& p : points_query) {
       const Point2 q = c.window.T_submap_scan * p;
@@ -82,6 +83,9 @@ FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<
                               std::uint64_t& tried) const {
   FoundLoops loops;
   const ScanRange recent = recent_scans(query);
+  // Less than the travel from the keyframe before cannot be drawn, and so not be held the other way round.
+  if (index_of(query) == 0 || chain_->scan_of(static_cast<KeyframeId>(index_of(query) - 1)) < recent.first)
+    return loops;
   const std::vector<Point2> points =
       thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[index_of(query)].inverse());
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;

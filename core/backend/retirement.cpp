@@ -21,6 +21,9 @@ constexpr double kShareOfReturns = 0.9;      // decides: the rest are glances th
 constexpr std::size_t kOldestKept = 3;       // passes in each tile, and ...
 constexpr std::size_t kNewestKept = 3;       // ... as many again
 constexpr std::size_t kShortestRun = 4;      // passes: every hole needs ties on both sides
+// Of a tie: looser than what was known of the place.
+constexpr double kTieSigmaM = 0.1;
+constexpr double kTieSigmaRad = 0.05;
 
 using Tile = std::pair<std::int32_t, std::int32_t>;
 
@@ -162,6 +165,30 @@ Retirement plan_retirement(const ScanStore& scans, const KeyframeChain& chain,
     p = end + 1;
   }
   return retirement;
+}
+
+std::vector<PoseConstraint> ties_around(const Retirement& retirement, const ScanStore& scans,
+                                        std::span<const Pose2> T_map_keyframe) {
+  std::vector<PoseConstraint> ties;
+  const auto is_held_by_motion = [&](ScanIndex behind) {
+    return !scans[behind].starts_segment || scans[behind].odometry_ran_on;
+  };
+  const auto tie = [&](KeyframeId anchor, std::uint32_t end, ScanIndex behind) {
+    if (retirement.keyframes.removes(end) || !is_held_by_motion(behind)) return;
+    PoseConstraint c;
+    c.from = anchor;
+    c.to = static_cast<KeyframeId>(end);
+    c.T_from_to = between(T_map_keyframe[index_of(anchor)], T_map_keyframe[end]);
+    const Eigen::Vector3d sigma(kTieSigmaM, kTieSigmaM, kTieSigmaRad);
+    c.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+    c.is_closure = true;
+    ties.push_back(c);
+  };
+  for (const RetiredPass& pass : retirement.passes) {
+    tie(pass.anchor, pass.keyframes.first - 1, pass.scans.first);
+    tie(pass.anchor, pass.keyframes.end, pass.scans.end);
+  }
+  return ties;
 }
 
 }  // namespace swiftlet

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/backend/keyframe_chain.hpp"
+#include "core/backend/pose_graph.hpp"
 #include "core/backend/scan_store.hpp"
 #include "core/base/ids.hpp"
 #include "core/base/index_removal.hpp"
@@ -39,5 +40,11 @@ struct Retirement {
                                          std::span<const Pose2> T_map_keyframe,
                                          std::span<const KeyframeId> anchors, KeyframeId first_recent,
                                          double other_time_m, std::size_t scans_wanted);
+
+/// What holds the ends of the holes to the anchors: from now on no motion does. An end that no motion held
+/// before has its tie from an earlier retirement, or needs none. Numbered as before the retirement.
+/// Allocates.
+[[nodiscard]] std::vector<PoseConstraint> ties_around(const Retirement& retirement, const ScanStore& scans,
+                                                      std::span<const Pose2> T_map_keyframe);
 
 }  // namespace swiftlet

@@ -40,8 +40,7 @@ Submap ReverseVerification::draw_recent() const {
   while (first > 0 && chain_.scan_of(static_cast<KeyframeId>(first - 1)) >= recent_.first) --first;
   BackendConfig config = config_;
   config.max_kernel_cells = kKernelCells;
-  return build_submap(SubmapId{}, static_cast<KeyframeId>(first), query_, scans_, chain_, T_w_keyframe_,
-                      config);
+  return build_submap(static_cast<KeyframeId>(first), query_, scans_, chain_, T_w_keyframe_, config);
 }
 
 bool ReverseVerification::holds(const Submap& submap, const Pose2& T_submap_query) {

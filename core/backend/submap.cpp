@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/backend/max_pyramid.hpp"
+#include "core/base/check.hpp"
 
 namespace swiftlet {
 namespace {
@@ -68,9 +69,9 @@ class EvidenceGrid {
 
 }  // namespace
 
-Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanStore& scans,
-                    const KeyframeChain& chain, std::span<const Pose2> T_w_keyframe,
-                    const BackendConfig& config) {
+Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, const KeyframeChain& chain,
+                    std::span<const Pose2> T_w_keyframe, const BackendConfig& config) {
+  SWIFTLET_CHECK(first < last, "a submap has scans");
   const auto reference = static_cast<KeyframeId>((index_of(first) + index_of(last)) / 2);
   const Pose2 T_submap_w = T_w_keyframe[index_of(reference)].inverse();
   std::vector<PlacedScan> placed;
@@ -90,8 +91,7 @@ Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanSt
   EvidenceGrid grid(geometry, config);
   for (const PlacedScan& scan : placed) grid.add(scans, scan);
 
-  return Submap{.id = id,
-                .reference = reference,
+  return Submap{.reference = reference,
                 .first = first,
                 .last = last,
                 .geometry = geometry,

@@ -17,7 +17,6 @@ namespace swiftlet {
 /// max kernel of eq. 22 applied. Immutable once built: shared as shared_ptr<const Submap>. A byte holds
 /// 255 * p(occupied); unknown cells hold 0.
 struct Submap {
-  SubmapId id{};
   KeyframeId reference{};  ///< its frame: the keyframe in the middle
   KeyframeId first{};
   KeyframeId last{};  ///< scans from `first` up to, not including, `last`
@@ -28,9 +27,8 @@ struct Submap {
 };
 
 /// Draws the scans made between two keyframes. `T_w_keyframe`: the keyframes in one continuous frame.
-/// Allocates.
-Submap build_submap(SubmapId id, KeyframeId first, KeyframeId last, const ScanStore& scans,
-                    const KeyframeChain& chain, std::span<const Pose2> T_w_keyframe,
-                    const BackendConfig& config);
+/// Precondition: first < last. Allocates.
+Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, const KeyframeChain& chain,
+                    std::span<const Pose2> T_w_keyframe, const BackendConfig& config);
 
 }  // namespace swiftlet

@@ -23,7 +23,7 @@ std::uint32_t scattered(std::size_t number) {
 }  // namespace
 
 bool is_held_back(const ScanStore& scans, ScanIndex scan, std::size_t return_of_scan) {
-  return scattered(scans[scan].first_return + return_of_scan) % kHoldBackEvery == 0;
+  return scattered(scans[scan].number * kMaxBeams + return_of_scan) % kHoldBackEvery == 0;
 }
 
 void WindowRefinement::take_returns(const ScanRange& window, ScanIndex first_scan) {

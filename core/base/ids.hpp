@@ -8,7 +8,6 @@ namespace swiftlet {
 
 // Counted up from 0 within a run; never reused. Distinct types, so that one cannot be taken for another.
 enum class KeyframeId : std::uint32_t {};
-enum class SubmapId : std::uint32_t {};
 enum class LandmarkId : std::uint32_t {};
 
 template <typename Id>

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/mapping/round_robin.hpp"
 #include "core/mapping/scan_drawing.hpp"
 
 namespace swiftlet {
@@ -50,8 +51,7 @@ struct MapBuilder::State {
   std::vector<Stretch> stretches;  // by keyframe
   ScanIndex scans_seen = 0;
   std::size_t keyframes_seen = 0;  // as of the last update
-  std::size_t swept = 0;           // the next keyframe whose turn it is, when all may have moved ...
-  std::size_t left_to_sweep = 0;   // ... and how many have not had theirs
+  RoundRobin swept;                // keyframes, when all may have moved
 };
 
 MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend, std::size_t k) const {
@@ -107,10 +107,8 @@ std::size_t MapBuilder::State::follow(const Backend& backend, std::size_t k) {
 
 /// A correction of everything is followed over several updates, in turn, so that none takes long.
 void MapBuilder::State::sweep(const Backend& backend) {
-  for (std::size_t moved = 0; left_to_sweep > 0 && moved < kMostReturnsMoved; --left_to_sweep) {
-    if (swept >= stretches.size()) swept = 0;
-    moved += follow(backend, swept++);
-  }
+  for (std::size_t moved = 0; !swept.is_done() && moved < kMostReturnsMoved;)
+    moved += follow(backend, swept.take(stretches.size()));
 }
 
 MapBuilder::State::Beams MapBuilder::State::beams_of(const Backend& backend, ScanIndex scan) const {
@@ -150,7 +148,7 @@ std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_cha
   }
   for (std::size_t k = first; k < s.stretches.size(); ++k) s.follow(backend, k);
   s.keyframes_seen = backend.keyframe_count();
-  if (poses_changed) s.left_to_sweep = s.stretches.size();
+  if (poses_changed) s.swept.begin(s.stretches.size());
   s.sweep(backend);
   return s.drawing.store().publish();
 }
@@ -171,11 +169,11 @@ void MapBuilder::retire(const Backend& backend, const Retirement& retirement) {
     }
   }
   s.drawing.remove(retirement.scans);
+  s.swept.remove(retirement.keyframes, s.stretches.size());
   retirement.keyframes.apply(s.stretches);
   for (State::Stretch& stretch : s.stretches) stretch.first = retirement.scans.new_index(stretch.first);
   s.scans_seen -= retirement.scans.size();
   s.keyframes_seen -= retirement.keyframes.size();
-  s.left_to_sweep = std::min(s.left_to_sweep, s.stretches.size());
 }
 
 MapTile MapBuilder::tile(TileIndex index) const { return state_->drawing.store().tile(index); }

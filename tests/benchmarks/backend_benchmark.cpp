@@ -37,8 +37,8 @@ TestVehicle lap_and_a_side() {
 /// The last 6 m of the first side on the first lap: where the flight ends on its second.
 Submap submap_of_the_place(const StoredRun& run) {
   constexpr std::uint32_t kFirst = 11;
-  return build_submap(SubmapId{}, keyframe(kFirst), keyframe(kFirst + kSubmapKeyframes), run.scans(),
-                      run.chain(), run.T_local_keyframe(), {});
+  return build_submap(keyframe(kFirst), keyframe(kFirst + kSubmapKeyframes), run.scans(), run.chain(),
+                      run.T_local_keyframe(), {});
 }
 
 void submap_build(benchmark::State& state) {

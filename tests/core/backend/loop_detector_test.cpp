@@ -16,6 +16,7 @@ namespace swiftlet {
 namespace {
 
 using testing::IsEmpty;
+using testing::Not;
 
 constexpr std::uint32_t kSubmapKeyframes = 12;
 constexpr double kChiSquare99 = 11.34;  // of three degrees of freedom
@@ -33,9 +34,8 @@ class LoopDetectorTest : public testing::Test {
   explicit LoopDetectorTest(const TestVehicle& vehicle = lap_and_a_side()) : run_(vehicle.samples()) {
     for (std::uint32_t first = 0; first + kSubmapKeyframes <= index_of(run_.newest());
          first += kSubmapKeyframes / 2) {
-      const auto id = static_cast<SubmapId>(submaps_.size());
       submaps_.push_back(std::make_shared<const Submap>(
-          build_submap(id, static_cast<KeyframeId>(first), static_cast<KeyframeId>(first + kSubmapKeyframes),
+          build_submap(static_cast<KeyframeId>(first), static_cast<KeyframeId>(first + kSubmapKeyframes),
                        run_.scans(), run_.chain(), run_.T_local_keyframe(), config_)));
     }
     graph_.T_map_keyframe = run_.T_local_keyframe();
@@ -114,6 +114,18 @@ TEST_F(LoopDetectorTest, SearchesNoMoreSubmapsThanConfigured) {
   config_.max_candidates = 1;
   EXPECT_LE(find(run_.newest()).size(), 1U);
   EXPECT_EQ(tried_, 1U);
+}
+
+TEST_F(LoopDetectorTest, AStretchWithoutAKeyframeBehindItIsNotMatched) {
+  config_.multiscan_length_m = 0.2;  // less than from keyframe to keyframe
+  config_.min_match_points = 3;
+  EXPECT_THAT(find(run_.newest()), IsEmpty());
+  EXPECT_EQ(tried_, 0U);
+}
+
+TEST_F(LoopDetectorTest, SearchesTheLeastAngleWhereLessIsConfigured) {
+  config_.search_angle_rad = 0.01;
+  EXPECT_THAT(find(run_.newest()), Not(IsEmpty()));
 }
 
 TEST_F(LoopDetectorTest, KeepsNoMatchBelowTheLeastScore) {

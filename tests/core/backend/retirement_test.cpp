@@ -109,6 +109,33 @@ TEST(Retirement, AnchorsAreNearFromAnotherTimeAndStay) {
   }
 }
 
+TEST(Retirement, AHoleThatGrowsIsTiedAtItsNewEndOnly) {
+  const Retirement begun = plan(ten_laps(), 300);
+  ASSERT_FALSE(begun.empty());
+  const IndexRange hole = begun.keyframes.ranges().front();
+  const auto ties = ties_around(begun, ten_laps().scans(), ten_laps().T_local_keyframe());
+  ASSERT_EQ(ties.size(), 2 * begun.keyframes.ranges().size());
+  EXPECT_EQ(index_of(ties[0].to), hole.first - 1);
+  EXPECT_EQ(index_of(ties[1].to), hole.end);
+
+  ScanStore scans = ten_laps().scans();
+  scans.remove(begun.scans, begun.keyframes);
+  std::vector<Pose2> T_map_keyframe = ten_laps().T_local_keyframe();
+  begun.keyframes.apply(T_map_keyframe);
+  const IndexRange next{hole.first, hole.first + kKeyframesPerPass};
+  const IndexRange next_scans{begun.scans.ranges().front().first,
+                              begun.scans.new_index(ten_laps().chain().scan_of(
+                                  static_cast<KeyframeId>(hole.end + kKeyframesPerPass)))};
+  ASSERT_FALSE(begun.keyframes.removes(hole.end + kKeyframesPerPass)) << "not the next hole's";
+  Retirement grown;
+  grown.passes.push_back({next, next_scans, begun.passes.front().anchor});
+  grown.keyframes.add(next);
+  grown.scans.add(next_scans);
+  const auto more = ties_around(grown, scans, T_map_keyframe);
+  ASSERT_EQ(more.size(), 1U);
+  EXPECT_EQ(index_of(more.front().to), next.end);
+}
+
 TEST(Retirement, LeavesAnchorsOfEarlierOnesAndWhatIsRecent) {
   const Retirement before = plan(ten_laps(), 1'000'000);
   const auto kept = static_cast<KeyframeId>(before.passes[3].keyframes.first + 1);

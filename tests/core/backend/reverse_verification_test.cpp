@@ -32,7 +32,7 @@ class ReverseVerificationTest : public testing::Test {
     return static_cast<KeyframeId>(k);
   }
   [[nodiscard]] Submap submap_of(double from_m, double to_m) const {
-    return build_submap(SubmapId{}, keyframe_at(from_m), keyframe_at(to_m), run_.scans(), run_.chain(),
+    return build_submap(keyframe_at(from_m), keyframe_at(to_m), run_.scans(), run_.chain(),
                         run_.T_local_keyframe(), config_);
   }
   [[nodiscard]] ScanRange scans_since(double path_m) const {
