@@ -343,6 +343,38 @@ TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
   EXPECT_EQ(backend->walls()[5].end_keyframe.x_m, 4.0);
 }
 
+/// Heading errors at the end of two laps whose frontend sees two walls at every keyframe, along and across
+/// the building.
+double yaw_error_at_the_end_rad(bool align_to_walls) {
+  BackendConfig config;
+  config.close_loops = false;
+  config.align_to_walls = align_to_walls;
+  const auto backend = make_backend(config);
+  DeadReckoningFrontend frontend;
+  for (std::size_t i = 0; i < two_laps().samples().size(); ++i) {
+    FrontendStep step = frontend.process(two_laps().samples()[i]);
+    const Pose2 T_body_world = two_laps().T_world_body()[i].inverse();
+    const Point2 here = two_laps().T_world_body()[i].position();
+    for (const Point2& end : {Point2{here.x_m + 4.0, here.y_m}, Point2{here.x_m, here.y_m + 3.0}}) {
+      const auto id = static_cast<LandmarkId>(2 * index_of(step.made.id) + (end.y_m > here.y_m ? 1 : 0));
+      if (step.has_keyframe)
+        (void)step.made.walls.try_push_back({id, T_body_world * here, T_body_world * end});
+    }
+    backend->add(step);
+  }
+  backend->finish();
+  const auto turned_rad = [](const Pose2& from, const Pose2& to) { return between(from, to).yaw_rad(); };
+  const ScanIndex last = static_cast<ScanIndex>(backend->scans().size()) - 1;
+  return std::abs(wrap_angle(turned_rad(backend->T_map_body(0), backend->T_map_body(last)) -
+                             turned_rad(two_laps().T_world_body()[0], two_laps().T_world_body()[last])));
+}
+
+TEST(Backend, WallsHoldTheHeadingWhereNoLoopCloses) {
+  const double without_rad = yaw_error_at_the_end_rad(false);
+  EXPECT_GT(without_rad, radians(30)) << "0.008 rad/m over 76 m";
+  EXPECT_LT(3.0 * yaw_error_at_the_end_rad(true), without_rad) << "what is left bends both ends";
+}
+
 TEST(Backend, AnEmptyRunFinishesQuietly) {
   const auto backend = make_backend();
   EXPECT_FALSE(backend->finish().poses_changed);

@@ -111,5 +111,23 @@ TEST_F(ClosureGroupsTest, NothingFoundChangesNothing) {
   EXPECT_EQ(groups_.waiting(), 1U);
 }
 
+TEST_F(ClosureGroupsTest, WhatIsLeftAfterForgettingStillAgreesWithTheSame) {
+  believed_after({match(50, 31), match(52, 33)});  // another story, forgotten by 83
+  for (const std::uint32_t query : {60U, 62U, 64U, 66U})
+    EXPECT_THAT(believed_after({match(query, query - 40.0)}), IsEmpty());
+  EXPECT_THAT(believed_after({match(83, 43)}), IsEmpty());
+  EXPECT_EQ(groups_.waiting(), 5U);
+  EXPECT_THAT(believed_after({match(84, 44)}), ElementsAre(60, 62, 64, 66, 83, 84));
+}
+
+TEST_F(ClosureGroupsTest, WhatWaitsIsBoundedHoweverMuchIsFound) {
+  for (std::uint32_t query = 50; query < 60; ++query) {
+    std::vector<LoopClosure> stories;
+    for (std::uint32_t k = 0; k < 30; ++k) stories.push_back(match(query, 3.0 * ((7 * k + 11 * query) % 16)));
+    believed_after(stories);
+    EXPECT_LE(groups_.waiting(), 100U + stories.size());
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

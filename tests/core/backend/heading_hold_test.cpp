@@ -123,5 +123,23 @@ TEST(HeadingHold, AFalseAxisIsScaledAwayByTheOthers) {
   EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kSigmaRad);
 }
 
+TEST(HeadingHold, HeadingsOfKeyframesThatAreRemovedGoWithThem) {
+  Flight flight;
+  for (int i = 0; i < 60; ++i) flight.step(true);
+  ASSERT_EQ(flight.graph.headings.size(), 10U);
+  IndexRemoval gone;
+  gone.add({10, 25});  // and with it the headings of 12, 18 and 24
+  gone.apply(flight.graph.T_map_keyframe);
+  flight.hold.remove(gone, flight.graph);
+  ASSERT_EQ(flight.graph.headings.size(), 7U);
+  EXPECT_EQ(flight.graph.headings[0].keyframe, keyframe(6));
+  EXPECT_EQ(flight.graph.headings[1].keyframe, keyframe(15)) << "was 30";
+  flight.hold.update(flight.graph);
+  for (const HeadingConstraint& heading : flight.graph.headings) {
+    const double now_rad = flight.graph.T_map_keyframe[index_of(heading.keyframe)].yaw_rad();
+    EXPECT_NEAR(wrap_angle(heading.yaw_map_rad - now_rad), 0.0, radians(5)) << "each says what it said";
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

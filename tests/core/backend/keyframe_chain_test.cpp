@@ -134,5 +134,24 @@ TEST_F(KeyframeChainTest, DoesNotBridgeIntoANewSegment) {
   EXPECT_TRUE(poses_near(chain_.T_w_body(10, T_odom_moved), T_odom_moved[1], kExact, kExact));
 }
 
+TEST_F(KeyframeChainTest, PlacesWhatIsLeftAsBeforeWhenSomeIsRemoved) {
+  fly(50, 10);
+  std::vector<Pose2> before;
+  for (ScanIndex i = 0; i < 50; ++i) before.push_back(chain_.T_w_body(i, T_odom_keyframes_));
+  IndexRemoval scans;
+  scans.add({10, 30});
+  IndexRemoval keyframes;
+  keyframes.add({1, 3});
+  scans_.remove(scans, keyframes);
+  chain_.remove(scans, keyframes);
+  keyframes.apply(T_odom_keyframes_);
+  ASSERT_EQ(chain_.size(), 3U);
+  EXPECT_EQ(chain_.scan_of(KeyframeId{1}), 10U);
+  for (ScanIndex i = 0; i < 30; ++i)
+    EXPECT_TRUE(
+        poses_near(chain_.T_w_body(i, T_odom_keyframes_), before[i < 10 ? i : i + 20], kExact, kExact))
+        << i;
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -113,5 +113,25 @@ TEST(PassIndexDeathTest, AGapBetweenPassesIsABrokenPromise) {
   EXPECT_DEATH(index.set(1, walls({}), {}), "broken promise.*without gaps");
 }
 
+TEST(PassIndex, WhatIsRemovedIsFoundNoMoreAndTheRestByItsNewNumber) {
+  PassIndex index;
+  for (std::uint32_t pass = 0; pass < 6; ++pass) {
+    const double x_m = pass < 3 ? 1.0 : 9.0;
+    index.set(pass, {10 * pass, {{x_m, 1.0}}}, {});
+  }
+  IndexRemoval passes;
+  passes.add({1, 2});
+  passes.add({4, 5});
+  IndexRemoval scans;
+  scans.add({10, 20});
+  scans.add({40, 50});
+  index.remove(passes, scans);
+  ASSERT_EQ(index.size(), 4U);
+  EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 1));
+  EXPECT_THAT(near(index, {9.0, 1.0}), ElementsAre(2, 3));
+  EXPECT_EQ(index[1].reference, 10U) << "was 20";
+  EXPECT_EQ(index[3].reference, 30U) << "was 50";
+}
+
 }  // namespace
 }  // namespace swiftlet

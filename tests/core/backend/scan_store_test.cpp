@@ -94,5 +94,33 @@ TEST(ScanStore, TheJumpIntoANewSegmentIsNotTravel) {
   EXPECT_DOUBLE_EQ(scans[3].path_m, 3.0);
 }
 
+TEST(ScanStore, WhatIsRemovedGivesWayAndTheRestKeepsWhatItSaid) {
+  ScanStore scans(BeamLayout::multiranger());
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    FrontendStep step = step_at(Pose2(i, 0.0, 0.0), i == 0);
+    step.sample.status[i % 4] = RangeStatus::kHit;
+    step.sample.distance_m[i % 4] = static_cast<float>(i);
+    step.keyframe = static_cast<KeyframeId>(i / 3);
+    scans.add(step);
+  }
+  IndexRemoval gone;
+  gone.add({3, 6});
+  IndexRemoval keyframes;
+  keyframes.add({1, 2});
+  scans.remove(gone, keyframes);
+  ASSERT_EQ(scans.size(), 6U);
+  for (ScanIndex i = 0; i < 6; ++i) {
+    const std::uint32_t was = i < 3 ? i : i + 3;
+    EXPECT_EQ(scans[i].number, was);
+    EXPECT_EQ(index_of(scans[i].keyframe), i / 3);
+    ASSERT_EQ(scans.returns(i).size(), 1U);
+    EXPECT_EQ(scans.returns(i)[0].distance_m, static_cast<float>(was));
+    EXPECT_EQ(scans[i].starts_segment, i == 0 || i == 3) << "after a hole begins a segment";
+  }
+  scans.add(step_at(Pose2(9.0, 0.0, 0.0)));
+  EXPECT_EQ(scans[6].number, 9U);
+  EXPECT_DOUBLE_EQ(scans[6].path_m, 9.0);
+}
+
 }  // namespace
 }  // namespace swiftlet
