@@ -50,10 +50,9 @@ def text(get):
         return ""
     copies = sum(len(made) - (None in made) for *_, made in there)
     out = sum(len(break_outs(made)) for *_, made in there)
-    return f"""Copies in which the robot goes the same ways in another manner, or its wheels err more. "Backwards" is the log
-played from its end: the robot drives in reverse. "Random turns" never happened, one every 20 m. All errors come on top
-of the log's own. Final, with refinement. Over {BREAK_OUT:g} times the error on the log as it is, **bold**: {out} of
+    return f"""Copies in which the robot goes the same ways in another manner, or its wheels err more. "Backwards" is the
+log played from its end: the robot drives in reverse. "Random turns" never happened, one every 20 m. All errors come on
+top of the log's own. Final, with refinement. Over {BREAK_OUT:g} times the error on the log as it is, **bold**: {out} of
 {copies}.
 
-{table(get)}
-"""
+{table(get)}"""

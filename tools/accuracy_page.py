@@ -263,4 +263,5 @@ refinement. For Killian it is the paper's figure: by rounding alone its code giv
 ## Changed logs
 
 {changes.text(get) or NOT_MADE}
+
 {times_text(made("times", get))}"""

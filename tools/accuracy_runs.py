@@ -42,10 +42,18 @@ class Log:
     reference: str | None  # file of the data sets; None: the true path that the run itself writes
     lines_ahead: int = 0  # by which the poses in its scans run ahead of the ranges
 
+    def files(self):
+        """Of the data sets."""
+        return [] if self.reference is None else sorted({self.source, self.reference})
+
     def missing(self):
-        """Its files that are not there."""
-        files = [] if self.reference is None else sorted({self.source, self.reference})
-        return [file for file in files if not (DATASETS / file).exists()]
+        """Those that are not there."""
+        return [file for file in self.files() if not (DATASETS / file).exists()]
+
+    def stand(self):
+        """Changes when its files do."""
+        stats = [(DATASETS / file).stat() for file in self.files() if (DATASETS / file).exists()]
+        return " ".join(f"{stat.st_size} {stat.st_mtime_ns}" for stat in stats)
 
 
 ACES = Log("ACES", "radish/aces.clf.gz", "radish/aces.relations")
@@ -168,8 +176,12 @@ class Results:
         self.program = hashlib.sha256(Path(swiftlet).read_bytes()).hexdigest()[:12]
 
     def file(self, run):
+        """Another one where anything is different that decides the result: the program, the run, its data or, for a
+        changed log, what changes it."""
+        changer = "" if run.change is None else Path(changed_log.__file__).read_text(encoding="utf-8")
+        made_of = "\n".join([self.program, repr(run), run.log.stand(), changer])
         name = re.sub("[^A-Za-z0-9]+", "-", run.title())
-        return self.folder / f"{name}_{self.program}.json"
+        return self.folder / f"{name}_{hashlib.sha256(made_of.encode()).hexdigest()[:12]}.json"
 
     def get(self, run):
         """None where the run has not been made."""

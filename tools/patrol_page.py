@@ -9,7 +9,8 @@ LAPS = {1: 78, 3: 235, 6: 470, 12: 940}  # by hours; a round takes 46 s
 COLUMNS = [("samples", "samples"), ("scans retired", "scans_retired"), ("kept", "scans_kept"),
            ("keyframes", "keyframes"), ("mean per scan", "mean_per_scan_ms"), ("frontend p99", "frontend_p99_ms"),
            ("max", "frontend_max_ms"), ("backend p99", "backend_p99_ms"), ("max", "backend_max_ms"),
-           ("map max", "map_max_ms"), ("final pass", "final_pass_ms"), ("memory", "run_peak_memory_mb")]
+           ("retirement max", "retirement_max_ms"), ("map max", "map_max_ms"), ("final pass", "final_pass_ms"),
+           ("memory", "run_peak_memory_mb")]
 
 
 def measure(swiftlet, output, say):
@@ -45,7 +46,7 @@ RMSE of the corrected path.
 
 {patrol_table(report['patrol'], number)}
 
-Over the limits (no call of the frontend over {whole_runs.FRONTEND_MAX_MS:g} ms, none of the backend over \
-{whole_runs.BACKEND_MAX_MS:g} ms):
+Over the limits (no call of the frontend over {whole_runs.FRONTEND_MAX_MS:g} ms, none of the backend and no \
+retirement over {whole_runs.BACKEND_MAX_MS:g} ms):
 
 {over}"""

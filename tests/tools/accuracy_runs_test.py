@@ -65,10 +65,10 @@ class AccuracyRuns(unittest.TestCase):
         run = runs.Run(log, beams=2, change=runs.Change("mirrored", mirrored=True))
         with mock.patch.object(runs, "DATASETS", data):
             self.results().make(run, at_once=1)
+            self.assertIsNotNone(self.results().get(run))
+            self.assertIsNone(self.results().get(runs.Run(log, beams=2)))
         calls = Path(f"{self.swiftlet}.calls").read_text().splitlines()
         self.assertRegex(calls[0], "^map /.*/changed.clf --beams 2 ")
-        self.assertIsNotNone(self.results().get(run))
-        self.assertIsNone(self.results().get(runs.Run(log, beams=2)))
         self.assertEqual(Path(f"{self.swiftlet}.judged").read_text(),
                          "5.000000 1.000000 -2.000000 0 0 0 -0.600000000 0.800000000\n")
 
@@ -97,6 +97,18 @@ class AccuracyRuns(unittest.TestCase):
         self.assertIsNone(self.results().get(runs.Run(runs.OFFICES[1])))
         self.swiftlet.write_text(PRETENDS + "# another build\n")
         self.assertIsNone(self.results().get(runs.Run(OFFICE)))
+
+    def test_results_of_other_data_or_of_another_change_are_not_taken(self):
+        data = Path(self.folder.name, "log.clf")
+        data.write_text("one")
+        log = runs.Log("a log", "log.clf", "log.clf")
+        with mock.patch.object(runs, "DATASETS", Path(self.folder.name)):
+            files = {self.results().file(runs.Run(log, change=change))
+                     for change in (None, runs.Change("worse", metres=1.1), runs.Change("worse", metres=1.2))}
+            before = self.results().file(runs.Run(log))
+            data.write_text("another")
+            self.assertNotEqual(self.results().file(runs.Run(log)), before)
+        self.assertEqual(len(files), 3)
 
     def test_a_simulation_needs_no_data_and_a_log_names_what_is_not_there(self):
         self.assertEqual(OFFICE.missing(), [])

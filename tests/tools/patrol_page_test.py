@@ -19,7 +19,7 @@ REPORT = {
     "map": {"tiles": 4},
     "trajectory": {"duration_s": 5400},
     "absolute_trajectory_error": {"corrected": {"rmse_m": 0.0625}},
-    "stage_times": {stage: STAGE for stage in ("input", "frontend", "backend", "final_pass", "map")},
+    "stage_times": {stage: STAGE for stage in ("input", "frontend", "backend", "retirement", "final_pass", "map")},
     "run_peak_memory_mb": 20.0,
     "peak_memory_mb": 30.0,
 }
