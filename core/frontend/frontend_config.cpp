@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/frontend/frontend_config.hpp"
 
+#include <cmath>
+
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/multiscan.hpp"
 
@@ -14,7 +16,7 @@ void require(bool holds, const char* field, const std::string& rule, Problems& p
   if (!holds) problems.push_back(std::string("frontend.") + field + " must be " + rule);
 }
 void require_positive(double value, const char* field, Problems& problems) {
-  require(value > 0.0, field, "above 0", problems);
+  require(value > 0.0 && std::isfinite(value), field, "above 0 and finite", problems);
 }
 void require_within(int value, int low, int high, const char* field, Problems& problems) {
   require(value >= low && value <= high, field,
@@ -39,7 +41,8 @@ std::vector<std::string> FrontendConfig::validate() const {
   require_positive(wall_sigma_m, "wall_sigma_m", problems);
   require_positive(wall_sigma_rad, "wall_sigma_rad", problems);
   require_positive(association_error_m, "association_error_m", problems);
-  require(association_gap_m >= 0.0, "association_gap_m", "0 or more", problems);
+  require(association_gap_m >= 0.0 && std::isfinite(association_gap_m), "association_gap_m",
+          "0 or more and finite", problems);
   require_positive(association_mahalanobis2, "association_mahalanobis2", problems);
   require_within(window_keyframes, 2, static_cast<int>(kMaxKeyframeWindow), "window_keyframes", problems);
   require(association_keyframes >= 1 && association_keyframes <= window_keyframes, "association_keyframes",

@@ -47,13 +47,15 @@ TEST(BackendConfig, AllProblemsAreListedAtOnce) {
   config.dcs_phi = 0.0;
   config.drop_scale = 1.0;
   config.optimizer_iterations = 0;
+  config.refinement_iterations = 0;
+  config.max_scans = 999;
   const std::vector<std::string> problems = config.validate();
   EXPECT_THAT(problems, Each(StartsWith("backend.")));
   for (const char* key :
        {"submap_length_m", "grid_resolution_m", "hit_probability", "miss_probability", "max_kernel_cells",
         "multiscan_length_m", "match_every_keyframes", "min_travel_between_m", "search_radius_m",
         "search_angle_rad", "max_candidates", "min_score", "min_group_score", "min_match_points", "dcs_phi",
-        "drop_scale", "optimizer_iterations"}) {
+        "drop_scale", "optimizer_iterations", "refinement_iterations", "max_scans"}) {
     EXPECT_THAT(problems, Contains(StartsWith(std::string("backend.") + key + " must "))) << key;
   }
 }
@@ -62,6 +64,17 @@ TEST(BackendConfig, NotANumberIsRefused) {
   BackendConfig config;
   config.submap_length_m = config.min_score = config.dcs_phi = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(config.validate().size(), 3U);
+}
+
+TEST(BackendConfig, WhatIsNotFiniteIsRefused) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (double BackendConfig::*field :
+       {&BackendConfig::submap_length_m, &BackendConfig::multiscan_length_m,
+        &BackendConfig::min_travel_between_m, &BackendConfig::dcs_phi, &BackendConfig::search_radius_m}) {
+    BackendConfig config;
+    config.*field = kInfinity;
+    EXPECT_EQ(config.validate().size(), 1U);
+  }
 }
 
 }  // namespace

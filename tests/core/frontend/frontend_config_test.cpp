@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace swiftlet {
 namespace {
 
@@ -34,6 +36,14 @@ TEST(FrontendConfig, RefusesNumbersThatAreNone) {
   config.split_distance_m = std::numeric_limits<double>::quiet_NaN();
   config.association_gap_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(config.validate(), SizeIs(2));
+}
+
+TEST(FrontendConfig, RefusesWhatIsNotFinite) {
+  FrontendConfig config;
+  config.keyframe_distance_m = std::numeric_limits<double>::infinity();
+  config.association_gap_m = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(config.validate(), ElementsAre(HasSubstr("keyframe_distance_m must be above 0 and finite"),
+                                             HasSubstr("association_gap_m must be 0 or more and finite")));
 }
 
 TEST(FrontendConfig, RemembersWallsNoLongerThanTheWindow) {

@@ -25,5 +25,14 @@ TEST(MapConfig, RefusesWhatIsNotANumber) {
   EXPECT_EQ(config.validate().size(), 1U);
 }
 
+TEST(MapConfig, RefusesWhatIsNotFinite) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const MapConfig config{.resolution_m = kInfinity,
+                         .hit_log_odds = kInfinity,
+                         .miss_log_odds = -kInfinity,
+                         .clear_range_m = kInfinity};
+  EXPECT_EQ(config.validate().size(), 4U);
+}
+
 }  // namespace
 }  // namespace swiftlet
