@@ -7,6 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/geometry/angle.hpp"
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/multiscan.hpp"
 
@@ -35,7 +36,8 @@ FieldPointer at(Configuration& config) {
 }
 
 constexpr ConfigurationField kFields[] = {
-    {"sensor", "min_range_m", "m", "shorter readings are invalid", 0, 10, at<&SensorOverrides::min_range_m>},
+    {"sensor", "min_range_m", "m", "shorter readings are invalid; less than max_range_m", 0, 10,
+     at<&SensorOverrides::min_range_m>},
     {"sensor", "max_range_m", "m", "longer readings count as no return", 0.1, 100,
      at<&SensorOverrides::max_range_m>},
     {"sensor", "range_sigma_m", "m", "standard deviation of a reading, along the beam", 0.0001, 1,
@@ -116,12 +118,12 @@ constexpr ConfigurationField kFields[] = {
      at<&BackendConfig::submap_length_m>},
     {"backend", "grid_resolution_m", "m", "cell size of submaps", 0.01, 1,
      at<&BackendConfig::grid_resolution_m>},
-    {"backend", "hit_probability", "", "p(occupied given that a beam ended here)", 0.5, 0.999,
+    {"backend", "hit_probability", "", "p(occupied given that a beam ended here)", 0.501, 0.999,
      at<&BackendConfig::hit_probability>},
-    {"backend", "miss_probability", "", "p(occupied given that a beam passed through)", 0.001, 0.5,
+    {"backend", "miss_probability", "", "p(occupied given that a beam passed through)", 0.001, 0.499,
      at<&BackendConfig::miss_probability>},
-    {"backend", "max_kernel_cells", "", "width of the max kernel (eq. 22); 1 is eq. 21, no kernel", 1, 15,
-     at<&BackendConfig::max_kernel_cells>},
+    {"backend", "max_kernel_cells", "", "width of the max kernel (eq. 22), odd; 1 is eq. 21, no kernel", 1,
+     15, at<&BackendConfig::max_kernel_cells>},
     {"backend", "close_loops", "", "false: the frontend alone, a baseline", 0, 0,
      at<&BackendConfig::close_loops>},
     {"backend", "multiscan_length_m", "m", "the recent travel that is matched against submaps", 0.5, 1000,
@@ -130,23 +132,23 @@ constexpr ConfigurationField kFields[] = {
      at<&BackendConfig::match_every_keyframes>},
     {"backend", "min_travel_between_m", "m", "travel between the two ends of a closure", 0, 10000,
      at<&BackendConfig::min_travel_between_m>},
-    {"backend", "search_radius_m", "m", "widest search around the predicted position", 0.1, 100,
+    {"backend", "search_radius_m", "m", "widest search around the predicted position", 0.1, 50,
      at<&BackendConfig::search_radius_m>},
-    {"backend", "search_angle_rad", "rad", "widest search around the predicted heading", 0.01, 3.2,
+    {"backend", "search_angle_rad", "rad", "widest search around the predicted heading", 0.1, kPi,
      at<&BackendConfig::search_angle_rad>},
     {"backend", "max_candidates", "", "submaps searched per keyframe at most, the most overlapping first", 1,
      1000, at<&BackendConfig::max_candidates>},
-    {"backend", "min_score", "", "mean probability under the scan's points that makes a closure", 0, 1,
+    {"backend", "min_score", "", "mean probability under the scan's points that makes a closure", 0.01, 0.99,
      at<&BackendConfig::min_score>},
-    {"backend", "min_group_score", "", "... that makes one together with others that agree", 0, 1,
+    {"backend", "min_group_score", "", "... that makes one together with others that agree", 0.01, 0.99,
      at<&BackendConfig::min_group_score>},
-    {"backend", "min_match_points", "", "fewer points decide nothing", 1, 100000,
+    {"backend", "min_match_points", "", "fewer points decide nothing", 3, 100000,
      at<&BackendConfig::min_match_points>},
     {"backend", "align_to_walls", "", "hold the heading by the axis that a building's walls share", 0, 0,
      at<&BackendConfig::align_to_walls>},
     {"backend", "dcs_phi", "", "closures whose chi-square exceeds this are scaled down (DCS)", 0.001, 1000000,
      at<&BackendConfig::dcs_phi>},
-    {"backend", "drop_scale", "", "closures scaled below this in the final pass are dropped", 0, 1,
+    {"backend", "drop_scale", "", "closures scaled below this in the final pass are dropped", 0, 0.99,
      at<&BackendConfig::drop_scale>},
     {"backend", "optimizer_iterations", "", "Gauss-Newton steps at most; while flying never more than 10", 1,
      1000, at<&BackendConfig::optimizer_iterations>},
@@ -177,8 +179,9 @@ constexpr ConfigurationField kFields[] = {
      at<&RecordConfig::enabled>},
     {"record", "directory", "", "where recordings go; empty: the state directory", 0, 0,
      at<&RecordConfig::directory>},
-    {"record", "max_file_mb", "MB", "a recording that has grown this long is continued in a new file", 1,
-     4000, at<&RecordConfig::max_file_mb>},
+    {"record", "max_file_mb", "MB",
+     "a recording that has grown this long is continued in a new file; at most max_total_mb", 1, 4000,
+     at<&RecordConfig::max_file_mb>},
     {"record", "max_total_mb", "MB",
      "the oldest recordings in the directory are removed so that no more than this is used", 1, 1000000,
      at<&RecordConfig::max_total_mb>},

@@ -5,6 +5,8 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <map>
 
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_fields.hpp"
@@ -66,7 +68,7 @@ class Loader {
       note(error.source(), error.description());
     }
     if (problems_.empty()) {
-      for (const std::string& problem : config_.validate()) problems_.emplace_back(0, path_ + ": " + problem);
+      for (const std::string& problem : config_.validate()) note_of_whole(problem);
     }
     if (problems_.empty()) return config_;
     return Error{ErrorCode::kInvalidInput, all_problems()};
@@ -76,9 +78,17 @@ class Loader {
   std::string path_;
   Configuration config_;
   std::vector<std::pair<toml::source_index, std::string>> problems_;  // with their lines
+  std::map<std::string, toml::source_region, std::less<>> regions_;   // of "section.key"
 
   void note(const toml::source_region& where, std::string_view what) {
     problems_.emplace_back(where.begin.line, fmt::format("{}:{}: {}", path_, where.begin.line, what));
+  }
+
+  /// Begins with "section.key"; the line is told where the file has that key.
+  void note_of_whole(std::string_view problem) {
+    const auto region = regions_.find(problem.substr(0, problem.find(' ')));
+    if (region != regions_.end()) return note(region->second, problem);
+    problems_.emplace_back(0, fmt::format("{}: {}", path_, problem));
   }
 
   void read_sections(const toml::table& file) {
@@ -96,6 +106,7 @@ class Loader {
   void read_key(std::string_view section, const toml::key& key, const toml::node& value) {
     for (const ConfigurationField& field : configuration_fields()) {
       if (field.section != section || field.key != key.str()) continue;
+      regions_.emplace(fmt::format("{}.{}", section, field.key), key.source());
       const FieldPointer target = field.in(config_);
       if (!std::visit(Assign{value}, target)) {
         note(key.source(),

@@ -11,8 +11,9 @@ constexpr std::string_view kIntroduction =
     R"(# Configuration
 
 A configuration is a TOML file. Every key may be left out and has its default then; an unknown or repeated key, a
-wrong type or an impossible value is refused with file and line. The defaults serve all places and sensors;
-`daemon/config/swiftletd.toml` is a file to begin with.
+wrong type or an impossible value is refused with file and line. So are values that do not agree with each other, without
+a line where the one at fault is a default. The defaults serve all places and sensors; `daemon/config/swiftletd.toml` is
+a file to begin with.
 
 This page is written by `swiftletd --print-configuration-reference`; a test keeps it up to date.
 )";
@@ -46,10 +47,20 @@ struct DefaultValue {
   std::string operator()(const std::string* value) const { return fmt::format("\"{}\"", *value); }
 };
 
-std::string range_of(const ConfigurationField& field) {
-  if (field.lowest == field.highest) return "";
-  return fmt::format("{:.6g} to {:.6g}", field.lowest, field.highest);
-}
+struct Range {
+  const ConfigurationField& field;
+
+  std::string operator()(const bool*) const { return {}; }
+  std::string operator()(const int*) const {  // TOML knows no 1e+06 that is a whole number
+    return fmt::format("{:.0f} to {:.0f}", field.lowest, field.highest);
+  }
+  std::string operator()(const double*) const { return reals(); }
+  std::string operator()(const std::optional<double>*) const { return reals(); }
+  std::string operator()(const std::string*) const { return {}; }
+
+ private:
+  std::string reals() const { return fmt::format("{:.6g} to {:.6g}", field.lowest, field.highest); }
+};
 
 }  // namespace
 
@@ -64,7 +75,8 @@ std::string configuration_reference() {
     }
     const FieldPointer value = field.in(defaults);
     page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", field.key, std::visit(TypeName{}, value),
-                        std::visit(DefaultValue{}, value), field.unit, range_of(field), field.meaning);
+                        std::visit(DefaultValue{}, value), field.unit, std::visit(Range{field}, value),
+                        field.meaning);
   }
   return page;
 }

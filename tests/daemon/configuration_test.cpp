@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -72,10 +73,9 @@ TEST(ConfigurationFields, HoldEveryFieldOfEverySection) {
   EXPECT_EQ(table_count("publish"), field_count<PublishConfig>());
   EXPECT_EQ(table_count("record"), field_count<RecordConfig>());
   EXPECT_EQ(table_count("realtime"), field_count<RealtimeConfig>());
-  EXPECT_EQ(configuration_fields().size(), table_count("sensor") + table_count("frontend") +
-                                               table_count("backend") + table_count("map") +
-                                               table_count("publish") + table_count("record") +
-                                               table_count("realtime"));
+  EXPECT_EQ(configuration_fields().size(),
+            table_count("sensor") + table_count("frontend") + table_count("backend") + table_count("map") +
+                table_count("publish") + table_count("record") + table_count("realtime"));
 }
 
 TEST(ConfigurationFields, NameEachFieldOnce) {
@@ -113,6 +113,42 @@ TEST(ConfigurationFields, CanBeSetEachByItsName) {
     EXPECT_THAT(refusal_of(content),
                 testing::Not(testing::AnyOf(HasSubstr("unknown"), HasSubstr("must be a"))))
         << content;
+  }
+}
+
+/// Puts a number into a field that is one.
+struct SetTo {
+  double value;
+
+  void operator()(bool*) const {}
+  void operator()(int* field) const { *field = static_cast<int>(value); }
+  void operator()(double* field) const { *field = value; }
+  void operator()(std::optional<double>* field) const { *field = value; }
+  void operator()(std::string*) const {}
+};
+
+/// Each of these bounds the other: whoever moves one far moves both.
+constexpr std::pair<std::string_view, std::string_view> kBoundToEachOther[] = {
+    {"association_keyframes", "window_keyframes"}, {"max_file_mb", "max_total_mb"}};
+
+const ConfigurationField* bound_to(const ConfigurationField& field) {
+  for (const auto& [one, other] : kBoundToEachOther) {
+    const std::string_view key = field.key == one ? other : field.key == other ? one : std::string_view();
+    for (const ConfigurationField& candidate : configuration_fields())
+      if (candidate.section == field.section && candidate.key == key) return &candidate;
+  }
+  return nullptr;
+}
+
+TEST(ConfigurationFields, CanTakeBothEndsOfTheirRange) {
+  for (const ConfigurationField& field : configuration_fields()) {
+    for (const double end : {field.lowest, field.highest}) {
+      Configuration config;
+      std::visit(SetTo{end}, field.in(config));
+      if (const ConfigurationField* other = bound_to(field))
+        std::visit(SetTo{std::clamp(end, other->lowest, other->highest)}, other->in(config));
+      EXPECT_THAT(config.validate(), IsEmpty()) << field.section << "." << field.key << " = " << end;
+    }
   }
 }
 
@@ -198,6 +234,16 @@ TEST(LoadConfiguration, RefusesImpossibleValuesWithFileAndLine) {
       AllOf(HasSubstr(".toml:3:"), HasSubstr("map.resolution_m = -0.1: must lie between 0.01 and 1")));
   EXPECT_THAT(refusal_of("[backend]\noptimizer_iterations = 99999999999999\n"), HasSubstr(".toml:2:"));
   EXPECT_THAT(refusal_of("[map]\nresolution_m = nan\n"), HasSubstr(".toml:2:"));
+}
+
+TEST(LoadConfiguration, RefusesWhatOnlyTheWholeTellsWithFileAndLine) {
+  EXPECT_THAT(refusal_of("[backend]\n\nmax_kernel_cells = 4\n"),
+              AllOf(HasSubstr(".toml:3:"), HasSubstr("backend.max_kernel_cells must be odd")));
+  EXPECT_THAT(refusal_of("[frontend]\nassociation_keyframes = 30\n"), HasSubstr(".toml:2:"));
+  EXPECT_THAT(refusal_of("[publish]\nchannel_prefix = \"a b\"\n"), HasSubstr(".toml:2:"));
+  EXPECT_THAT(refusal_of("[frontend]\nwindow_keyframes = 5\n"),
+              HasSubstr(".toml: frontend.association_keyframes must be"))
+      << "the file does not have that key";
 }
 
 TEST(LoadConfiguration, RefusesWhatIsNoToml) { EXPECT_THAT(refusal_of("[map\n"), HasSubstr(".toml:1:")); }
