@@ -16,7 +16,6 @@ namespace swiftlet {
 namespace {
 
 using testing::IsEmpty;
-using testing::Not;
 
 constexpr std::uint32_t kSubmapKeyframes = 12;
 constexpr double kChiSquare99 = 11.34;  // of three degrees of freedom
@@ -121,11 +120,6 @@ TEST_F(LoopDetectorTest, AStretchWithoutAKeyframeBehindItIsNotMatched) {
   config_.min_match_points = 3;
   EXPECT_THAT(find(run_.newest()), IsEmpty());
   EXPECT_EQ(tried_, 0U);
-}
-
-TEST_F(LoopDetectorTest, SearchesTheLeastAngleWhereLessIsConfigured) {
-  config_.search_angle_rad = 0.01;
-  EXPECT_THAT(find(run_.newest()), Not(IsEmpty()));
 }
 
 TEST_F(LoopDetectorTest, KeepsNoMatchBelowTheLeastScore) {
