@@ -27,8 +27,7 @@ inline Submap drawn_submap(const std::vector<std::string>& picture, double resol
       cells.push_back(c == '#' ? std::uint8_t{240} : c == '.' ? std::uint8_t{20} : std::uint8_t{0});
   }
   const Point2 high{-geometry.origin_m.x_m, -geometry.origin_m.y_m};
-  return Submap{.id = {},
-                .reference = {},
+  return Submap{.reference = {},
                 .first = {},
                 .last = {},
                 .geometry = geometry,
