@@ -20,7 +20,7 @@ using Wide = Eigen::Matrix<double, Eigen::Dynamic, kSystematicErrors>;  // unkno
 using Small = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
 using MotionByErrors = Eigen::Matrix<double, 3, kSystematicErrors>;
 
-constexpr int kAssociations = 5;
+constexpr int kAssociations = 10;
 constexpr int kStepsPerAssociation = 6;
 constexpr double kSettled = 0.05;  // of a standard deviation
 constexpr double kRobustSigmas = 1.5;
@@ -380,6 +380,13 @@ Status add_doubt_of_noise(JointProblem& problem, JointEstimate& estimate) {
   return {};
 }
 
+/// Poses and walls draw each other along, longest where little tells the errors: adds how far the answer went
+/// in the later half of finding walls anew.
+void add_doubt_of_settling(const SystematicErrors& halfway, JointEstimate& estimate) {
+  const SystematicErrors moved = estimate.errors - halfway;
+  estimate.sigma = (estimate.sigma.array().square() + moved.array().square()).sqrt();
+}
+
 /// Dead reckoning is a chord between its samples: much finer than these no time offset is known, whatever the
 /// scatter says.
 void add_doubt_of_sampling(double interval_s, JointEstimate& estimate) {
@@ -393,7 +400,9 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
                                        std::vector<Pose2>& T_map_body, const GoOn& go_on) {
   SWIFTLET_CHECK(scans.size() >= 2 && T_map_body.size() == scans.size(), "every scan has a pose");
   JointProblem problem(scans, sensor, T_map_body);
+  SystematicErrors halfway = SystematicErrors::Zero();
   for (int round = 0; round < kAssociations; ++round) {
+    if (round == kAssociations / 2) halfway = problem.errors();
     problem.associate();
     for (int step = 0; step < kStepsPerAssociation; ++step) {
       if (!go_on((round + static_cast<double>(step) / kStepsPerAssociation) / kAssociations))
@@ -405,6 +414,7 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
   JointEstimate estimate;
   problem.judge(estimate);
   if (Status status = add_doubt_of_noise(problem, estimate); !status) return status.error();
+  add_doubt_of_settling(halfway, estimate);
   add_doubt_of_sampling(usual_interval_s(scans), estimate);
   return estimate;
 }

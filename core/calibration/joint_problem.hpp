@@ -33,7 +33,8 @@ using GoOn = std::function<bool(double done)>;
 ///
 /// Standard deviations come from the scatter of what stretches of ten seconds say (a sandwich estimate with
 /// clusters, Liang & Zeger 1986), so errors within a stretch may be as correlated as they like; never less
-/// than the model's own; with the doubts about the odometry's noise and its sampling on top.
+/// than the model's own; with the doubts about the odometry's noise, its sampling, and how far all has
+/// settled on top.
 ///
 /// `T_map_body`: one pose per scan, close enough that passes over one wall lie within a decimetre; in and
 /// out. Errors: kSolver; kTimeout where `go_on` said no. Allocates. Repeatable. Precondition: two scans.
