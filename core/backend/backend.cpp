@@ -151,7 +151,7 @@ void Backend::State::add_closure(LoopClosure closure) {
 }
 
 /// A group may lie farther off than DCS lets a closure pull: the map goes there first. Where the group does
-/// not hold together then, against what else is known, nothing has happened.
+/// not hold together then, against what else is known, the map stays.
 void Backend::State::believe(const std::vector<LoopClosure>& group) {
   if (group.empty()) return;
   heading_hold.update(graph);
