@@ -34,23 +34,38 @@ Status check_options(const SampleSourceOptions& options) {
   return {};
 }
 
-SensorModel crazyflie_sensor(const SampleSourceOptions& options) {
-  SensorModel sensor = SensorModel::crazyflie();
-  if (options.range_age) sensor.range_age = *options.range_age;
-  if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
-  if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
-  return sensor;
+/// One limit given, the other the sensor's own: there must be ranges between them.
+Status check_limits(const SampleSourceOptions& options, const SensorModel& usual) {
+  const double min_m = options.min_range_m.value_or(usual.min_range_m);
+  const double max_m = options.max_range_m.value_or(usual.max_range_m);
+  if (min_m < max_m) return {};
+  return Error{ErrorCode::kInvalidInput, "minimum range " + std::to_string(min_m) +
+                                             " m: must be less than the maximum, here " +
+                                             std::to_string(max_m) + " m"};
+}
+
+/// What all links have in common.
+Result<LinkInput> link_input(const std::string& name, const SampleSourceOptions& options) {
+  LinkInput input;
+  input.name = name;
+  input.sensor = SensorModel::crazyflie();
+  const Status limits = check_limits(options, input.sensor);
+  if (!limits) return limits.error();
+  if (options.range_age) input.sensor.range_age = *options.range_age;
+  if (options.max_range_m) input.sensor.max_range_m = *options.max_range_m;
+  if (options.min_range_m) input.sensor.min_range_m = *options.min_range_m;
+  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
+  return input;
 }
 
 Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
                                                    const SampleSourceOptions& options) {
   Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path);
   if (!link) return link.error();
-  LinkInput input;
-  input.name = path;
-  input.sensor = crazyflie_sensor(options);
-  input.notes = (*link)->notes();
-  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
+  Result<LinkInput> common = link_input(path, options);
+  if (!common) return common.error();
+  LinkInput input = std::move(common).value();
+  for (const std::string& note : (*link)->notes()) input.notes.push_back(note);
   input.progress = [replay = link->get()]() { return std::optional<double>(replay->progress()); };
   input.link = std::move(link).value();
   Result<BlockDescription> description = read_block_description(path + ".toml");
@@ -69,19 +84,20 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   const Result<std::uint64_t> size = size_of_input_file(path);
   if (!size) return size.error();
   if (begins_like_capture(path) || path.ends_with(".pcap")) return open_capture(path, options);
+  const Status limits = check_limits(options, SensorModel::carmen_laser());
+  if (!limits) return limits.error();
   return CarmenSampleSource::open(path, options);
 }
 
 /// Whether the vehicle is there shows in time: a live link waits for it.
 Result<std::unique_ptr<SampleSource>> open_live(const std::string& uri, const InputUri& parsed,
                                                 const SampleSourceOptions& options) {
-  LinkInput input;
-  input.name = uri;
-  input.sensor = crazyflie_sensor(options);
+  Result<LinkInput> common = link_input(uri, options);
+  if (!common) return common.error();
+  LinkInput input = std::move(common).value();
   input.recording = options.recording;
   input.starts_logging = true;
   input.cache_directory = TocCache::default_directory();
-  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
   Result<LiveLink> live = open_live_link(parsed);
   if (!live) return live.error();
   input.clock = live->clock;
@@ -94,12 +110,11 @@ Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, co
                                                       const SampleSourceOptions& options) {
   Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed, parsed.laps);
   if (!link) return link.error();
-  LinkInput input;
-  input.name = uri;
-  input.sensor = crazyflie_sensor(options);
+  Result<LinkInput> common = link_input(uri, options);
+  if (!common) return common.error();
+  LinkInput input = std::move(common).value();
   input.recording = options.recording;
   input.starts_logging = true;
-  if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
   input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };
   Result<PoseFile> truth = PoseFile::open();
   if (!truth) return truth.error();

@@ -119,6 +119,23 @@ TEST(OpenSampleSource, RefusesImpossibleOptions) {
   EXPECT_THAT(refusal("a.clf", range), HasSubstr("maximum range"));
 }
 
+TEST(OpenSampleSource, RefusesLimitsThatLeaveNoRange) {
+  const TemporaryFile capture("flight.pcap");
+  write_capture(capture.path(), SyntheticCapture{}.frames());
+  SampleSourceOptions far;
+  far.min_range_m = 4.0;  // beyond what the vehicle's sensors reach, but not a laser scanner
+  EXPECT_THAT(refusal(capture.path(), far), HasSubstr("minimum range 4.000000 m: must be less than the "
+                                                      "maximum, here 3.000000 m"));
+  EXPECT_THAT(refusal("sim://office", far), HasSubstr("minimum range"));
+  EXPECT_THAT(refusal("udp://127.0.0.1:19850", far), HasSubstr("minimum range"));
+  const TemporaryFile log("room.clf", "nothing of use\n");
+  EXPECT_THAT(refusal(log.path(), far), testing::Not(HasSubstr("minimum range")));
+  SampleSourceOptions near;
+  near.max_range_m = 0.05;  // the least of both sensors
+  EXPECT_THAT(refusal(capture.path(), near), HasSubstr("minimum range"));
+  EXPECT_THAT(refusal(log.path(), near), HasSubstr("minimum range"));
+}
+
 TEST(OpenSampleSource, RefusesWhatIsNoInputWithOneLine) {
   const TemporaryFile empty("empty.pcap", "");
   const TemporaryFile text("notes.txt", "nothing of use\n");
