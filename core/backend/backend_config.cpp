@@ -26,8 +26,9 @@ std::vector<std::string> BackendConfig::validate() const {
   require(min_travel_between_m >= 0.0 && std::isfinite(min_travel_between_m),
           "backend.min_travel_between_m must be 0 or more and finite");
   require(search_radius_m > 0.0 && search_radius_m <= 50.0, "backend.search_radius_m must lie in 0..50");
-  // No search is narrower than 0.1 rad.
-  require(search_angle_rad >= 0.1 && search_angle_rad <= kPi, "backend.search_angle_rad must lie in 0.1..pi");
+  static_assert(kLeastSearchAngleRad == 0.1, "the message says so");
+  require(search_angle_rad >= kLeastSearchAngleRad && search_angle_rad <= kPi,
+          "backend.search_angle_rad must lie in 0.1..pi");
   require(max_candidates >= 1, "backend.max_candidates must be at least 1");
   require(min_score > 0.0 && min_score < 1.0, "backend.min_score must lie between 0 and 1");
   require(min_group_score > 0.0 && min_group_score < 1.0, "backend.min_group_score must lie between 0 and 1");

@@ -9,6 +9,9 @@
 
 namespace swiftlet {
 
+/// No search for a loop is narrower than this to either side: covariances of motion are models.
+inline constexpr double kLeastSearchAngleRad = 0.1;
+
 /// Settings of submaps, loop closing and the pose graph (Algorithm 3). One set serves all places and sensors.
 struct BackendConfig {
   // Submaps

@@ -16,7 +16,6 @@ namespace {
 constexpr double kSigmas = 3.0;  // the window reaches this many standard deviations ...
 constexpr double kLeastRadiusM =
     0.5;  // ... and never less than this: the constraints' covariances are models
-constexpr double kLeastAngleRad = 0.1;  // as BackendConfig::validate() has it
 // Of one query. More of the same travel tell little that is new, and where every lap overlaps all those
 // before it they fill the pose graph's factor.
 constexpr std::size_t kMostClosures = 3;
@@ -59,7 +58,8 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
     c.window.radius_m =
         std::clamp(kSigmas * sigma_m, kLeastRadiusM, std::max(kLeastRadiusM, config_->search_radius_m));
-    c.window.angle_rad = std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastAngleRad, config_->search_angle_rad);
+    c.window.angle_rad =
+        std::clamp(kSigmas * std::sqrt(P(2, 2)), kLeastSearchAngleRad, config_->search_angle_rad);
     std::size_t inside = 0;
     for (const Point2& p : points_query) {
       const Point2 q = c.window.T_submap_scan * p;
