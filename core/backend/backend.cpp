@@ -21,15 +21,24 @@ constexpr std::size_t kKeyframesOfCorrection = 4;  // about 2 m
 // While flying, news that the graph had expected waits for others ...
 constexpr double kExpectedChiSquare = 1.0;
 constexpr std::uint32_t kMostKeyframesWaiting = 8;
-// ... and solutions need not be as fine, nor to be ends of a long way: the next is at hand.
-constexpr OptimizeEffort kLiveEffort{1e-3, 10};
-// Of a group, chi-square a closure: half of the three that a closure's degrees of freedom would allow, for
+// ... and solutions need not be as fine, nor to be ends of a long way: the next keyframe goes on.
+constexpr double kLiveStep = 1e-3;
+constexpr OptimizeEffort kLiveEffort{kLiveStep, 4};
+constexpr OptimizeEffort kTrialEffort{kLiveStep, 10};
+// Of a group: half of the three that a closure's degrees of freedom would allow, for
 // the matches' covariances are wide.
 constexpr double kMostMisfit = 1.5;
 
 PoseConstraint constraint_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
           residual_information(closure.T_from_to, closure.covariance.matrix()), true};
+}
+
+/// Chi-square a closure.
+double misfit(const std::vector<LoopClosure>& group, const std::vector<Pose2>& T_map_keyframe) {
+  double sum = 0.0;
+  for (const LoopClosure& closure : group) sum += chi_square(constraint_of(closure), T_map_keyframe);
+  return sum / static_cast<double>(group.size());
 }
 
 }  // namespace
@@ -154,28 +163,31 @@ void Backend::State::add_closure(LoopClosure closure) {
 /// not hold together then, against what else is known, the map stays.
 void Backend::State::believe(const std::vector<LoopClosure>& group) {
   if (group.empty()) return;
+  if (misfit(group, graph.T_map_keyframe) > kMostMisfit && !move_map_to(group)) return;
+  for (const LoopClosure& closure : group) add_closure(closure);
+}
+
+bool Backend::State::move_map_to(const std::vector<LoopClosure>& group) {
   heading_hold.update(graph);
   PoseGraph trial = graph;
   for (const LoopClosure& closure : group) {
     trial.constraints.push_back(constraint_of(closure));
     trial.constraints.back().is_closure = false;
   }
-  if (!optimizer.optimize(trial, kLiveEffort)) {
+  if (!optimizer.optimize(trial, kTrialEffort)) {
     ++counters.solver_failures;
-    return;
+    return false;
   }
-  double misfit = 0.0;
-  for (const LoopClosure& closure : group) misfit += chi_square(constraint_of(closure), trial.T_map_keyframe);
-  if (misfit > kMostMisfit * static_cast<double>(group.size())) return;
+  if (misfit(group, trial.T_map_keyframe) > kMostMisfit) return false;
   graph.T_map_keyframe = std::move(trial.T_map_keyframe);
   group_moved_map = true;
-  for (const LoopClosure& closure : group) add_closure(closure);
+  return true;
 }
 
 /// Whether what is new disagrees with the graph, or something that does not has waited long enough.
 bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId newest) {
   news_waits |= turned || new_closures > 0;
-  if (group_moved_map) return true;
+  if (group_moved_map || unsettled) return true;
   if (!news_waits) return false;
   if (index_of(newest) - index_of(optimized_upto) >= kMostKeyframesWaiting) return true;
   if (turned) {
@@ -193,7 +205,9 @@ bool Backend::State::optimize(const OptimizeEffort& effort) {
   news_waits = false;
   const bool has_moved = std::exchange(group_moved_map, false);
   heading_hold.update(graph);
-  if (!optimizer.optimize(graph, effort)) {
+  const Result<OptimizeReport> report = optimizer.optimize(graph, effort);
+  unsettled = report && !report->converged;
+  if (!report) {
     ++counters.solver_failures;
     version += has_moved ? 1 : 0;
     return has_moved;

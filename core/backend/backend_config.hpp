@@ -37,7 +37,7 @@ struct BackendConfig {
   bool align_to_walls = true;     ///< hold the heading by the axis that a building's walls share
   double dcs_phi = 5.0;           ///< DCS: closures whose chi-square exceeds this are scaled down
   double drop_scale = 0.1;        ///< closures scaled below this in the final pass are dropped
-  int optimizer_iterations = 20;  ///< Gauss-Newton steps at most; while flying never more than 10
+  int optimizer_iterations = 20;  ///< Gauss-Newton steps at most; while flying never more than 4 a keyframe
 
   // Joint refinement
   bool refine = true;  ///< false: poses between keyframes stay interpolated, while flying and at the end

@@ -48,6 +48,7 @@ struct Backend::State {
   std::uint32_t close_loops(KeyframeId newest);
   void add_closure(LoopClosure closure);
   void believe(const std::vector<LoopClosure>& group);
+  bool move_map_to(const std::vector<LoopClosure>& group);
   [[nodiscard]] bool is_due(bool turned, std::uint32_t new_closures, KeyframeId newest);
   bool optimize(const OptimizeEffort& effort = {});
   bool drop_false_closures();
@@ -84,6 +85,7 @@ struct Backend::State {
   std::vector<std::size_t> closure_constraint;  // of closure i
   bool news_waits = false;
   bool group_moved_map = false;          // since it was last optimised
+  bool unsettled = false;                // when it was last optimised
   KeyframeId optimized_upto{};           // later keyframes hang on by their motion
   std::vector<KeyframeId> open_submaps;  // where the ones being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps;

@@ -36,7 +36,8 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const Opti
     const Result<double> largest = system_.step(poses);
     if (!largest) return largest.error();
     ++report.iterations;
-    if (*largest < effort.converged_step) break;
+    report.converged = *largest < effort.converged_step;
+    if (report.converged) break;
   }
   for (PoseConstraint& c : graph.constraints) {
     const double error = chi_square(c, poses);

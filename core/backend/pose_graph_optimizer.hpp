@@ -12,6 +12,7 @@ namespace swiftlet {
 
 struct OptimizeReport {
   int iterations = 0;
+  bool converged = true;    ///< false: the effort allowed no more iterations
   double chi_square = 0.0;  ///< robust objective at the end
 };
 

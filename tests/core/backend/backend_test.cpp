@@ -301,6 +301,29 @@ TEST(Backend, AFlightThatGoesOnElsewhereIsJoinedByItsLoops) {
   EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.15);
 }
 
+TEST(Backend, ALongWayIsGoneOverTheNextKeyframes) {
+  BackendConfig config;
+  config.refine = false;
+  config.match_every_keyframes = 100;  // a single query that finds anything, in the second lap
+  const auto backend = make_backend(config);
+  DeadReckoningFrontend frontend;
+  std::vector<std::size_t> changed_at;
+  for (const RangeSample& sample : two_laps().samples()) {
+    const BackendUpdate update = backend->add(frontend.process(sample));
+    if (update.poses_changed) changed_at.push_back(backend->keyframe_count());
+    if (backend->keyframe_count() == 105) break;
+  }
+  ASSERT_FALSE(backend->closures().empty());
+  ASSERT_GT(changed_at.size(), 1U) << "one call alone does not get there";
+  EXPECT_EQ(changed_at[1], changed_at[0] + 1) << "the next keyframe goes on";
+  const std::vector<Pose2> live = corrected(*backend);
+  const std::uint64_t steps = backend->counters().optimizations;
+  backend->finish();
+  EXPECT_LT(steps, 5U) << "and rests once it is there";
+  for (ScanIndex i = 0; i < live.size(); ++i)
+    ASSERT_TRUE(poses_near(live[i], backend->T_map_body(i), 0.01, 0.01)) << "scan " << i;
+}
+
 TEST(Backend, MatchesTooWeakAloneCloseLoopsTogether) {
   BackendConfig config;
   config.min_score = 0.99;
