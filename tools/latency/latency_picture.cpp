@@ -26,6 +26,8 @@ constexpr int kStripHeight = 70;
 constexpr int kStripGap = 26;
 constexpr int kBottom = 40;
 constexpr double kTextPx = 12.0;
+constexpr double kMarkTextPx = 9.0;
+constexpr double kMarkRowHeight = 13.0;
 constexpr double kFirstDecade = 3.0;  // 1 us, in ns
 constexpr std::array<const char*, 8> kDecades{"1 us",  "10 us", "0.1 ms", "1 ms",
                                               "10 ms", "0.1 s", "1 s",    "10 s"};
@@ -55,10 +57,33 @@ void draw_bars(RgbImage& image, const StageBuckets& stage, int base) {
   }
 }
 
-void draw_mark(RgbImage& image, double ms, const std::string& name, int base, const Colour& colour) {
-  const double x = x_of(ms * 1e6);
-  draw_line(image, {x, base - kStripHeight + 12.0}, {x, double(base)}, {colour, 1.0, 1.0});
-  draw_text_with_halo(image, {x + 3.0, base - kStripHeight + 20.0}, 9.0, name, colour, kPaper);
+struct Mark {
+  double x_px = 0.0;
+  std::string name;  // to the right of the mark's line, at its top
+  Colour colour;
+  int row = 0;  // of the name, from below
+
+  [[nodiscard]] double end_px() const { return x_px + 6.0 + text_width_px(kMarkTextPx, name); }
+};
+
+std::vector<Mark> marks_of(const StageSummary& stage) {
+  std::vector<Mark> marks{{x_of(stage.p50_ms * 1e6), "50%", kInk}};
+  if (stage.count >= 100) marks.push_back({x_of(stage.p99_ms * 1e6), "99%", kInk});
+  if (stage.count >= 1000) marks.push_back({x_of(stage.p999_ms * 1e6), "99.9%", kInk});
+  return marks;
+}
+
+/// A name goes above all marks that it would run into.
+void draw_marks(RgbImage& image, std::vector<Mark> marks, int base) {
+  std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.x_px < b.x_px; });
+  for (std::size_t i = marks.size(); i-- > 0;) {
+    Mark& mark = marks[i];
+    for (std::size_t k = i + 1; k < marks.size() && marks[k].x_px < mark.end_px(); ++k)
+      mark.row = std::max(mark.row, marks[k].row + 1);
+    const double top = base - kStripHeight + 12.0 - mark.row * kMarkRowHeight;
+    draw_line(image, {mark.x_px, top}, {mark.x_px, double(base)}, {mark.colour, 1.0, 1.0});
+    draw_text_with_halo(image, {mark.x_px + 3.0, top + 8.0}, kMarkTextPx, mark.name, mark.colour, kPaper);
+  }
 }
 
 void draw_axis(RgbImage& image, int bottom) {
@@ -88,11 +113,10 @@ RgbImage draw_latencies(const TimingReport& report) {
     draw_bars(image, stage, base);
     draw_line(image, {double{kLeft}, double(base)}, {double{kLeft + kPlotWidth}, double(base)},
               {kInk, 1.0, 1.0});
-    draw_mark(image, summary.p50_ms, "50%", base, kInk);
-    if (summary.count >= 100) draw_mark(image, summary.p99_ms, "99%", base, kInk);
-    if (summary.count >= 1000) draw_mark(image, summary.p999_ms, "99.9%", base, kInk);
+    std::vector<Mark> marks = marks_of(summary);
     if (stage.name == "frame_to_pose" && report.pose_deadline_ms)
-      draw_mark(image, *report.pose_deadline_ms, "deadline", base, kDeadline);
+      marks.push_back({x_of(*report.pose_deadline_ms * 1e6), "deadline", kDeadline});
+    draw_marks(image, std::move(marks), base);
   }
   return image;
 }
