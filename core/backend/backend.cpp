@@ -25,7 +25,7 @@ constexpr std::uint32_t kMostKeyframesWaiting = 8;
 constexpr double kLiveStep = 1e-3;
 constexpr OptimizeEffort kLiveEffort{kLiveStep, 4};
 constexpr OptimizeEffort kTrialEffort{kLiveStep, 10};
-// Of a group: half of the three that a closure's degrees of freedom would allow, for
+// Of a group, chi-square a closure: half of the three that a closure's degrees of freedom would allow, for
 // the matches' covariances are wide.
 constexpr double kMostMisfit = 1.5;
 
@@ -159,14 +159,15 @@ void Backend::State::add_closure(LoopClosure closure) {
   closures.push_back(closure);
 }
 
-/// A group may lie farther off than DCS lets a closure pull: the map goes there first. Where the group does
-/// not hold together then, against what else is known, the map stays.
+/// A group that the map had expected needs no more. Another may lie farther off than DCS lets a closure pull:
+/// the map goes there first, or the group is refused.
 void Backend::State::believe(const std::vector<LoopClosure>& group) {
   if (group.empty()) return;
   if (misfit(group, graph.T_map_keyframe) > kMostMisfit && !move_map_to(group)) return;
   for (const LoopClosure& closure : group) add_closure(closure);
 }
 
+/// False: the group does not hold together there, against what else is known, and the map stays.
 bool Backend::State::move_map_to(const std::vector<LoopClosure>& group) {
   heading_hold.update(graph);
   PoseGraph trial = graph;
@@ -184,7 +185,8 @@ bool Backend::State::move_map_to(const std::vector<LoopClosure>& group) {
   return true;
 }
 
-/// Whether what is new disagrees with the graph, or something that does not has waited long enough.
+/// Whether the last solution is still on its way, what is new disagrees with the graph, or something that
+/// does not has waited long enough.
 bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId newest) {
   news_waits |= turned || new_closures > 0;
   if (group_moved_map || unsettled) return true;

@@ -428,14 +428,12 @@ TEST(Backend, AGroupThatDoesNotHoldTogetherAgainstTheRestIsRefused) {
   const auto backend = make_backend(config);
   feed(*backend, vehicle.samples(),
        {.floor_m = 1e-4, .per_metre_m = 1e-4, .floor_rad = 1e-5, .per_metre_rad = 1e-5});
-  std::size_t believed = 0;
+  EXPECT_GE(backend->closures().size(), 6U) << "of the second lap";
   for (const LoopClosure& c : backend->closures()) {
-    ++believed;
     ScanIndex scan = 0;
     while (backend->scans()[scan].keyframe != c.to) ++scan;
     EXPECT_LT(scan, moved_at);
   }
-  EXPECT_GE(believed, 6U);
   EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.05);
 }
 
