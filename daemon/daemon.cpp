@@ -10,10 +10,10 @@
 #include <string>
 #include <thread>
 
-#include "daemon/backend_worker.hpp"
-#include "daemon/frontend_worker.hpp"
-#include "daemon/pipeline_queues.hpp"
-#include "daemon/thread_setup.hpp"
+#include "daemon/system/thread_setup.hpp"
+#include "daemon/workers/backend_worker.hpp"
+#include "daemon/workers/frontend_worker.hpp"
+#include "daemon/workers/pipeline_queues.hpp"
 
 namespace swiftlet {
 namespace {

@@ -8,14 +8,14 @@
 #include <thread>
 
 #include "core/base/result.hpp"
-#include "daemon/clock.hpp"
-#include "daemon/configuration.hpp"
-#include "daemon/pipeline.hpp"
-#include "daemon/publisher.hpp"
-#include "daemon/publisher_worker.hpp"
-#include "daemon/radio_worker.hpp"
-#include "daemon/service_watch.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "daemon/config/configuration.hpp"
+#include "daemon/publish/publisher.hpp"
+#include "daemon/publish/publisher_worker.hpp"
+#include "daemon/publish/service_watch.hpp"
+#include "daemon/system/clock.hpp"
+#include "daemon/workers/pipeline.hpp"
+#include "daemon/workers/radio_worker.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 
@@ -26,8 +26,8 @@ class Daemon {
   Daemon(const Configuration& config, SampleSource& source, Clock& clock, const InputPolicy& policy,
          Publisher& publisher);
 
-  /// As Pipeline::keep_retired(). Before run().
-  void keep_retired(RetiredScans& retired) { pipeline_.keep_retired(retired); }
+  /// As Pipeline::keep_pruned(). Before run().
+  void keep_pruned(PrunedScans& pruned) { pipeline_.keep_pruned(pruned); }
   /// The service manager hears of readiness, progress and the end, if there is one. Before run(); must
   /// outlive the daemon.
   void report_to(const ServiceManager& manager) { service_.emplace(manager, clock_.now()); }

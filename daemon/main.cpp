@@ -13,18 +13,19 @@
 #include <string>
 #include <utility>
 
-#include "daemon/configuration_fields.hpp"
+#include "daemon/config/configuration_fields.hpp"
 #include "daemon/daemon.hpp"
-#include "daemon/lcm_publisher.hpp"
-#include "daemon/log_file.hpp"
 #include "daemon/outputs/file_writer.hpp"
-#include "daemon/outputs/retired_scans.hpp"
 #include "daemon/outputs/run_outputs.hpp"
-#include "daemon/recorder.hpp"
-#include "daemon/recording_plan.hpp"
-#include "daemon/service_manager.hpp"
-#include "daemon/signal_watcher.hpp"
-#include "firmware_link/input_uri.hpp"
+#include "daemon/publish/lcm_publisher.hpp"
+#include "daemon/recording/recorder.hpp"
+#include "daemon/recording/recording_plan.hpp"
+#include "daemon/system/log_file.hpp"
+#include "daemon/system/service_manager.hpp"
+#include "daemon/system/signal_watcher.hpp"
+#include "daemon/workers/pruned_scans.hpp"
+#include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 
 namespace swiftlet {
 namespace {
@@ -154,16 +155,16 @@ int tell_problems(const Options& options, const Daemon& daemon, const InputRepor
 }
 
 /// Before the flight, so that it does not end at a closed door.
-Result<std::optional<RetiredScans>> prepare_outputs(const Options& options) {
-  if (options.output_directory.empty()) return std::optional<RetiredScans>();
+Result<std::optional<PrunedScans>> prepare_outputs(const Options& options) {
+  if (options.output_directory.empty()) return std::optional<PrunedScans>();
   if (Status ready = prepare_output_directory(options.output_directory); !ready) return ready.error();
-  Result<RetiredScans> retired = RetiredScans::open(options.output_directory);
-  if (!retired) return retired.error();
-  return std::optional<RetiredScans>(std::move(retired).value());
+  Result<PrunedScans> pruned = PrunedScans::open(options.output_directory);
+  if (!pruned) return pruned.error();
+  return std::optional<PrunedScans>(std::move(pruned).value());
 }
 
 Status write_outputs(const Options& options, const Configuration& config, const Daemon& daemon,
-                     const SampleSource& source, const RetiredScans* retired) {
+                     const SampleSource& source, const PrunedScans* pruned) {
   if (options.output_directory.empty() || daemon.pipeline().backend().scans().size() == 0) return {};
   spdlog::info("writing {}", options.output_directory);
   return write_run_outputs(options.output_directory, {.backend = daemon.pipeline().backend(),
@@ -174,7 +175,7 @@ Status write_outputs(const Options& options, const Configuration& config, const 
                                                       .truth = source.ground_truth(),
                                                       .input_uri = options.input_uri,
                                                       .sensor = config.sensor.applied_to(source.sensor()),
-                                                      .retired = retired});
+                                                      .pruned = pruned});
 }
 
 /// Until the recording is on the disk, too.
@@ -190,8 +191,8 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
-  Result<std::optional<RetiredScans>> retired = prepare_outputs(options);
-  if (!retired) return refuse(retired.error().message);
+  Result<std::optional<PrunedScans>> pruned = prepare_outputs(options);
+  if (!pruned) return refuse(pruned.error().message);
   const Result<std::unique_ptr<LogFile>> log = open_log(options);
   if (!log) return refuse(log.error().message);
   const SignalWatcher signals = watch_signals(log->get());  // before the threads, libusb's too
@@ -206,7 +207,7 @@ int run(const Options& options) {
 
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
-  if (*retired) daemon.keep_retired(**retired);
+  if (*pruned) daemon.keep_pruned(**pruned);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
   const ServiceManager service_manager;
   daemon.report_to(service_manager);
@@ -215,7 +216,7 @@ int run(const Options& options) {
   const BackendCounters& counters = daemon.pipeline().backend().counters();
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
-  const Status written = write_outputs(options, *config, daemon, **source, *retired ? &**retired : nullptr);
+  const Status written = write_outputs(options, *config, daemon, **source, *pruned ? &**pruned : nullptr);
   // A live vehicle's notes are the events that were told when they happened.
   const InputReport& report = (*source)->report();
   const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;

@@ -7,9 +7,9 @@
 #include <stop_token>
 
 #include "daemon/outputs/file_writer.hpp"
-#include "daemon/signal_watcher.hpp"
-#include "firmware_link/input_uri.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "daemon/system/signal_watcher.hpp"
+#include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 #include "tools/calibration/calibration_report.hpp"
 #include "tools/calibration/calibration_rounds.hpp"
 #include "tools/progress_bar.hpp"

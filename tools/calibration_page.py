@@ -107,9 +107,9 @@ def judged_text(judged):
 def gains_table(rows):
     def cells(row):
         check = row["calibration"]["check"]
-        held_back = [NONE, NONE] if check is None else [f"{1e3 * check['held_back_before_m']:.1f} mm",
-                                                        f"{1e3 * check['held_back_after_m']:.1f} mm"]
-        return [row["input"], *held_back, *(judged_text(row[how]["final"]) for how in ("without", "with"))]
+        held_out = [NONE, NONE] if check is None else [f"{1e3 * check['held_out_before_m']:.1f} mm",
+                                                        f"{1e3 * check['held_out_after_m']:.1f} mm"]
+        return [row["input"], *held_out, *(judged_text(row[how]["final"]) for how in ("without", "with"))]
 
     return page.table(["input", "held back:", "with the file:", "map:", "with the file:"], [cells(row) for row in rows])
 

@@ -15,4 +15,4 @@ swiftlet_add_library(swiftlet_doctor
     doctor/vehicle_checks.cpp
     doctor/vehicle_interview.cpp
   LINK swiftlet_firmware_link
-  LINK_PRIVATE swiftlet_libusb swiftlet_radio swiftlet_recorder nlohmann_json::nlohmann_json)
+  LINK_PRIVATE swiftlet_libusb swiftlet_link swiftlet_recording nlohmann_json::nlohmann_json)

@@ -12,13 +12,13 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/recording_files.hpp"
-#include "firmware_link/input_file.hpp"
-#include "firmware_link/input_uri.hpp"
-#include "firmware_link/libusb_bus.hpp"
-#include "firmware_link/live_link.hpp"
-#include "firmware_link/radio_scan.hpp"
-#include "firmware_link/toc_cache.hpp"
+#include "daemon/recording/recording_files.hpp"
+#include "firmware_link/file/input_file.hpp"
+#include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/input/live_link.hpp"
+#include "firmware_link/link/libusb_bus.hpp"
+#include "firmware_link/link/radio_scan.hpp"
+#include "firmware_link/session/toc_cache.hpp"
 #include "tools/doctor/examination.hpp"
 #include "tools/doctor/lcm_url.hpp"
 #include "tools/doctor/network.hpp"

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <memory>
 
-#include "daemon/lcm_transport.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/png_file.hpp"
-#include "daemon/signal_watcher.hpp"
+#include "daemon/publish/lcm_transport.hpp"
+#include "daemon/system/signal_watcher.hpp"
 #include "swiftlet/status_t.hpp"
 #include "tools/latency/latency_picture.hpp"
 #include "tools/latency/latency_table.hpp"
@@ -62,7 +62,7 @@ Status listen(const LatencyCommand& command) {
     std::fflush(stdout);
     is_over = status.state == status_t::STATE_FINISHED;
   });
-  while (!is_over && !signals.token().stop_requested()) (*lcm)->hear(std::chrono::milliseconds(100));
+  while (!is_over && !signals.token().stop_requested()) (*lcm)->on_frame(std::chrono::milliseconds(100));
   return {};
 }
 

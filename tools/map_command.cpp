@@ -7,13 +7,13 @@
 #include <memory>
 #include <utility>
 
-#include "daemon/configuration.hpp"
+#include "daemon/config/configuration.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/peak_memory.hpp"
-#include "daemon/outputs/retired_scans.hpp"
 #include "daemon/outputs/run_outputs.hpp"
-#include "daemon/pipeline.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "daemon/workers/pipeline.hpp"
+#include "daemon/workers/pruned_scans.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace swiftlet {
@@ -101,10 +101,10 @@ Status run_map_command(const MapCommand& command) {
   SampleSource& source = **opened;
   if (Status ready = prepare_output_directory(command.output_directory); !ready) return ready;
 
-  Result<RetiredScans> retired = RetiredScans::open(command.output_directory);
-  if (!retired) return retired.error();
+  Result<PrunedScans> pruned = PrunedScans::open(command.output_directory);
+  if (!pruned) return pruned.error();
   Pipeline pipeline(*config, source);
-  pipeline.keep_retired(*retired);
+  pipeline.keep_pruned(*pruned);
   const InputReport report = run_to_end(pipeline, source);
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
@@ -116,7 +116,7 @@ Status run_map_command(const MapCommand& command) {
                     .truth = source.ground_truth(),
                     .input_uri = command.input,
                     .sensor = config->sensor.applied_to(source.sensor()),
-                    .retired = &*retired,
+                    .pruned = &*pruned,
                     .peak_memory_mb = peak_of_run_mb};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
   print_summary(command, run);

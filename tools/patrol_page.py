@@ -6,10 +6,10 @@ import benchmark_page as page
 import whole_runs
 
 LAPS = {1: 78, 3: 235, 6: 470, 12: 940}  # by hours; a round takes 46 s
-COLUMNS = [("samples", "samples"), ("scans retired", "scans_retired"), ("kept", "scans_kept"),
+COLUMNS = [("samples", "samples"), ("scans pruned", "scans_pruned"), ("kept", "scans_kept"),
            ("keyframes", "keyframes"), ("mean per scan", "mean_per_scan_ms"), ("frontend p99", "frontend_p99_ms"),
            ("max", "frontend_max_ms"), ("backend p99", "backend_p99_ms"), ("max", "backend_max_ms"),
-           ("retirement max", "retirement_max_ms"), ("map max", "map_max_ms"), ("final pass", "final_pass_ms"),
+           ("pruning max", "pruning_max_ms"), ("map max", "map_max_ms"), ("final pass", "final_pass_ms"),
            ("memory", "run_peak_memory_mb")]
 
 
@@ -21,8 +21,8 @@ def measure(swiftlet, output, say):
         report = whole_runs.run(swiftlet, [f"sim://patrol?seed=1&laps={laps}"], output)
         backend = report["backend"]
         rows.append({"input": f"patrol of {hours} h", "hours": report["trajectory"]["duration_s"] / 3600, "laps": laps,
-                     "scans_retired": backend["scans_retired"],
-                     "scans_kept": backend["scans"] - backend["scans_retired"],
+                     "scans_pruned": backend["scans_pruned"],
+                     "scans_kept": backend["scans"] - backend["scans_pruned"],
                      "error_m": report["absolute_trajectory_error"]["corrected"]["rmse_m"],
                      **whole_runs.figures_of(report)})
     return rows
@@ -41,12 +41,12 @@ def document(report, number):
 `swiftlet map 'sim://patrol?seed=1&laps=940' -o out` and shorter: a simulated vehicle flies round one room of 8 m x 6 m
 for hours, a round in 46 s, mapped at full speed with the default settings. Times in ms, memory in MiB, each length run
 once. "Memory" is the most that the program held before it wrote the outputs; "kept" are the scans that the backend has
-at the end, "retired" those it has forgotten because others see the same; both are in the trajectories. "Error" is the
+at the end, "pruned" those it has forgotten because others see the same; both are in the trajectories. "Error" is the
 RMSE of the corrected path.
 
 {patrol_table(report['patrol'], number)}
 
 Over the limits (no call of the frontend over {whole_runs.FRONTEND_MAX_MS:g} ms, none of the backend and no \
-retirement over {whole_runs.BACKEND_MAX_MS:g} ms):
+pruning over {whole_runs.BACKEND_MAX_MS:g} ms):
 
 {over}"""

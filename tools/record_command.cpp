@@ -17,13 +17,13 @@
 
 #include "core/base/latest_value.hpp"
 #include "core/base/time.hpp"
-#include "daemon/recorder.hpp"
-#include "daemon/recording_files.hpp"
-#include "daemon/recording_plan.hpp"
-#include "daemon/signal_watcher.hpp"
-#include "firmware_link/input_uri.hpp"
-#include "firmware_link/sample_source.hpp"
-#include "firmware_link/vehicle_event.hpp"
+#include "daemon/recording/recorder.hpp"
+#include "daemon/recording/recording_files.hpp"
+#include "daemon/recording/recording_plan.hpp"
+#include "daemon/system/signal_watcher.hpp"
+#include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/session/vehicle_event.hpp"
 
 namespace swiftlet {
 namespace {
@@ -35,44 +35,46 @@ constexpr std::chrono::milliseconds kLook{100};
 constexpr int kLooksPerLine = 10;
 
 /// What the thread that listens tells the one that shows.
-struct Heard {
+struct Received {
   std::uint64_t samples = 0;
   std::uint64_t gaps = 0;
   HostTime first{};  ///< stamps of samples
   HostTime latest{};
 };
-static_assert(std::is_trivially_copyable_v<Heard>);
+static_assert(std::is_trivially_copyable_v<Received>);
 
 double rate_hz(std::uint64_t samples, Duration span) {
   return span > Duration::zero() ? static_cast<double>(samples) / to_seconds(span) : 0.0;
 }
 /// From the first sample to the last.
-double mean_rate_hz(const Heard& heard) {
-  return heard.samples > 1 ? rate_hz(heard.samples - 1, heard.latest - heard.first) : 0.0;
+double mean_rate_hz(const Received& received) {
+  return received.samples > 1 ? rate_hz(received.samples - 1, received.latest - received.first) : 0.0;
 }
 
 /// The running line, in a thread of its own: a terminal that is held must not hold the radio.
 class RunningLine {
  public:
-  RunningLine(LatestValue<Heard>& heard, const Recorder& recorder) {
+  RunningLine(LatestValue<Received>& received, const Recorder& recorder) {
     if (::isatty(::fileno(stderr)) != 1) return;
-    thread_ = std::jthread([&heard, &recorder](const std::stop_token& over) { show(heard, recorder, over); });
+    thread_ =
+        std::jthread([&received, &recorder](const std::stop_token& over) { show(received, recorder, over); });
   }
 
  private:
-  static void show(LatestValue<Heard>& newest, const Recorder& recorder, const std::stop_token& over) {
-    Heard heard;
-    Heard shown;
+  static void show(LatestValue<Received>& newest, const Recorder& recorder, const std::stop_token& over) {
+    Received received;
+    Received shown;
     for (int look = 1; !over.stop_requested(); ++look) {
       std::this_thread::sleep_for(kLook);
       if (look % kLooksPerLine != 0) continue;
-      static_cast<void>(newest.load_if_new(heard));
+      static_cast<void>(newest.load_if_new(received));
       const double rate = shown.samples > 0
-                              ? rate_hz(heard.samples - shown.samples, heard.latest - shown.latest)
-                              : mean_rate_hz(heard);
-      shown = heard;
+                              ? rate_hz(received.samples - shown.samples, received.latest - shown.latest)
+                              : mean_rate_hz(received);
+      shown = received;
       std::fputs(
-          (kBackToEmptyLine + recording_summary(heard.samples, rate, heard.gaps, recorder.bytes())).c_str(),
+          (kBackToEmptyLine + recording_summary(received.samples, rate, received.gaps, recorder.bytes()))
+              .c_str(),
           stderr);
       std::fflush(stderr);
     }
@@ -86,26 +88,26 @@ class RunningLine {
 /// Listens to a source and keeps count.
 class Listener {
  public:
-  Listener(SampleSource& source, LatestValue<Heard>& newest) : source_(source), newest_(newest) {}
+  Listener(SampleSource& source, LatestValue<Received>& newest) : source_(source), newest_(newest) {}
 
   /// Until `may_go_on` says no. Errors: what ended the input before its time.
   template <typename Condition>
   Status listen(Condition may_go_on) {
-    while (may_go_on(std::as_const(heard_))) {
+    while (may_go_on(std::as_const(received_))) {
       const Result<RangeSample> sample = source_.next();
       tell_news();
       if (!sample && sample.error().code == ErrorCode::kEndOfRecording) return {};
       if (!sample && sample.error().code != ErrorCode::kTimeout) return sample.error();
       if (!sample) continue;
-      if (heard_.samples == 0) heard_.first = sample->stamp;
-      heard_.latest = sample->stamp;
-      ++heard_.samples;
-      heard_.gaps = source_.report().gaps;
-      newest_.store(heard_);
+      if (received_.samples == 0) received_.first = sample->stamp;
+      received_.latest = sample->stamp;
+      ++received_.samples;
+      received_.gaps = source_.report().gaps;
+      newest_.store(received_);
     }
     return {};
   }
-  [[nodiscard]] const Heard& heard() const { return heard_; }
+  [[nodiscard]] const Received& received() const { return received_; }
 
  private:
   void tell_news() {
@@ -121,8 +123,8 @@ class Listener {
   }
 
   SampleSource& source_;
-  LatestValue<Heard>& newest_;
-  Heard heard_;
+  LatestValue<Received>& newest_;
+  Received received_;
   std::size_t notes_ = 0;  // told so far
   std::size_t problems_ = 0;
 };
@@ -139,12 +141,12 @@ Result<RecordingPlan> plan_for(const RecordCommand& command) {
 
 /// Listens while the recorder's thread writes; all is on the disk afterwards.
 Status listen_and_record(const RecordCommand& command, const std::stop_token& stop, Recorder& recorder,
-                         Listener& listener, LatestValue<Heard>& newest) {
+                         Listener& listener, LatestValue<Received>& newest) {
   const RecorderThread writer(recorder);
   const RunningLine line(newest, recorder);
   const WallClock::time_point began = WallClock::now();
-  return listener.listen([&](const Heard& heard) {
-    const Duration elapsed = std::max<Duration>(WallClock::now() - began, heard.latest - heard.first);
+  return listener.listen([&](const Received& received) {
+    const Duration elapsed = std::max<Duration>(WallClock::now() - began, received.latest - received.first);
     return !stop.stop_requested() && !recorder.failed() &&
            !(command.seconds && elapsed >= from_seconds(*command.seconds));
   });
@@ -172,14 +174,15 @@ Status run_record_command(const RecordCommand& command) {
   const Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
   if (!source) return source.error();
 
-  LatestValue<Heard> newest;
+  LatestValue<Received> newest;
   Listener listener(**source, newest);
-  Status heard = listen_and_record(command, signals.token(), **recorder, listener, newest);
+  Status received = listen_and_record(command, signals.token(), **recorder, listener, newest);
   if (!trouble.empty()) return Error{ErrorCode::kOutOfSpace, trouble};
-  if (!heard) return heard;
-  const Heard& total = listener.heard();
+  if (!received) return received;
+  const Received& total = listener.received();
   if (total.samples == 0)
-    return Error{ErrorCode::kInvalidInput, command.input + ": not one sample was heard; is the vehicle on?"};
+    return Error{ErrorCode::kInvalidInput,
+                 command.input + ": not one sample was received; is the vehicle on?"};
   std::printf("%s: %s\n",
               recording_summary(total.samples, mean_rate_hz(total), total.gaps, (*recorder)->bytes()).c_str(),
               command.file.c_str());

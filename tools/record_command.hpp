@@ -24,8 +24,8 @@ struct RecordCommand {
 /// Records what the vehicle says until the time is up, the input ends or SIGINT or SIGTERM comes; no SLAM. A
 /// summary goes to stdout at the end; notes of the input and, on a terminal, a running line to stderr.
 ///
-/// Errors: kInvalidInput, kNotFound: input or file cannot be used, or not one sample was heard. kOutOfSpace:
-/// the recording has ended early or has a hole; the file holds the rest.
+/// Errors: kInvalidInput, kNotFound: input or file cannot be used, or not one sample was received.
+/// kOutOfSpace: the recording has ended early or has a hole; the file holds the rest.
 [[nodiscard]] Status run_record_command(const RecordCommand& command);
 
 }  // namespace swiftlet

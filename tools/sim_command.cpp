@@ -11,9 +11,9 @@
 #include <memory>
 #include <utility>
 
-#include "daemon/signal_watcher.hpp"
-#include "firmware_link/link_clock.hpp"
-#include "firmware_link/simulated_udp_server.hpp"
+#include "daemon/system/signal_watcher.hpp"
+#include "firmware_link/link/link_clock.hpp"
+#include "firmware_link/simulation/udp_server.hpp"
 #include "tools/sim_instruction.hpp"
 
 namespace swiftlet {

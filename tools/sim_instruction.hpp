@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/base/result.hpp"
-#include "firmware_link/simulated_vehicle.hpp"
+#include "firmware_link/simulation/vehicle.hpp"
 
 namespace swiftlet {
 

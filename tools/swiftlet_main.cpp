@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/sensing/range_sample.hpp"
-#include "firmware_link/simulated_flight.hpp"
+#include "firmware_link/simulation/flight.hpp"
 #include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
@@ -60,7 +60,7 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
       ->capture_default_str();
   sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();
   sim->add_option("--laps", command.laps, "How often to fly the world's script before landing")
-      ->check(CLI::Range(1, swiftlet::kMostLaps))
+      ->check(CLI::Range(1, swiftlet::kMaxLaps))
       ->capture_default_str();
   sim->add_option("--battery", command.battery_minutes,
                   "Minutes in the air until it is empty; without it, 8 a lap")

@@ -31,8 +31,8 @@ def figures_of(report):
 
     figures = {"samples": samples, "keyframes": report["backend"]["keyframes"], "tiles": report["map"]["tiles"],
                "mean_per_scan_ms": per_scan(*stages),
-               "slam_per_scan_ms": per_scan("frontend", "backend", "retirement", "final_pass"),
-               "map_max_ms": stages["map"]["max_ms"], "retirement_max_ms": stages["retirement"]["max_ms"],
+               "slam_per_scan_ms": per_scan("frontend", "backend", "pruning", "final_pass"),
+               "map_max_ms": stages["map"]["max_ms"], "pruning_max_ms": stages["pruning"]["max_ms"],
                "final_pass_ms": stages["final_pass"]["mean_ms"],
                "run_peak_memory_mb": report["run_peak_memory_mb"], "peak_memory_mb": report["peak_memory_mb"]}
     for stage in ("frontend", "backend"):
@@ -52,7 +52,7 @@ def over_limits(name, figures, their_mean_ms=None):
     """One line for each limit that the figures exceed."""
     limits = [("frontend_max_ms", "longest call of the frontend", FRONTEND_MAX_MS),
               ("backend_max_ms", "longest call of the backend", BACKEND_MAX_MS),
-              ("retirement_max_ms", "longest retirement", BACKEND_MAX_MS)]
+              ("pruning_max_ms", "longest pruning", BACKEND_MAX_MS)]
     if their_mean_ms is not None:
         limits.append(("mean_per_scan_ms", "mean per scan", SHARE_OF_THEIRS * their_mean_ms))
     return [f"{name}: {what} {figures[key]:.3g} ms, limit {limit:.3g} ms"

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/backend/backend_state.hpp"
-#include "core/backend/refinement.hpp"
-#include "core/backend/relative_uncertainty.hpp"
+#include "core/backend/pose_graph/relative_uncertainty.hpp"
+#include "core/backend/refinement/batch_refinement.hpp"
 
 namespace swiftlet {
 namespace {
@@ -20,14 +20,14 @@ constexpr std::size_t kKeyframesOfCorrection = 4;  // about 2 m
 
 // While flying, news that the graph had expected waits for others ...
 constexpr double kExpectedChiSquare = 1.0;
-constexpr std::uint32_t kMostKeyframesWaiting = 8;
+constexpr std::uint32_t kMaxKeyframesWaiting = 8;
 // ... and solutions need not be as fine, nor to be ends of a long way: the next keyframe goes on.
 constexpr double kLiveStep = 1e-3;
 constexpr OptimizeEffort kLiveEffort{kLiveStep, 4};
 constexpr OptimizeEffort kTrialEffort{kLiveStep, 10};
 // Of a group, chi-square a closure: half of the three that a closure's degrees of freedom would allow, for
 // the matches' covariances are wide.
-constexpr double kMostMisfit = 1.5;
+constexpr double kMaxMisfit = 1.5;
 
 PoseConstraint constraint_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
@@ -137,8 +137,8 @@ bool Backend::State::hold_heading(KeyframeId newest) {
   const std::optional<WallAxis> axis = wall_axis(around);
   if (!axis) return false;
   const std::size_t before = graph.headings.size();
-  heading_hold.add(newest, *axis,
-                   before == 0 ? 0.0 : yaw_variance_rad2(graph.headings.back().keyframe, newest), graph);
+  building_axis_prior.add(
+      newest, *axis, before == 0 ? 0.0 : yaw_variance_rad2(graph.headings.back().keyframe, newest), graph);
   return graph.headings.size() > before;
 }
 
@@ -163,13 +163,13 @@ void Backend::State::add_closure(LoopClosure closure) {
 /// the map goes there first, or the group is refused.
 void Backend::State::believe(const std::vector<LoopClosure>& group) {
   if (group.empty()) return;
-  if (misfit(group, graph.T_map_keyframe) > kMostMisfit && !move_map_to(group)) return;
+  if (misfit(group, graph.T_map_keyframe) > kMaxMisfit && !move_map_to(group)) return;
   for (const LoopClosure& closure : group) add_closure(closure);
 }
 
 /// False: the group does not hold together there, against what else is known, and the map stays.
 bool Backend::State::move_map_to(const std::vector<LoopClosure>& group) {
-  heading_hold.update(graph);
+  building_axis_prior.update(graph);
   PoseGraph trial = graph;
   for (const LoopClosure& closure : group) {
     trial.constraints.push_back(constraint_of(closure));
@@ -179,7 +179,7 @@ bool Backend::State::move_map_to(const std::vector<LoopClosure>& group) {
     ++counters.solver_failures;
     return false;
   }
-  if (misfit(group, trial.T_map_keyframe) > kMostMisfit) return false;
+  if (misfit(group, trial.T_map_keyframe) > kMaxMisfit) return false;
   graph.T_map_keyframe = std::move(trial.T_map_keyframe);
   group_moved_map = true;
   return true;
@@ -191,9 +191,9 @@ bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId 
   news_waits |= turned || new_closures > 0;
   if (group_moved_map || unsettled) return true;
   if (!news_waits) return false;
-  if (index_of(newest) - index_of(optimized_upto) >= kMostKeyframesWaiting) return true;
+  if (index_of(newest) - index_of(optimized_upto) >= kMaxKeyframesWaiting) return true;
   if (turned) {
-    heading_hold.update(graph);
+    building_axis_prior.update(graph);
     if (chi_square(graph.headings.back(), graph.T_map_keyframe) > kExpectedChiSquare) return true;
   }
   const auto first_new = closure_constraint.end() - static_cast<std::ptrdiff_t>(new_closures);
@@ -206,7 +206,7 @@ bool Backend::State::optimize(const OptimizeEffort& effort) {
   ++counters.optimizations;
   news_waits = false;
   const bool has_moved = std::exchange(group_moved_map, false);
-  heading_hold.update(graph);
+  building_axis_prior.update(graph);
   const Result<OptimizeReport> report = optimizer.optimize(graph, effort);
   unsettled = report && !report->converged;
   if (!report) {
@@ -260,8 +260,8 @@ bool Backend::State::refine() {
     ++counters.solver_failures;
     return false;
   }
-  counters.held_back_before_m = report->held_back_before_m;
-  counters.held_back_after_m = report->held_back_after_m;
+  counters.held_out_before_m = report->held_out_before_m;
+  counters.held_out_after_m = report->held_out_after_m;
   counters.refined = report->accepted;
   if (!report->accepted) return false;
   for (std::uint32_t k = 0; k < chain.size(); ++k)
@@ -272,7 +272,7 @@ bool Backend::State::refine() {
 }
 
 /// One step of refinement, around the newest keyframe or elsewhere. Says in `update` what has moved.
-void Backend::State::refine_live(BackendUpdate& update) {
+void Backend::State::refine_online(BackendUpdate& update) {
   if (!refines()) return;
   if (update.poses_changed) live.follow(graph.T_map_keyframe);
   for (std::size_t i = closures.size() - update.new_closures; i < closures.size(); ++i)
@@ -341,7 +341,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   const bool turned = s.hold_heading(made.id);
   update.new_closures = s.close_loops(made.id);
   update.poses_changed = s.is_due(turned, update.new_closures, made.id) && s.optimize(kLiveEffort);
-  s.refine_live(update);
+  s.refine_online(update);
   return update;
 }
 
@@ -363,7 +363,7 @@ KeyframeId Backend::frontend_id(KeyframeId id) const { return state_->frontend_i
 KeyframeId Backend::keyframe_of(KeyframeId frontend_id) const {
   const std::vector<KeyframeId>& ids = state_->frontend_ids;
   const auto at = std::lower_bound(ids.begin(), ids.end(), frontend_id);
-  SWIFTLET_CHECK(at != ids.end() && *at == frontend_id, "the keyframe was not retired");
+  SWIFTLET_CHECK(at != ids.end() && *at == frontend_id, "the keyframe was not pruned");
   return static_cast<KeyframeId>(at - ids.begin());
 }
 Pose2 Backend::T_map_body(ScanIndex scan) const { return state_->T_map_body(scan); }

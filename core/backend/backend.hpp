@@ -7,9 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/backend/backend_config.hpp"
-#include "core/backend/retirement.hpp"
-#include "core/backend/scan_store.hpp"
+#include "core/backend/config/backend_config.hpp"
+#include "core/backend/loop_closing/loop_closure.hpp"
+#include "core/backend/pruning/pruning.hpp"
+#include "core/backend/store/scan_store.hpp"
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/sensor_model.hpp"
 
@@ -23,17 +24,6 @@ struct MapCorrection {
   std::uint32_t version = 0;  ///< counts up whenever keyframes moved that were there before
 };
 
-struct LoopClosure {
-  std::uint32_t number = 0;  ///< counts all of the run
-  KeyframeId from{};         ///< the submap's reference keyframe
-  KeyframeId to{};           ///< the keyframe that was matched
-  Pose2 T_from_to;
-  Covariance3 covariance;  ///< of T_from_to, in the frame of `from`
-  double score = 0.0;      ///< mean probability under the matched points
-  double dcs_scale = 1.0;  ///< what DCS makes of it at present, 1 = fully believed
-  bool dropped = false;    ///< refused in the final pass
-};
-
 /// A wall in the frame of the keyframe that saw it last.
 struct Wall {
   LandmarkId id{};
@@ -44,7 +34,7 @@ struct Wall {
 
 struct BackendCounters {
   std::uint64_t scans = 0;
-  std::uint64_t scans_retired = 0;  ///< of those, forgotten
+  std::uint64_t scans_pruned = 0;  ///< of those, forgotten
   std::uint64_t keyframes = 0;
   std::uint64_t submaps = 0;
   std::uint64_t candidates_matched = 0;  ///< submaps searched
@@ -53,10 +43,10 @@ struct BackendCounters {
   std::uint64_t optimizations = 0;
   std::uint64_t solver_failures = 0;
   std::uint64_t windows_refined = 0;  ///< steps of refinement while flying that were kept
-  std::uint64_t windows_refused = 0;  ///< ... and that explained held-back returns worse
+  std::uint64_t windows_refused = 0;  ///< ... and that explained held-out returns worse
   bool refined = false;               ///< the final refinement was done and kept
-  double held_back_before_m = 0.0;    ///< what it was judged by: distance of held-back returns from walls
-  double held_back_after_m = 0.0;
+  double held_out_before_m = 0.0;     ///< what it was judged by: distance of held-out returns from walls
+  double held_out_after_m = 0.0;
 };
 
 /// What one step did, for whoever publishes.
@@ -69,9 +59,9 @@ struct BackendUpdate {
 /// Submaps, loop closing and the pose graph (Algorithm 3 of the IROS 2022 paper). The sequence of steps alone
 /// decides the result. One thread at a time; may allocate; no clock, no I/O.
 ///
-/// Whoever wants memory and time per step to stay bounded in known space asks for the next retirement after
-/// each step, takes what it still needs of those scans, and has them retired. Keyframes and scans are
-/// numbered from 0 without gaps: what is retired gives way, and later ones move up.
+/// Whoever wants memory and time per step to stay bounded in known space asks for the next pruning after
+/// each step, takes what it still needs of those scans, and has them pruned. Keyframes and scans are
+/// numbered from 0 without gaps: what is pruned gives way, and later ones move up.
 class Backend {
  public:
   /// Precondition: config.validate() is empty.
@@ -84,9 +74,9 @@ class Backend {
   BackendUpdate add(const FrontendStep& step);
   /// What is to be forgotten now; mostly empty, and always until there are config.max_scans scans. After
   /// finish() never asked for.
-  [[nodiscard]] Retirement next_retirement();
+  [[nodiscard]] Pruning next_pruning();
   /// Forgets it. Precondition: nothing was added since it was asked for.
-  void retire(const Retirement& retirement);
+  void prune(const Pruning& pruning);
   /// The final pass: last optimisation, false closures dropped, every scan's pose refined. Nothing may be
   /// added afterwards.
   BackendUpdate finish();
@@ -94,9 +84,9 @@ class Backend {
   [[nodiscard]] const ScanStore& scans() const;
   [[nodiscard]] std::size_t keyframe_count() const;
   [[nodiscard]] Pose2 T_map_keyframe(KeyframeId id) const;
-  /// The frontend's id of a keyframe, which stays the same through retirements.
+  /// The frontend's id of a keyframe, which stays the same through prunings.
   [[nodiscard]] KeyframeId frontend_id(KeyframeId id) const;
-  /// The other way. Precondition: it was not retired.
+  /// The other way. Precondition: it was not pruned.
   [[nodiscard]] KeyframeId keyframe_of(KeyframeId frontend_id) const;
   /// Corrected pose of any scan: between two keyframes the graph's correction is spread evenly, what
   /// refinement found for the scan comes on top; after finish() the scan's own.

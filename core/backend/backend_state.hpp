@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "core/backend/backend.hpp"
-#include "core/backend/closure_groups.hpp"
-#include "core/backend/heading_hold.hpp"
-#include "core/backend/keyframe_chain.hpp"
-#include "core/backend/live_refinement.hpp"
-#include "core/backend/loop_detector.hpp"
-#include "core/backend/pose_graph.hpp"
-#include "core/backend/pose_graph_optimizer.hpp"
-#include "core/backend/submap.hpp"
+#include "core/backend/loop_closing/closure_groups.hpp"
+#include "core/backend/loop_closing/loop_detector.hpp"
+#include "core/backend/loop_closing/submap.hpp"
+#include "core/backend/pose_graph/building_axis_prior.hpp"
+#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/pose_graph/pose_graph_optimizer.hpp"
+#include "core/backend/refinement/online_refinement.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
 
 // What only the backend's own files may know.
 namespace swiftlet {
@@ -36,7 +36,7 @@ struct Backend::State {
         groups(chain),
         optimizer(config.dcs_phi, config.optimizer_iterations),
         live(scans, chain, sensor),
-        retires_at(static_cast<std::size_t>(config.max_scans)) {}
+        prunes_at(static_cast<std::size_t>(config.max_scans)) {}
 
   void take_estimates(const Keyframe& made);
   void add_motion(const Keyframe& made);
@@ -54,7 +54,7 @@ struct Backend::State {
   bool drop_false_closures();
   [[nodiscard]] bool refines() const { return config.refine && config.close_loops; }
   bool refine();
-  void refine_live(BackendUpdate& update);
+  void refine_online(BackendUpdate& update);
   [[nodiscard]] KeyframeId first_recent() const;
   void remove_constraints(const IndexRemoval& keyframes);
   void remove_motions(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
@@ -70,14 +70,14 @@ struct Backend::State {
   KeyframeChain chain;
   LoopDetector detector;
   ClosureGroups groups;
-  HeadingHold heading_hold;
+  BuildingAxisPrior building_axis_prior;
   KeyframeId heading_sought_at{};
   KeyframeId motion_known_since{};  // the first keyframe that the newest is joined to by measured motion
   PoseGraphOptimizer optimizer;
-  LiveRefinement live;
+  OnlineRefinement live;
 
   std::vector<KeyframeId> frontend_ids;
-  std::vector<KeyframeId> anchors;  // of what was retired: they stay
+  std::vector<KeyframeId> anchors;  // of what was pruned: they stay
   std::vector<Pose2> T_local_keyframe;
   PoseGraph graph;
   std::vector<Pose2> T_map_refined;             // of every scan, after finish(); empty before
@@ -92,7 +92,7 @@ struct Backend::State {
   std::vector<LoopClosure> closures;
   std::vector<Wall> walls;
   std::uint32_t version = 0;
-  std::size_t retires_at = 0;  // that many scans
+  std::size_t prunes_at = 0;  // that many scans
   BackendCounters counters;
 };
 

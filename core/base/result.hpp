@@ -16,7 +16,7 @@ enum class ErrorCode {
   kNotFound,        ///< the named file, device or entry does not exist
   kDamaged,         ///< the beginning was usable, the rest is not
   kEndOfRecording,  ///< a replay has delivered everything; not a fault
-  kTimeout,         ///< nothing heard in time; try again
+  kTimeout,         ///< nothing received in time; try again
   kDeviceLost,      ///< the link must be opened anew
   kOutOfSpace,      ///< a disk or a fixed store is full
   kSolver,          ///< a numerical solve failed

@@ -11,10 +11,10 @@ namespace {
 
 using Verdict = CalibrationFinding::Verdict;
 
-constexpr double kLeastPathM = 10.0;
-constexpr double kLeastTurnsRad = 4.0 * kPi;
-constexpr double kLeastDurationS = 60.0;
-constexpr std::size_t kFewestReturns = 300;
+constexpr double kMinPathM = 10.0;
+constexpr double kMinTurnsRad = 4.0 * kPi;
+constexpr double kMinDurationS = 60.0;
+constexpr std::size_t kMinReturns = 300;
 constexpr double kTellingSigmas = 2.0;
 
 /// What sets one error apart from the others.
@@ -22,9 +22,9 @@ struct Kind {
   const char* setting;
   const char* meaning;
   const char* unit;
-  double offset;       // of the setting from the error
-  double least_known;  // a greater standard deviation is no knowledge
-  double matters;      // less makes no difference to a map
+  double offset;     // of the setting from the error
+  double min_known;  // a greater standard deviation is no knowledge
+  double matters;    // less makes no difference to a map
 };
 constexpr std::array<Kind, kSystematicErrors> kKinds{{
     {"range_age_s", "age of the ranges", "s", 0.0, 0.03, 0.01},
@@ -71,11 +71,11 @@ CalibrationFinding blank_finding(SystematicError error, const SensorModel& senso
 }
 
 std::string too_short(const char* what, double has_m) {
-  return number("only %.1f m of travel ", has_m) + what + number(", %.0f m are needed", kLeastPathM);
+  return number("only %.1f m of travel ", has_m) + what + number(", %.0f m are needed", kMinPathM);
 }
 std::string too_few_turns(double turned_rad) {
   return number("only %.1f turns of 360 degrees in all", turned_rad / (2.0 * kPi)) +
-         number(", %.0f are needed", kLeastTurnsRad / (2.0 * kPi));
+         number(", %.0f are needed", kMinTurnsRad / (2.0 * kPi));
 }
 
 /// What the motion lacks to tell an error; empty where it lacks nothing.
@@ -84,19 +84,19 @@ std::string what_lacks(SystematicError error, const MotionSummary& motion, const
   switch (error) {
     case SystematicError::kRangeAge:
     case SystematicError::kYawPerRadian:
-      return motion.turned_rad < kLeastTurnsRad ? too_few_turns(motion.turned_rad) : "";
+      return motion.turned_rad < kMinTurnsRad ? too_few_turns(motion.turned_rad) : "";
     case SystematicError::kForwardScale:
-      return motion.forward_m < kLeastPathM ? too_short("forward", motion.forward_m) : "";
+      return motion.forward_m < kMinPathM ? too_short("forward", motion.forward_m) : "";
     case SystematicError::kSidewaysScale:
       if (has_wheels) return "wheels do not move sideways";
-      return motion.sideways_m < kLeastPathM ? too_short("sideways", motion.sideways_m) : "";
+      return motion.sideways_m < kMinPathM ? too_short("sideways", motion.sideways_m) : "";
     case SystematicError::kYawPerMetre:
       if (!has_wheels) return "the yaw comes from a gyro, whose error does not go with travel";
-      return motion.forward_m < kLeastPathM ? too_short("forward", motion.forward_m) : "";
+      return motion.forward_m < kMinPathM ? too_short("forward", motion.forward_m) : "";
     case SystematicError::kYawPerSecond:
       if (has_wheels) return "the yaw comes from wheels, whose error does not go with time";
-      if (motion.duration_s < kLeastDurationS)
-        return number("only %.0f s long", motion.duration_s) + number(", %.0f s are needed", kLeastDurationS);
+      if (motion.duration_s < kMinDurationS)
+        return number("only %.0f s long", motion.duration_s) + number(", %.0f s are needed", kMinDurationS);
       return "";
   }
   return "";
@@ -123,8 +123,8 @@ CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, 
   const double offset = error == SystematicError::kRangeAge ? to_seconds(sensor.range_age) : kind.offset;
   finding.value = offset + estimate.errors(index_of(error));
   finding.sigma = estimate.sigma(index_of(error));
-  if (!(finding.sigma <= kind.least_known)) {
-    finding.reason = number("known to +- %.2g", finding.sigma) + number(" only, %.2g", kind.least_known) +
+  if (!(finding.sigma <= kind.min_known)) {
+    finding.reason = number("known to +- %.2g", finding.sigma) + number(" only, %.2g", kind.min_known) +
                      " would say something; more such motion near walls helps";
     return finding;
   }
@@ -135,7 +135,7 @@ CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, 
 }  // namespace
 
 std::optional<std::string> why_hopeless(const MotionSummary& motion) {
-  if (std::max(motion.forward_m, motion.sideways_m) >= kLeastPathM || motion.turned_rad >= kLeastTurnsRad)
+  if (std::max(motion.forward_m, motion.sideways_m) >= kMinPathM || motion.turned_rad >= kMinTurnsRad)
     return std::nullopt;
   return number("the vehicle moved only %.1f m", motion.forward_m + motion.sideways_m) +
          number(" and turned only %.0f degrees in all", degrees(motion.turned_rad));
@@ -143,10 +143,10 @@ std::optional<std::string> why_hopeless(const MotionSummary& motion) {
 
 CalibrationFindings judge_estimate(const JointEstimate& estimate, const MotionSummary& motion,
                                    const SensorModel& sensor) {
-  if (estimate.returns_on_them < kFewestReturns)
+  if (estimate.returns_on_them < kMinReturns)
     return nothing_observable("only " + std::to_string(estimate.returns_on_them) +
                                   " returns lie on walls that were seen often, " +
-                                  std::to_string(kFewestReturns) + " are needed",
+                                  std::to_string(kMinReturns) + " are needed",
                               sensor);
   CalibrationFindings findings;
   for (std::size_t i = 0; i < findings.size(); ++i)

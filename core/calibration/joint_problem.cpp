@@ -30,7 +30,7 @@ constexpr double kPatchDistanceSigmaM = 1.0;
 constexpr double kPatchTurnSigmaRad = 0.3;
 constexpr double kHeldInformation = 1e12;
 // Wide beams that meet a wall flatly end at its nearest point, which travels along.
-constexpr double kLeastIncidenceCosine = 0.7;
+constexpr double kMinIncidenceCosine = 0.7;
 constexpr double kSamplingDoubt = 0.05;  // of an interval; as seen in simulated flights
 constexpr double kNudge = 1e-4;          // of a difference quotient
 constexpr Duration kStretch = std::chrono::seconds(10);
@@ -96,7 +96,7 @@ class JointProblem {
                std::vector<Pose2>& T_map_body)
       : scans_(scans),
         noise_(sensor.odometry),
-        least_wall_sigma_m_(sensor.range_sigma_m),
+        min_wall_sigma_m_(sensor.range_sigma_m),
         prior_sigma_(prior_sigmas(yaw_goes_with_travel(sensor.odometry))),
         T_(T_map_body),
         motion_(scans) {}
@@ -122,7 +122,7 @@ class JointProblem {
 
   std::span<const CalibrationScan> scans_;
   OdometryNoise noise_;
-  double least_wall_sigma_m_;
+  double min_wall_sigma_m_;
   SystematicErrors prior_sigma_;
   double position_noise_scale_ = 1.0;
   std::vector<Pose2>& T_;
@@ -164,7 +164,7 @@ void JointProblem::associate() {
     if (found.patch_of[k] == WallPatches::kNone) continue;
     const Point2 normal = found.patches[found.patch_of[k]].normal_map;
     const Point2 beam = drawn[k].direction_map;
-    if (-normal.x_m * beam.x_m - normal.y_m * beam.y_m < kLeastIncidenceCosine) continue;
+    if (-normal.x_m * beam.x_m - normal.y_m * beam.y_m < kMinIncidenceCosine) continue;
     all[k].patch = found.patch_of[k];
     returns_.push_back(all[k]);
   }
@@ -231,7 +231,7 @@ void JointProblem::measure_wall_sigma() {
   for (const WallReturn& wall : returns_) off.push_back(std::abs(wall_row(wall).error));
   const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
   std::nth_element(off.begin(), middle, off.end());
-  wall_sigma_m_ = std::max(least_wall_sigma_m_, 1.4826 * *middle);
+  wall_sigma_m_ = std::max(min_wall_sigma_m_, 1.4826 * *middle);
 }
 
 template <int kRows, int kColumns>

@@ -29,14 +29,14 @@ using GoOn = std::function<bool(double done)>;
 /// One least-squares problem over all that is unknown together: the pose of every scan, distance and
 /// direction of every stretch of wall, and the systematic errors. Returns hold poses to walls, dead reckoning
 /// less its systematic errors holds neighbouring scans together. So what walls and ranges leave open of the
-/// motion does not pass for knowledge. Walls are found anew as the poses settle.
+/// motion does not traversal for knowledge. Walls are found anew as the poses settle.
 ///
 /// Standard deviations come from the scatter of what stretches of ten seconds say (a sandwich estimate with
 /// clusters, Liang & Zeger 1986), so errors within a stretch may be as correlated as they like; never less
 /// than the model's own; with the doubts about the odometry's noise, its sampling, and how far all has
 /// settled on top.
 ///
-/// `T_map_body`: one pose per scan, close enough that passes over one wall lie within a decimetre; in and
+/// `T_map_body`: one pose per scan, close enough that traversals over one wall lie within a decimetre; in and
 /// out. Errors: kSolver; kTimeout where `go_on` said no. Allocates. Repeatable. Precondition: two scans.
 [[nodiscard]] Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans,
                                                      const SensorModel& sensor,

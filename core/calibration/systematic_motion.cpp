@@ -9,8 +9,8 @@ namespace swiftlet {
 namespace {
 
 // Stamps that come in bunches make no velocity: both intervals around a scan must be near the usual one.
-constexpr double kShortestShare = 0.5;
-constexpr double kLongestShare = 2.0;
+constexpr double kMinShare = 0.5;
+constexpr double kMaxShare = 2.0;
 
 double seconds_between(const CalibrationScan& before, const CalibrationScan& after) {
   return to_seconds(after.measured_at - before.measured_at);
@@ -47,8 +47,7 @@ SystematicMotion::SystematicMotion(std::span<const CalibrationScan> scans)
   const double usual_s = usual_interval_s(scans);
   const auto is_usual = [&](std::size_t i) {
     const double interval_s = seconds_between(scans[i - 1], scans[i]);
-    return !scans[i].starts_segment && interval_s > kShortestShare * usual_s &&
-           interval_s < kLongestShare * usual_s;
+    return !scans[i].starts_segment && interval_s > kMinShare * usual_s && interval_s < kMaxShare * usual_s;
   };
   for (std::size_t i = 1; i + 1 < scans.size(); ++i) {
     if (is_usual(i) && is_usual(i + 1)) twists_[i] = twist_between(scans[i - 1], scans[i], scans[i + 1]);

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kCellM = 0.5;
 constexpr double kNeighbourM = 0.3;  // how far around a return its wall is looked for
-constexpr int kFewestNeighbours = 6;
-constexpr double kLeastLengthM2 = 0.003;  // variance along the wall: shorter stretches have no direction
-constexpr double kWidestRatio = 0.35;     // variance across to variance along: more is clutter
-constexpr double kWidestOffM = 0.12;      // of a return from its patch
-constexpr double kLeastAgreement = 0.9;   // cosine between two normals of one patch
-constexpr std::size_t kFewestReturns = 8;
+constexpr int kMinNeighbours = 6;
+constexpr double kMinLengthM2 = 0.003;  // variance along the wall: shorter stretches have no direction
+constexpr double kMaxRatio = 0.35;      // variance across to variance along: more is clutter
+constexpr double kMaxOffM = 0.12;       // of a return from its patch
+constexpr double kMinAgreement = 0.9;   // cosine between two normals of one patch
+constexpr std::size_t kMinReturns = 8;
 
 double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.y_m; }
 
@@ -75,14 +75,14 @@ struct Moments {
   }
   /// Unit normal of the line through them; nothing where they are no clear line.
   [[nodiscard]] std::optional<Point2> normal() const {
-    if (count < kFewestNeighbours) return std::nullopt;
+    if (count < kMinNeighbours) return std::nullopt;
     const double n = count;
     const double cxx = xx / n - x * x / (n * n);
     const double cxy = xy / n - x * y / (n * n);
     const double cyy = yy / n - y * y / (n * n);
     const double along = 0.5 * (cxx + cyy) + std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
     const double across = cxx + cyy - along;
-    if (along < kLeastLengthM2 || across > kWidestRatio * along) return std::nullopt;
+    if (along < kMinLengthM2 || across > kMaxRatio * along) return std::nullopt;
     const double direction_rad = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);
     return Point2{-std::sin(direction_rad), std::cos(direction_rad)};
   }
@@ -116,8 +116,8 @@ struct OnWall {
 
 bool is_together(const OnWall& seed, const OnWall& other) {
   const Point2 off{other.p_map.x_m - seed.p_map.x_m, other.p_map.y_m - seed.p_map.y_m};
-  return dot(seed.normal_map, other.normal_map) > kLeastAgreement &&
-         std::abs(dot(off, seed.normal_map)) < kWidestOffM;
+  return dot(seed.normal_map, other.normal_map) > kMinAgreement &&
+         std::abs(dot(off, seed.normal_map)) < kMaxOffM;
 }
 
 WallPatch mean_of(const std::vector<OnWall>& members) {
@@ -149,12 +149,12 @@ const OnWall& best_seed(const std::vector<OnWall>& left) {
 
 /// Takes the returns of one cell apart into patches, the largest first.
 void split_cell(std::vector<OnWall> left, WallPatches& result) {
-  while (left.size() >= kFewestReturns) {
+  while (left.size() >= kMinReturns) {
     const OnWall seed = best_seed(left);
     const auto rest = std::stable_partition(left.begin(), left.end(),
                                             [&](const OnWall& other) { return is_together(seed, other); });
     const std::vector<OnWall> members(left.begin(), rest);
-    if (members.size() < kFewestReturns) return;
+    if (members.size() < kMinReturns) return;
     for (const OnWall& member : members)
       result.patch_of[member.index] = static_cast<std::uint32_t>(result.patches.size());
     result.patches.push_back(mean_of(members));

@@ -13,17 +13,17 @@ namespace {
 constexpr double squared(double x) { return x * x; }
 
 constexpr double kSigmas = 3.0;
-constexpr double kWidestRad = radians(20);      // nearer to the middle between two axes nothing can be told
+constexpr double kMaxRad = radians(20);         // nearer to the middle between two axes nothing can be told
 constexpr double kWallSigmaRad = radians(2.5);  // of a wall that does run along the axis
 constexpr double kRobustSigmas = 2.0;           // Geman-McClure: walls farther off lose their say
 constexpr double kSameWallsAgain = 10.0;        // a wall stays in the window for about so many keyframes
-constexpr double kLeastSigmaRad = radians(0.3);
+constexpr double kMinSigmaRad = radians(0.3);
 constexpr int kOtherAxisKeyframes = 24;
 
 }  // namespace
 
 double BuildingAxis::gate_rad(double variance_rad2) const {
-  return std::min(kWidestRad, kSigmas * std::sqrt(variance_rad2 + variance_rad2_ + heading_variance_rad2_));
+  return std::min(kMaxRad, kSigmas * std::sqrt(variance_rad2 + variance_rad2_ + heading_variance_rad2_));
 }
 
 std::optional<BuildingAxis::Direction> BuildingAxis::direction_near(double yaw_rad,
@@ -56,7 +56,7 @@ void BuildingAxis::learn(std::span<const WallRun> walls) {
   const double gain =
       variance_rad2_ / (variance_rad2_ + heading_variance_rad2_ + kSameWallsAgain * seen_variance_rad2);
   *yaw_rad_ += gain * off_rad;
-  variance_rad2_ = std::max(squared(kLeastSigmaRad), (1.0 - gain) * variance_rad2_);
+  variance_rad2_ = std::max(squared(kMinSigmaRad), (1.0 - gain) * variance_rad2_);
   heading_variance_rad2_ *= seen_variance_rad2 / (seen_variance_rad2 + heading_variance_rad2_);
 }
 

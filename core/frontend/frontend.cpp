@@ -188,7 +188,7 @@ void Frontend::State::learn_drift() {
   const PoseVertex& to = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 1];
   const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
   const double yaw_error_rad =
-      motion_error(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
+      motion_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
   drift.learn(to.T_previous_body.x_m(), wrap_angle(to.T_previous_body.yaw_rad() - corrected_rad),
               yaw_error_rad, 1.0 / to.information(2, 2));
 }

@@ -26,14 +26,14 @@ void require_within(int value, int low, int high, const char* field, Problems& p
 }  // namespace
 
 std::vector<std::string> FrontendConfig::validate() const {
-  constexpr int kMostPoints = static_cast<int>(kMaxMultiscanPoints - kMaxBeams);
+  constexpr int kMaxPoints = static_cast<int>(kMaxMultiscanPoints - kMaxBeams);
   Problems problems;
   require_positive(keyframe_distance_m, "keyframe_distance_m", problems);
   require_positive(keyframe_turn_rad, "keyframe_turn_rad", problems);
-  require_within(multiscan_points, 8, kMostPoints, "multiscan_points", problems);
+  require_within(multiscan_points, 8, kMaxPoints, "multiscan_points", problems);
   require_positive(split_distance_m, "split_distance_m", problems);
   require_positive(max_point_gap_m, "max_point_gap_m", problems);
-  require_within(min_line_points, 3, kMostPoints, "min_line_points", problems);
+  require_within(min_line_points, 3, kMaxPoints, "min_line_points", problems);
   require_positive(min_line_length_m, "min_line_length_m", problems);
   require_positive(max_line_rms_m, "max_line_rms_m", problems);
   require(min_incidence_rad >= 0.0 && min_incidence_rad < 0.5 * kPi, "min_incidence_rad",

@@ -14,13 +14,13 @@ bool normals_oppose(const Line2& a, const Line2& b) {
 
 }  // namespace
 
-MotionError motion_error(const Pose2& T_from_to_measured, const Pose2& T_local_from,
-                         const Pose2& T_local_to) {
+MotionResidual motion_residual(const Pose2& T_from_to_measured, const Pose2& T_local_from,
+                               const Pose2& T_local_to) {
   const Pose2 T_from_local = T_local_from.inverse();
   const Pose2 T_from_to = T_from_local * T_local_to;
   const Pose2 T_to_from_measured = T_from_to_measured.inverse();
   const Eigen::Matrix3d J_measured = jacobian_compose_second(T_to_from_measured);
-  MotionError out;
+  MotionResidual out;
   out.error = (T_to_from_measured * T_from_to).vector();
   out.J_from = J_measured * jacobian_compose_first(T_from_local, T_local_to) * jacobian_inverse(T_local_from);
   out.J_to = J_measured * jacobian_compose_second(T_from_local);

@@ -13,12 +13,13 @@ namespace swiftlet {
 // with their derivatives. Poses and lines are in the local frame. Nothing here allocates.
 
 /// e_o of eq. (10): order (x, y, yaw), in the frame of the measured end of the motion.
-struct MotionError {
+struct MotionResidual {
   Eigen::Vector3d error;
   Eigen::Matrix3d J_from;  ///< d error / d T_local_from
   Eigen::Matrix3d J_to;    ///< d error / d T_local_to
 };
-MotionError motion_error(const Pose2& T_from_to_measured, const Pose2& T_local_from, const Pose2& T_local_to);
+MotionResidual motion_residual(const Pose2& T_from_to_measured, const Pose2& T_local_from,
+                               const Pose2& T_local_to);
 
 /// Information matrix of e_o for a measured motion with `covariance` (of T_from_to as a vector).
 /// Precondition: the covariance is positive definite.

@@ -31,7 +31,7 @@ struct PoseVertex {
   KeyframeId id{};
   Pose2 T_local_body;
   Pose2 T_previous_body;                                  ///< measured
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of motion_error()
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of motion_residual()
 };
 
 /// What poses that have left the window knew about a wall.

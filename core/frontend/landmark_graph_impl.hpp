@@ -154,7 +154,7 @@ double LandmarkGraph<kCapacity>::chi_square() const {
   double sum = 0.0;
   for (std::size_t i = 1; i < poses_.size(); ++i) {
     const Eigen::Vector3d e =
-        motion_error(poses_[i].T_previous_body, poses_[i - 1].T_local_body, poses_[i].T_local_body).error;
+        motion_residual(poses_[i].T_previous_body, poses_[i - 1].T_local_body, poses_[i].T_local_body).error;
     sum += e.dot(poses_[i].information * e);
   }
   for (const LineObservation& observation : observations_) {

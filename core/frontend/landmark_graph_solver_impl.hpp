@@ -14,13 +14,13 @@ template <LandmarkGraphCapacity kCapacity>
 typename LandmarkGraphSolver<kCapacity>::Summary LandmarkGraphSolver<kCapacity>::optimize(Graph& graph,
                                                                                           int max_steps) {
   constexpr double kFirstDamping = 1e-5;
-  constexpr double kMostDamping = 1e6;
+  constexpr double kMaxDamping = 1e6;
   constexpr double kSettled = 1e-4;  // relative decrease of F that ends the search
   group_by_landmark(graph);
   find_envelope(graph);
   Summary summary{0, graph.chi_square()};
   double damping = kFirstDamping;
-  while (summary.steps < max_steps && damping < kMostDamping && unknowns_ > 0) {
+  while (summary.steps < max_steps && damping < kMaxDamping && unknowns_ > 0) {
     ++summary.steps;
     save(graph);
     linearize(graph);
@@ -118,8 +118,8 @@ template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraphSolver<kCapacity>::linearize_motions(const Graph& graph) {
   const std::span<const PoseVertex> poses = graph.poses();
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const MotionError motion =
-        motion_error(poses[i].T_previous_body, poses[i - 1].T_local_body, poses[i].T_local_body);
+    const MotionResidual motion =
+        motion_residual(poses[i].T_previous_body, poses[i - 1].T_local_body, poses[i].T_local_body);
     const Eigen::Matrix3d weighted_to = poses[i].information * motion.J_to;
     const Eigen::Matrix3d weighted_from = poses[i].information * motion.J_from;
     const std::size_t to = row_of(i);

@@ -24,7 +24,7 @@ inline CellIndex cell_of(const Point2& p_cells) {
           static_cast<std::int32_t>(std::floor(p_cells.y_m))};
 }
 
-/// Visits every cell that the straight line between two points (given in cells) passes through, in order,
+/// Visits every cell that the straight line between two points (given in cells) traversals through, in order,
 /// from the first point's cell up to but without the second point's cell. J. Amanatides and A. Woo, "A fast
 /// voxel traversal algorithm for ray tracing", Eurographics 1987; unlike there the steps along each axis are
 /// counted, so that rounding can neither miss the last cell nor run past it.

@@ -15,7 +15,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kFollowsWithinCells = 0.5;
-constexpr std::size_t kMostReturnsMoved = 4000;  // in one update: about a millisecond
+constexpr std::size_t kMaxReturnsMoved = 4000;  // in one update: about a millisecond
 
 }  // namespace
 
@@ -107,7 +107,7 @@ std::size_t MapBuilder::State::follow(const Backend& backend, std::size_t k) {
 
 /// A correction of everything is followed over several updates, in turn, so that none takes long.
 void MapBuilder::State::sweep(const Backend& backend) {
-  for (std::size_t moved = 0; !swept.is_done() && moved < kMostReturnsMoved;)
+  for (std::size_t moved = 0; !swept.is_done() && moved < kMaxReturnsMoved;)
     moved += follow(backend, swept.take(stretches.size()));
 }
 
@@ -159,21 +159,21 @@ std::vector<TileIndex> MapBuilder::settle(const Backend& backend) {
   return state_->drawing.store().publish();
 }
 
-void MapBuilder::retire(const Backend& backend, const Retirement& retirement) {
+void MapBuilder::prune(const Backend& backend, const Pruning& pruning) {
   State& s = *state_;
   s.take_new_scans(backend);
-  for (const ScanRange& scans : retirement.scans.ranges()) {
+  for (const ScanRange& scans : pruning.scans.ranges()) {
     for (ScanIndex scan = scans.first; scan < scans.end; ++scan) {
       const State::Beams beams = s.beams_of(backend, scan);
       s.drawing.rub_out(scan, std::span<const BeamEnd>(beams.data(), beams.size()));
     }
   }
-  s.drawing.remove(retirement.scans);
-  s.swept.remove(retirement.keyframes, s.stretches.size());
-  retirement.keyframes.apply(s.stretches);
-  for (State::Stretch& stretch : s.stretches) stretch.first = retirement.scans.new_index(stretch.first);
-  s.scans_seen -= retirement.scans.size();
-  s.keyframes_seen -= retirement.keyframes.size();
+  s.drawing.remove(pruning.scans);
+  s.swept.remove(pruning.keyframes, s.stretches.size());
+  pruning.keyframes.apply(s.stretches);
+  for (State::Stretch& stretch : s.stretches) stretch.first = pruning.scans.new_index(stretch.first);
+  s.scans_seen -= pruning.scans.size();
+  s.keyframes_seen -= pruning.keyframes.size();
 }
 
 MapTile MapBuilder::tile(TileIndex index) const { return state_->drawing.store().tile(index); }

@@ -28,8 +28,8 @@ class MapBuilder {
   /// all in this and the next updates, those that moved noticeably. Returns the tiles whose published content
   /// changed, in index order.
   std::vector<TileIndex> update(const Backend& backend, bool poses_changed, ScanRange refined = {});
-  /// Rubs out what the backend is about to retire. What is left unknown shows with the next update.
-  void retire(const Backend& backend, const Retirement& retirement);
+  /// Rubs out what the backend is about to prune. What is left unknown shows with the next update.
+  void prune(const Backend& backend, const Pruning& pruning);
   /// Draws every scan exactly where the backend has it. Returns as update() does.
   std::vector<TileIndex> settle(const Backend& backend);
 

@@ -11,7 +11,7 @@ namespace swiftlet {
 struct MapConfig {
   double resolution_m = 0.05;   ///< cell size
   double hit_log_odds = 0.85;   ///< what one beam's end adds to its cell
-  double miss_log_odds = -0.4;  ///< what one beam adds to each cell it passes through
+  double miss_log_odds = -0.4;  ///< what one beam adds to each cell it traversals through
   double clear_range_m = 3.0;   ///< beams clear cells up to this distance at most
 
   /// All that is wrong with it, one line each; empty when usable.

@@ -26,8 +26,8 @@ enum class RangeStatus : std::uint8_t {
 struct RangeSample {
   std::uint32_t sequence = 0;  ///< counts up from 0 within a run
   DeviceTime measured_at{};  ///< when the ranges were measured: the packet's device time less the range's age
-  HostTime stamp{};   ///< Unix time at which the packet holding the ranges was heard (laser logs: the scan's
-                      ///< own stamp, exactly as logged). Names the sample in all outputs.
+  HostTime stamp{};   ///< Unix time at which the packet holding the ranges was received (laser logs: the
+                      ///< scan's own stamp, exactly as logged). Names the sample in all outputs.
   Pose2 T_odom_body;  ///< dead reckoning, interpolated to measured_at
   bool starts_segment =
       false;  ///< the dead reckoning does not continue from the sample before (first sample, reboot,

@@ -9,8 +9,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kLeastLengthM = 4.0;       // of walls along the axis
-constexpr double kLeastShare = 0.4;         // ... and of the length of all walls
+constexpr double kMinLengthM = 4.0;         // of walls along the axis
+constexpr double kMinShare = 0.4;           // ... and of the length of all walls
 constexpr double kRivalRad = radians(12);   // an axis farther off than this is another one ...
 constexpr double kRivalShare = 0.6;         // ... and must have less than this much of the best one's length
 constexpr double kScatterRad = radians(4);  // of walls of one axis: poorly seen ones included
@@ -61,7 +61,7 @@ std::optional<WallAxis> wall_axis(std::span<const WallRun> walls) {
     best_m = supported_m;
     yaw_rad = wall.yaw_rad;
   }
-  if (best_m < kLeastLengthM || best_m < kLeastShare * all_m) return std::nullopt;
+  if (best_m < kMinLengthM || best_m < kMinShare * all_m) return std::nullopt;
   Support support;
   for (int round = 0; round < kRounds; ++round) {
     support = support_of(walls, yaw_rad);

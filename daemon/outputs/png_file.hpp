@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/result.hpp"
-#include "core/mapping/painter.hpp"
+#include "core/mapping/picture/painter.hpp"
 
 namespace swiftlet {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/mapping/map_raster.hpp"
+#include "core/mapping/picture/map_raster.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/png_file.hpp"
 #include "daemon/outputs/ros_map.hpp"
@@ -37,7 +37,7 @@ Status write_picture(const std::filesystem::path& directory, const RunView& run)
 Status write_trajectory(const std::filesystem::path& path, const RunView& run, Pose2 TrajectoryPoint::*pose) {
   return write_file(path, [&](const FileSink& write) {
     std::string line;
-    return for_each_scan(run.backend, run.retired, [&](const TrajectoryPoint& at) {
+    return for_each_scan(run.backend, run.pruned, [&](const TrajectoryPoint& at) {
       line.clear();
       append_tum_line(line, at.stamp, at.*pose);
       write(line);
@@ -69,7 +69,7 @@ std::optional<RunError> run_error(const RunView& run) {
   std::vector<Point2> corrected;
   std::vector<Point2> known;
   auto truth = run.truth.begin();
-  const Status visited = for_each_scan(run.backend, run.retired, [&](const TrajectoryPoint& at) {
+  const Status visited = for_each_scan(run.backend, run.pruned, [&](const TrajectoryPoint& at) {
     while (truth != run.truth.end() && truth->stamp < at.stamp) ++truth;
     if (truth == run.truth.end() || truth->stamp != at.stamp) return;
     odometry.push_back(at.T_odom_body.position());

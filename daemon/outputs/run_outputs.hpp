@@ -12,9 +12,9 @@
 #include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
-#include "daemon/outputs/retired_scans.hpp"
-#include "daemon/run_timing.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "daemon/workers/pruned_scans.hpp"
+#include "daemon/workers/run_timing.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 
@@ -27,8 +27,8 @@ struct RunView {
   RunTiming timing;
   std::vector<StampedPose> truth;  ///< T_world_body in order of time; empty where nobody knows it
   std::string input_uri;
-  SensorModel sensor;                     ///< as used: with the configuration's overrides
-  const RetiredScans* retired = nullptr;  ///< where the backend may have retired scans
+  SensorModel sensor;                   ///< as used: with the configuration's overrides
+  const PrunedScans* pruned = nullptr;  ///< where the backend may have pruned scans
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 

@@ -60,7 +60,7 @@ Json frontend_json(const FrontendCounters& frontend) {
 Json backend_json(const Backend& backend) {
   const BackendCounters& counters = backend.counters();
   return {{"scans", counters.scans},
-          {"scans_retired", counters.scans_retired},
+          {"scans_pruned", counters.scans_pruned},
           {"keyframes", counters.keyframes},
           {"submaps", counters.submaps},
           {"walls", backend.walls().size()},

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/backend/correlative_matcher.hpp"
-#include "core/backend/pose_graph_optimizer.hpp"
-#include "core/backend/refinement.hpp"
+#include "core/backend/loop_closing/correlative_matcher.hpp"
+#include "core/backend/pose_graph/pose_graph_optimizer.hpp"
+#include "core/backend/refinement/batch_refinement.hpp"
 #include "core/base/check.hpp"
 #include "tests/support/loop_corridor.hpp"
 #include "tests/support/random_draws.hpp"

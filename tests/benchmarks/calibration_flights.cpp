@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "core/calibration/systematic_motion.hpp"
-#include "firmware_link/link_sample_source.hpp"
-#include "firmware_link/simulated_link.hpp"
-#include "firmware_link/simulated_ranger.hpp"
-#include "firmware_link/simulated_world.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/simulation/link.hpp"
+#include "firmware_link/simulation/ranger.hpp"
+#include "firmware_link/simulation/world.hpp"
 #include "tools/calibration/calibration_rounds.hpp"
 
 namespace swiftlet {
@@ -40,7 +40,7 @@ constexpr const char* kWorld = "office";
 // Ages that are tried for the true one: from that of a reading just published to that of one which waited a
 // whole period for its log packet, and a little longer.
 constexpr Duration kAgeStep = std::chrono::milliseconds(10);
-constexpr Duration kLongestDelay = std::chrono::milliseconds(30);
+constexpr Duration kMaxDelay = std::chrono::milliseconds(30);
 // A reading that is farther off shows another wall, not another age. Far readings show little of either.
 constexpr double kFarthestOffM = 0.06;
 constexpr double kFarthestReadingM = 2.0;
@@ -83,7 +83,7 @@ Result<PairedRun> fly(const Flight& flight, std::optional<Duration> range_age, c
 
 std::vector<Duration> possible_ages(const VehicleModel& vehicle) {
   std::vector<Duration> ages;
-  const Duration last = vehicle.range_age + vehicle.range_period + kLongestDelay;
+  const Duration last = vehicle.range_age + vehicle.range_period + kMaxDelay;
   for (Duration age = vehicle.range_age; age <= last; age += kAgeStep) ages.push_back(age);
   return ages;
 }
@@ -127,7 +127,7 @@ struct WatchedFlight {
 
 struct TrueAge {
   double whole_s = 0.0;     ///< of the flight
-  double least_s = 0.0;     ///< of its stretches
+  double min_s = 0.0;       ///< of its stretches
   double greatest_s = 0.0;  ///< likewise
 };
 
@@ -213,7 +213,7 @@ Result<nlohmann::ordered_json> measure(const Flight& flight) {
   nlohmann::ordered_json json{{"seed", flight.seed},
                               {"samples", report->samples},
                               {"sideways_m", report->motion.sideways_m},
-                              {"least_age_s", age.least_s},
+                              {"min_age_s", age.min_s},
                               {"greatest_age_s", age.greatest_s},
                               {"figures", nlohmann::ordered_json::array()}};
   const std::array<double, kSystematicErrors> truths{age.whole_s,

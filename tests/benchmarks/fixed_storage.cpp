@@ -12,8 +12,8 @@
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
 #include "core/sensing/sensor_model.hpp"
-#include "daemon/pipeline_queues.hpp"
-#include "daemon/stage_times.hpp"
+#include "daemon/workers/pipeline_queues.hpp"
+#include "daemon/workers/stage_times.hpp"
 
 namespace swiftlet {
 namespace {

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/base/check.hpp"
-#include "daemon/radio_worker.hpp"
-#include "firmware_link/link_sample_source.hpp"
+#include "daemon/workers/radio_worker.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 
 namespace swiftlet {

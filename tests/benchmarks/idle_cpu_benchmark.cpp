@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "core/base/check.hpp"
-#include "daemon/radio_worker.hpp"
-#include "firmware_link/link_sample_source.hpp"
-#include "firmware_link/radio_link.hpp"
-#include "firmware_link/udp_link.hpp"
+#include "daemon/workers/radio_worker.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/link/radio_link.hpp"
+#include "firmware_link/link/udp_link.hpp"
 #include "tests/firmware_link/fake_dongle.hpp"
 #include "tests/firmware_link/udp_peer.hpp"
 #include "tests/support/thread_cpu_time.hpp"
@@ -43,7 +43,7 @@ class QuietVehicle {
   void run() {
     constexpr std::array<std::uint8_t, 1> kNullPacket{0xF3};
     while (!stop_)
-      if (peer_.hear(50)) peer_.say(kNullPacket);
+      if (peer_.on_frame(50)) peer_.say(kNullPacket);
   }
 
   UdpPeer peer_;
@@ -74,7 +74,7 @@ void watch_radio_thread(benchmark::State& state, std::unique_ptr<Link> owned_lin
     state.counters["cpu_percent"] = 100.0 * to_seconds(cpu) / to_seconds(wall);
     state.counters["packets_per_s"] = static_cast<double>(link.statistics().packets_sent) / to_seconds(wall);
   }
-  SWIFTLET_CHECK(link.statistics().condition == LinkCondition::kConnected, "the vehicle is heard");
+  SWIFTLET_CHECK(link.statistics().condition == LinkCondition::kConnected, "the vehicle is received");
 }
 
 void idle_udp(benchmark::State& state) {
@@ -96,7 +96,7 @@ class QuietDongle final : public UsbDevice {
   UsbTransfer bulk_out(std::uint8_t /*endpoint*/, std::span<const std::uint8_t> bytes,
                        Duration /*timeout*/) override {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    answer_ = vehicle_.hear({bytes.begin(), bytes.end()});
+    answer_ = vehicle_.on_frame({bytes.begin(), bytes.end()});
     return {UsbOutcome::kDone, bytes.size()};
   }
   UsbTransfer bulk_in(std::uint8_t /*endpoint*/, std::span<std::uint8_t> buffer,

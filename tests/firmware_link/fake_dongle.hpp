@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "firmware_link/usb_device.hpp"
+#include "firmware_link/link/usb_device.hpp"
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
 
@@ -28,10 +28,10 @@ struct FakeRadioVehicle {
   int down = 1;
   std::deque<Bytes> waiting;    ///< to be sent down
   Bytes last{0xF3};             ///< sent down
-  std::vector<Bytes> accepted;  ///< heard, null packets left out
+  std::vector<Bytes> accepted;  ///< received, null packets left out
 
   /// The acknowledgement's payload.
-  Bytes hear(const Bytes& packet) {
+  Bytes on_frame(const Bytes& packet) {
     if (knows_safelink && packet.size() == 3 && (packet[0] & 0xF3) == 0xF3 && packet[1] == 5) {
       has_safelink = packet[2] != 0;
       up = down = 1;
@@ -94,7 +94,7 @@ class FakeDongle final : public UsbBus {
   UsbOutcome reset_outcome = UsbOutcome::kDone;
   UsbOutcome request_outcome = UsbOutcome::kDone;
   FakeRadioVehicle vehicle;
-  std::function<bool()> hears_us = [] { return true; };
+  std::function<bool()> receives_us = [] { return true; };
   std::deque<Fate> fates;                  ///< of the next packets; delivered beyond
   std::optional<std::uint8_t> raw_status;  ///< instead of the usual 0x01
   Duration exchange_time = std::chrono::milliseconds(1);
@@ -166,10 +166,10 @@ class FakeDongle final : public UsbBus {
     if (fate_ == Fate::kOutStalls) return {UsbOutcome::kStall, 0};
     packets.push_back({clock.now(), bytes});
     clock.sleep_for(exchange_time);
-    const bool is_heard = hears_us() && fate_ != Fate::kPacketLost;
+    const bool is_received = receives_us() && fate_ != Fate::kPacketLost;
     Bytes answer{0x00};
-    if (is_heard) {
-      const Bytes payload = vehicle.hear(bytes);
+    if (is_received) {
+      const Bytes payload = vehicle.on_frame(bytes);
       if (fate_ != Fate::kAcknowledgementLost) {
         answer = payload;
         answer.insert(answer.begin(), raw_status.value_or(0x01));

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware_link/crtp_packet.hpp"
-#include "firmware_link/link.hpp"
-#include "firmware_link/link_packet.hpp"
-#include "firmware_link/log_value.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/crtp/log_value.hpp"
+#include "firmware_link/link/link.hpp"
+#include "firmware_link/link/link_packet.hpp"
 
 namespace swiftlet {
 

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "firmware_link/link_clock.hpp"
+#include "firmware_link/link/link_clock.hpp"
 
 namespace swiftlet {
 

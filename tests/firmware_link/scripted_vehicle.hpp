@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/byte_order.hpp"
-#include "firmware_link/crtp_packet.hpp"
-#include "firmware_link/log_value.hpp"
+#include "firmware_link/crtp/byte_order.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/crtp/log_value.hpp"
 #include "tests/firmware_link/frames.hpp"
 
 namespace swiftlet {
@@ -195,13 +195,13 @@ class ScriptedLink final : public Link {
     if (frames_.empty()) {
       const std::int64_t next_ms = (now_ms / 100 + 1) * 100;
       const std::int64_t patience_ms = timeout / std::chrono::milliseconds(1);
-      const bool heard = next_ms - now_ms <= patience_ms;
-      now_ms = heard ? next_ms : now_ms + patience_ms;
+      const bool is_due = next_ms - now_ms <= patience_ms;
+      now_ms = is_due ? next_ms : now_ms + patience_ms;
       if (now_ms > last_ms) return Error{ErrorCode::kEndOfRecording, "landed"};
-      if (!heard) return Error{ErrorCode::kTimeout, "nothing heard"};
+      if (!is_due) return Error{ErrorCode::kTimeout, "nothing received"};
       for (const Bytes& packet : vehicle.data(static_cast<std::uint32_t>(now_ms - booted_ms)))
         if (reaches(now_ms)) frames_.push_back(received(packet, host_ms(now_ms)));
-      if (frames_.empty()) return Error{ErrorCode::kTimeout, "nothing heard"};
+      if (frames_.empty()) return Error{ErrorCode::kTimeout, "nothing received"};
     }
     const LinkFrame frame = frames_.front();
     frames_.pop_front();

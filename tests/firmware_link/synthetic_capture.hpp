@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_link/capture_writer.hpp"
+#include "firmware_link/capture/capture_writer.hpp"
 #include "tests/firmware_link/frames.hpp"
 
 namespace swiftlet {

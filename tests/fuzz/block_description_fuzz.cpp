@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware_link/block_description.hpp"
-#include "firmware_link/log_session.hpp"
+#include "firmware_link/session/block_description.hpp"
+#include "firmware_link/session/log_session.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name

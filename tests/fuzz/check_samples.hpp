@@ -8,7 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/sensing/range_sample.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 

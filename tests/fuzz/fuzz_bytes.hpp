@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/time.hpp"
-#include "firmware_link/crtp_packet.hpp"
-#include "firmware_link/link.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/link/link.hpp"
 
 namespace swiftlet {
 

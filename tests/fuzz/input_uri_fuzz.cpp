@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/check.hpp"
-#include "firmware_link/input_uri.hpp"
+#include "firmware_link/input/input_uri.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "firmware_link/link_sample_source.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
 #include "tests/fuzz/check_samples.hpp"
 #include "tests/fuzz/fuzz_bytes.hpp"
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/capture_writer.hpp"
-#include "firmware_link/frame_sink.hpp"
-#include "firmware_link/link_sample_source.hpp"
+#include "firmware_link/capture/capture_writer.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/link/frame_sink.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/fuzz/fuzz_bytes.hpp"
 

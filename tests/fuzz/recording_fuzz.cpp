@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 #include "tests/fuzz/check_samples.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/crtp_packet.hpp"
-#include "firmware_link/libusb_bus.hpp"
-#include "firmware_link/link_sample_source.hpp"
-#include "firmware_link/radio_link.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/link/libusb_bus.hpp"
+#include "firmware_link/link/radio_link.hpp"
 #include "tests/support/emulated_flight.hpp"
 #include "tests/support/umockdev_dongle.hpp"
 
@@ -39,9 +39,9 @@ class LogKeeper final : public FrameSink {
  public:
   void take(const LinkFrame& frame) noexcept override {
     if (frame.direction == LinkDirection::kFromVehicle && is_on(frame.packet(), kLogDataTopic))
-      heard.emplace_back(frame.packet().begin() + 1, frame.packet().end());
+      received.emplace_back(frame.packet().begin() + 1, frame.packet().end());
   }
-  std::vector<std::vector<std::uint8_t>> heard;  ///< without the header, of which radios overwrite bits
+  std::vector<std::vector<std::uint8_t>> received;  ///< without the header, of which radios overwrite bits
 };
 
 /// Vehicle, dongle, and the source of samples that a daemon would make.
@@ -142,10 +142,11 @@ TEST_F(EmulatedDongleTest, BringsSixtySecondsOfFlightWithoutASampleLostOrDoubled
   EXPECT_EQ(source_->report().segments, 1U);
   std::vector<SentPacket> queued;
   mock_up_->with([&](EmulatedCrazyradio&) { queued = receiver_->queued_log(); });
-  ASSERT_LE(keeper_.heard.size(), queued.size());
-  EXPECT_LE(queued.size() - keeper_.heard.size(), 3U);  // still on their way
-  for (std::size_t i = 0; i < keeper_.heard.size(); ++i)
-    ASSERT_TRUE(std::ranges::equal(keeper_.heard[i], bytes_of(queued[i].bytes).subspan(1))) << "packet " << i;
+  ASSERT_LE(keeper_.received.size(), queued.size());
+  EXPECT_LE(queued.size() - keeper_.received.size(), 3U);  // still on their way
+  for (std::size_t i = 0; i < keeper_.received.size(); ++i)
+    ASSERT_TRUE(std::ranges::equal(keeper_.received[i], bytes_of(queued[i].bytes).subspan(1)))
+        << "packet " << i;
   EXPECT_EQ(statistics().device_losses, 0U);
   EXPECT_TRUE(statistics().safelink);
 }

@@ -11,13 +11,13 @@
 #include <variant>
 #include <vector>
 
-#include "firmware_link/crazyradio.hpp"
-#include "firmware_link/radio_link.hpp"
+#include "firmware_link/link/crazyradio.hpp"
+#include "firmware_link/link/radio_link.hpp"
 #include "tests/support/emulated_flight.hpp"
 #include "tests/support/log_listener.hpp"
 
 // The radio link on an emulated Crazyradio, minutes of flight in simulated time. What the vehicle's radio
-// queued is the truth that what was heard is held against.
+// queued is the truth that what was received is held against.
 
 namespace swiftlet {
 namespace {
@@ -54,20 +54,20 @@ class EmulatedRadio {
                          const VehicleModel& model = vehicle_on_radio())
       : flight(seed, model), link(flight.bus, flight.clock, address), listener(link, flight.clock) {}
 
-  /// Everything that the vehicle had for us was heard once and in order, but for what is still on its way.
+  /// Everything that the vehicle had for us was received once and in order, but for what is still on its way.
   void expect_none_lost_or_doubled() const {
     const std::vector<Bytes> sent = contents_of(flight.receiver.queued_log());
-    const std::vector<Bytes> heard = contents_of(listener.heard());
-    ASSERT_LE(heard.size(), sent.size());
-    EXPECT_LE(sent.size() - heard.size(), 3U) << "heard " << heard.size() << " of " << sent.size();
-    EXPECT_TRUE(std::equal(heard.begin(), heard.end(), sent.begin()));
+    const std::vector<Bytes> received = contents_of(listener.received());
+    ASSERT_LE(received.size(), sent.size());
+    EXPECT_LE(sent.size() - received.size(), 3U) << "received " << received.size() << " of " << sent.size();
+    EXPECT_TRUE(std::equal(received.begin(), received.end(), sent.begin()));
     EXPECT_EQ(flight.receiver.dropped(), 0U);
   }
   void expect_data_within_two_seconds_of(HostTime cause_gone) const {
     const std::optional<HostTime> data = listener.first_after(cause_gone);
     ASSERT_TRUE(data.has_value());
     EXPECT_LE(*data - cause_gone, kRecovery);
-    EXPECT_EQ(doubled_in(contents_of(listener.heard())), 0U);
+    EXPECT_EQ(doubled_in(contents_of(listener.received())), 0U);
   }
 
   EmulatedFlight flight;
@@ -87,7 +87,7 @@ TEST(EmulatedRadioTest, InitialisesTheDongleInOrder) {
 TEST(EmulatedRadioTest, HearsTenMinutesAtTenHertzWithoutALoss) {
   EmulatedRadio radio;
   radio.listener.listen(minutes(10));
-  EXPECT_GE(radio.listener.heard().size(), 5980U);
+  EXPECT_GE(radio.listener.received().size(), 5980U);
   radio.expect_none_lost_or_doubled();
   EXPECT_TRUE(radio.link.statistics().safelink);
   EXPECT_EQ(radio.link.statistics().condition, LinkCondition::kConnected);
@@ -99,7 +99,7 @@ TEST_P(LossyRadioTest, LosesAndDoublesNothingWithAFifthOfAllPacketsAndAcksLost) 
   EmulatedRadio radio(GetParam());
   radio.flight.receiver.losses = {.packet = 0.2, .ack = 0.2};
   radio.listener.listen(minutes(10));
-  EXPECT_GE(radio.listener.heard().size(), 5980U);
+  EXPECT_GE(radio.listener.received().size(), 5980U);
   radio.expect_none_lost_or_doubled();
 }
 
@@ -107,7 +107,7 @@ TEST_P(LossyRadioTest, LosesAndDoublesNothingWithAFifthOfAllExchangesFailing) {
   EmulatedRadio radio(GetParam());
   radio.flight.receiver.losses = {.packet = 0.2, .ack = 0.2, .retries_share_fate = true};
   radio.listener.listen(minutes(10));
-  EXPECT_GE(radio.listener.heard().size(), 5980U);
+  EXPECT_GE(radio.listener.received().size(), 5980U);
   radio.expect_none_lost_or_doubled();
   const LinkStatistics statistics = radio.link.statistics();
   EXPECT_NEAR(static_cast<double>(statistics.packets_acked) / static_cast<double>(statistics.packets_sent),
@@ -132,14 +132,14 @@ TEST(EmulatedRadioTest, CountsLossesHonestlyWithoutSafelink) {
   radio.flight.receiver.losses = {.packet = 0.2, .ack = 0.2, .retries_share_fate = true};
   radio.listener.listen(minutes(5));
   const std::vector<Bytes> sent = contents_of(radio.flight.receiver.queued_log());
-  const std::vector<Bytes> heard = contents_of(radio.listener.heard());
-  EXPECT_EQ(doubled_in(heard), 0U);
+  const std::vector<Bytes> received = contents_of(radio.listener.received());
+  EXPECT_EQ(doubled_in(received), 0U);
   // A lost ACK takes its payload with it.
-  EXPECT_NEAR(static_cast<double>(heard.size()) / static_cast<double>(sent.size()), 0.8, 0.05);
+  EXPECT_NEAR(static_cast<double>(received.size()) / static_cast<double>(sent.size()), 0.8, 0.05);
   const LinkStatistics statistics = radio.link.statistics();
   EXPECT_FALSE(statistics.safelink);
   EXPECT_EQ(statistics.packets_sent, radio.flight.dongle.packets_sent());
-  EXPECT_EQ(statistics.packets_received, heard.size() + radio.listener.replies());
+  EXPECT_EQ(statistics.packets_received, received.size() + radio.listener.replies());
 }
 
 class LateAnswerTest : public testing::TestWithParam<int> {};
@@ -171,15 +171,15 @@ TEST_P(LateAnswerTest, IsFollowedByEachPacketsOwnAnswer) {
   EXPECT_TRUE(exchange(0).acknowledged);
   flight.dongle.fail_next(DongleFault::kLateAnswer);
   EXPECT_EQ(exchange(1).outcome, UsbOutcome::kTimeout);
-  int heard = 0;
+  int received = 0;
   for (std::uint8_t number = 2; number < 20; ++number) {
     const RadioAnswer answer = exchange(number);
     if (answer.outcome == UsbOutcome::kTimeout) continue;
-    ++heard;
+    ++received;
     const PacketBytes& before = flight.receiver.uplink().end()[-2];
     EXPECT_TRUE(std::ranges::equal(answer.payload, before)) << "packet " << int{number};
   }
-  EXPECT_GE(heard, 15);
+  EXPECT_GE(received, 15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Milliseconds, LateAnswerTest, testing::Values(255, 300, 400, 700));
@@ -304,7 +304,7 @@ TEST(EmulatedRadioTest, HearsARebootedVehicleAgainWithinTwoSecondsAndAllOfIt) {
     radio.expect_data_within_two_seconds_of(gone);
     EXPECT_TRUE(radio.link.statistics().safelink);
     EXPECT_EQ(radio.link.statistics().silences, 1U);
-    EXPECT_TRUE(std::ranges::equal(contents_of(radio.listener.heard()),
+    EXPECT_TRUE(std::ranges::equal(contents_of(radio.listener.received()),
                                    contents_of(radio.flight.receiver.queued_log())));
   }
 }

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/byte_order.hpp"
-#include "firmware_link/crtp_packet.hpp"
-#include "firmware_link/link_sample_source.hpp"
-#include "firmware_link/radio_link.hpp"
+#include "firmware_link/crtp/byte_order.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/link/radio_link.hpp"
 #include "tests/support/emulated_flight.hpp"
 
 // From the emulated Crazyradio to range samples, in simulated time.
@@ -61,10 +61,10 @@ class EmulatedSamples {
   /// One that was measured after this call: what waited in the radio's queue proves nothing.
   void expect_new_sample_within_two_seconds() {
     const HostTime cause_gone = flight.clock.now();
-    const std::size_t heard = samples.size();
+    const std::size_t received = samples.size();
     const std::size_t queued = flight.receiver.queued_log().size();
-    listen(seconds(20), [&] { return samples.size() > heard && is_newer_than_queued(queued); });
-    ASSERT_TRUE(samples.size() > heard && is_newer_than_queued(queued));
+    listen(seconds(20), [&] { return samples.size() > received && is_newer_than_queued(queued); });
+    ASSERT_TRUE(samples.size() > received && is_newer_than_queued(queued));
     EXPECT_LE(sample_at - cause_gone, kRecovery);
   }
   /// Ten a second from sample `first` on, none missing, none twice.

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/evaluation/map_sharpness.hpp"
-#include "firmware_link/capture_reader.hpp"
-#include "firmware_link/capture_writer.hpp"
+#include "firmware_link/capture/capture_reader.hpp"
+#include "firmware_link/capture/capture_writer.hpp"
 #include "tests/support/corrected_run.hpp"
 #include "tests/support/reference_data.hpp"
 #include "tests/support/temporary_file.hpp"
@@ -60,7 +60,7 @@ TEST_P(Flight, DrawsSharpWalls) {
   EXPECT_NEAR(length_m(run.T_map_body), flown_m, 0.1 * flown_m);
   EXPECT_GT(run.counters.closures_accepted, 0U);
   EXPECT_TRUE(run.counters.refined);
-  EXPECT_LT(run.counters.held_back_after_m, run.counters.held_back_before_m);
+  EXPECT_LT(run.counters.held_out_after_m, run.counters.held_out_before_m);
   EXPECT_EQ(run.counters.solver_failures, 0U);
 }
 
@@ -92,7 +92,7 @@ TEST_P(Flight, StillGivesAMapWhenItsCaptureBreaksOffHalfway) {
   EXPECT_LT(cells_hit(run, run.T_map_body), cells_hit(run, dead_reckoned(run)));
 }
 
-/// The capture without what was heard within [from, to) of its first record.
+/// The capture without what was received within [from, to) of its first record.
 void copy_without(const std::string& from_path, const std::string& to_path, Duration from, Duration to) {
   Result<CaptureReader> reader = CaptureReader::open(from_path);
   ASSERT_TRUE(reader.ok());

@@ -14,10 +14,11 @@
 
 #include "core/base/check.hpp"
 #include "daemon/daemon.hpp"
-#include "firmware_link/link_sample_source.hpp"
-#include "firmware_link/simulated_link.hpp"
-#include "firmware_link/simulated_udp_server.hpp"
-#include "firmware_link/udp_link.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/link/udp_link.hpp"
+#include "firmware_link/simulation/link.hpp"
+#include "firmware_link/simulation/udp_server.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
 #include "tests/support/heap_watch.hpp"
 #include "tests/support/recording_publisher.hpp"
@@ -31,14 +32,14 @@ constexpr std::size_t kAsked = 100;  // samples, by which time a vehicle has tol
 /// Through the daemon as fast as it goes. `radio` is the span that the source's own parts may know of; it
 /// begins at the sample of the number `from`.
 void expect_no_heap_calls(SampleSource& source, test::HeapSpan& radio, std::size_t from,
-                          std::size_t least_samples) {
+                          std::size_t min_samples) {
   test::WatchedSource watched(source, radio, from);
   test::WatchfulClock clock("frontend");
   RecordingPublisher publisher;
   Daemon daemon(Configuration{}, watched, clock, InputPolicy{}, publisher);
   const Status outcome = daemon.run(std::stop_token{});
   ASSERT_TRUE(outcome.ok()) << outcome.error().message;
-  EXPECT_GE(watched.samples(), least_samples);
+  EXPECT_GE(watched.samples(), min_samples);
   EXPECT_EQ(daemon.pipeline().frontend().counters().samples, watched.samples());
   EXPECT_EQ(radio.calls().taken, 0U);
   EXPECT_EQ(radio.calls().given_back, 0U);
@@ -109,7 +110,7 @@ TEST_F(WholeRun, OfASimulatedFlightTakesNothingFromTheHeapOnRadioAndFrontend) {
 }
 
 /// A UDP link to a simulated vehicle on the loopback, both in simulated time: it passes while the link has
-/// heard nothing. Over when the vehicle has landed.
+/// received nothing. Over when the vehicle has landed.
 class SimulatedUdpFlight final : public Link {
  public:
   SimulatedUdpFlight(std::shared_ptr<ManualLinkClock> clock, test::HeapSpan& span)

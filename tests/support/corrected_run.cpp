@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/frontend/frontend.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 
 namespace swiftlet {
 

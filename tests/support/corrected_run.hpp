@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/backend/backend.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 

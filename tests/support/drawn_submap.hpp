@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/backend/submap.hpp"
+#include "core/backend/loop_closing/submap.hpp"
 
 namespace swiftlet {
 

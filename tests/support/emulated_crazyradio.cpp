@@ -9,9 +9,9 @@ namespace swiftlet {
 namespace {
 
 constexpr int kLastChannel = 125;
-constexpr std::size_t kLongestPacket = 32;
+constexpr std::size_t kMaxPacket = 32;
 // One in the endpoint and one behind it: then the dongle no longer looks at its OUT endpoint.
-constexpr std::size_t kMostAnswers = 2;
+constexpr std::size_t kMaxAnswers = 2;
 constexpr std::uint8_t kAcked = 0x01;
 
 std::vector<std::uint8_t> answer_of(const AirExchange& exchange) {
@@ -90,14 +90,14 @@ std::optional<DongleFault> EmulatedCrazyradio::take_fault() {
 UsbOutcome EmulatedCrazyradio::bulk_out(std::span<const std::uint8_t> bytes) {
   if (!plugged_in_) return UsbOutcome::kNoDevice;
   if (out_halted_) return UsbOutcome::kStall;
-  if (settings_.carrier || answers_.size() == kMostAnswers) return UsbOutcome::kTimeout;
+  if (settings_.carrier || answers_.size() == kMaxAnswers) return UsbOutcome::kTimeout;
   const std::optional<DongleFault> now = take_fault();
   if (now == DongleFault::kStallOut) {
     out_halted_ = true;
     return UsbOutcome::kStall;
   }
   if (now == DongleFault::kNoAnswer) return UsbOutcome::kDone;
-  const auto packet = bytes.first(std::min(bytes.size(), kLongestPacket));
+  const auto packet = bytes.first(std::min(bytes.size(), kMaxPacket));
   const AirExchange exchange = receiver_.exchange(settings_.air, packet, settings_.retransmissions);
   ++packets_sent_;
   if (!settings_.ack) return UsbOutcome::kDone;

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "firmware_link/simulated_vehicle.hpp"
+#include "firmware_link/simulation/vehicle.hpp"
 #include "tests/support/emulated_crazyradio.hpp"
 #include "tests/support/emulated_receiver.hpp"
 #include "tests/support/emulated_usb.hpp"

@@ -2,9 +2,7 @@
 swiftlet_add_library(swiftlet_emulated_radio
   SOURCES emulated_crazyradio.cpp emulated_receiver.cpp emulated_usb.cpp
   LINK swiftlet_simulation)
-foreach(test emulated_crazyradio emulated_receiver)
-  swiftlet_add_test(${test}_test LINK swiftlet_emulated_radio)
-endforeach()
+swiftlet_add_folder_tests(support_tests LINK swiftlet_emulated_radio)
 
 # The same behind the kernel's USB interface, for the real libusb.
 find_package(PkgConfig REQUIRED)

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -49,7 +49,7 @@ AirExchange EmulatedReceiver::exchange(const AirSetting& dongle, std::span<const
       ack_lost = ack_noise_.chance(losses.ack);
     }
     if (packet_lost) continue;
-    const PacketBytes payload = hear(packet);
+    const PacketBytes payload = on_frame(packet);
     if (ack_lost) continue;
     result.acked = true;
     result.retries = attempt;
@@ -60,7 +60,7 @@ AirExchange EmulatedReceiver::exchange(const AirSetting& dongle, std::span<const
 }
 
 /// The ACK is chosen before the vehicle's processor has even seen the packet: no answer is ever in it.
-PacketBytes EmulatedReceiver::hear(std::span<const std::uint8_t> packet) {
+PacketBytes EmulatedReceiver::on_frame(std::span<const std::uint8_t> packet) {
   if (is_safelink_request(packet)) return echo_safelink_request(packet);
   const bool is_new = !safelink_ || ((packet[0] & kUpBit) != 0) != (up_ != 0);
   if (is_new) up_ ^= 1U;

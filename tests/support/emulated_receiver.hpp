@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/base/time.hpp"
-#include "firmware_link/radio_address.hpp"
-#include "firmware_link/simulated_random.hpp"
-#include "firmware_link/simulated_vehicle.hpp"
+#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/simulation/random.hpp"
+#include "firmware_link/simulation/vehicle.hpp"
 
 namespace swiftlet {
 
@@ -75,7 +75,7 @@ class EmulatedReceiver {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
-  [[nodiscard]] PacketBytes hear(std::span<const std::uint8_t> packet);
+  [[nodiscard]] PacketBytes on_frame(std::span<const std::uint8_t> packet);
   [[nodiscard]] PacketBytes echo_safelink_request(std::span<const std::uint8_t> packet);
   void settle_last();
   [[nodiscard]] PacketBytes next_downlink();

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "firmware_link/crtp_packet.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
 
 namespace swiftlet {
 namespace {

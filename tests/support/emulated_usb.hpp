@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "firmware_link/usb_device.hpp"
+#include "firmware_link/link/usb_device.hpp"
 #include "tests/support/emulated_crazyradio.hpp"
 #include "tests/support/scheduled_link_clock.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware_link/simulated_flight.hpp"
+#include "firmware_link/simulation/flight.hpp"
 
 namespace swiftlet {
 

@@ -19,7 +19,7 @@ struct ForgetfulRun {
     return config;
   }
 
-  /// Calls `before_retiring` with each retirement, while the backend still has the scans, and `after_step`
+  /// Calls `before_retiring` with each pruning, while the backend still has the scans, and `after_step`
   /// after each step with what it did.
   template <typename BeforeRetiring, typename AfterStep>
   void fly(BeforeRetiring before_retiring, AfterStep after_step) {
@@ -30,11 +30,11 @@ struct ForgetfulRun {
             {static_cast<LandmarkId>(100'000 + index_of(step.made.id)), {0.0, 1.0}, {0.5, 1.0}});
       const BackendUpdate update = backend.add(step);
       after_step(update);
-      const Retirement retirement = backend.next_retirement();
-      if (retirement.empty()) continue;
-      before_retiring(retirement);
-      backend.retire(retirement);
-      retired_scans += retirement.scans.size();
+      const Pruning pruning = backend.next_pruning();
+      if (pruning.empty()) continue;
+      before_retiring(pruning);
+      backend.prune(pruning);
+      pruned_scans += pruning.scans.size();
     }
   }
   template <typename BeforeRetiring>
@@ -46,7 +46,7 @@ struct ForgetfulRun {
   std::vector<RangeSample> samples = flight_in_square_room(3500, 2.6, 1.6);
   Frontend frontend{FrontendConfig{}, sensor, BeamLayout::multiranger()};
   Backend backend{config(), sensor, BeamLayout::multiranger()};
-  std::size_t retired_scans = 0;
+  std::size_t pruned_scans = 0;
 };
 
 }  // namespace swiftlet

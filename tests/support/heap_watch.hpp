@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/clock.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "daemon/system/clock.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 // How a test looks over the shoulders of the daemon's threads while they run.
@@ -54,8 +54,8 @@ class WatchfulClock final : public Clock {
     return clock_.now();
   }
   void sleep_until(MonotonicTime wake_at) override { clock_.sleep_until(wake_at); }
-  void wait_for(Bell& bell, std::uint32_t heard, MonotonicTime wake_at) override {
-    clock_.wait_for(bell, heard, wake_at);
+  void wait_for(EventCount& event_count, std::uint32_t received, MonotonicTime wake_at) override {
+    clock_.wait_for(event_count, received, wake_at);
   }
   [[nodiscard]] const HeapSpan& span() const { return span_; }
 

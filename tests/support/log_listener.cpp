@@ -31,7 +31,7 @@ void LogListener::listen(Duration duration) {
     ask();
     const Result<LinkFrame> frame = link_.receive(kReceiveTimeout);
     if (frame) {
-      hear(*frame);
+      on_frame(*frame);
     } else {
       ASSERT_EQ(frame.error().code, ErrorCode::kTimeout);
     }
@@ -46,11 +46,11 @@ void LogListener::ask() {
   EXPECT_TRUE(link_.send(bytes_of(request)).ok());
 }
 
-void LogListener::hear(const LinkFrame& frame) {
+void LogListener::on_frame(const LinkFrame& frame) {
   if (frame.direction == LinkDirection::kToVehicle) return;
   const std::span<const std::uint8_t> packet = frame.packet();
   if (is_on(packet, kLogDataTopic)) {
-    heard_.push_back(frame);
+    received_.push_back(frame);
     data_at_ = frame.at;
     made_ = false;  // should it stay away, it may be gone
   } else if (is_on(packet, kLogControlTopic) && packet.size() >= 4) {
@@ -63,8 +63,8 @@ void LogListener::hear(const LinkFrame& frame) {
 }
 
 std::optional<HostTime> LogListener::first_after(HostTime time) const {
-  const auto frame = std::ranges::find_if(heard_, [&](const LinkFrame& other) { return other.at > time; });
-  return frame == heard_.end() ? std::nullopt : std::optional(frame->at);
+  const auto frame = std::ranges::find_if(received_, [&](const LinkFrame& other) { return other.at > time; });
+  return frame == received_.end() ? std::nullopt : std::optional(frame->at);
 }
 
 }  // namespace swiftlet

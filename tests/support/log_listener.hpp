@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "firmware_link/crtp_packet.hpp"
-#include "firmware_link/link.hpp"
-#include "firmware_link/link_clock.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/link/link.hpp"
+#include "firmware_link/link/link_clock.hpp"
 
 namespace swiftlet {
 
@@ -22,16 +22,16 @@ class LogListener {
   /// Listens that long.
   void listen(Duration duration);
 
-  /// All log packets heard, in order.
-  [[nodiscard]] const std::vector<LinkFrame>& heard() const { return heard_; }
-  /// When the first log packet after `time` was heard; nullopt: none was.
+  /// All log packets received, in order.
+  [[nodiscard]] const std::vector<LinkFrame>& received() const { return received_; }
+  /// When the first log packet after `time` was received; nullopt: none was.
   [[nodiscard]] std::optional<HostTime> first_after(HostTime time) const;
-  /// Answers to requests that were heard.
+  /// Answers to requests that were received.
   [[nodiscard]] std::uint64_t replies() const { return replies_; }
 
  private:
   void ask();
-  void hear(const LinkFrame& frame);
+  void on_frame(const LinkFrame& frame);
 
   Link& link_;
   LinkClock& clock_;
@@ -39,7 +39,7 @@ class LogListener {
   HostTime asked_at_ = HostTime::min();
   HostTime data_at_ = HostTime::min();
   std::uint64_t replies_ = 0;
-  std::vector<LinkFrame> heard_;
+  std::vector<LinkFrame> received_;
 };
 
 }  // namespace swiftlet

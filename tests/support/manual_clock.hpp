@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "daemon/clock.hpp"
+#include "daemon/system/clock.hpp"
 
 namespace swiftlet {
 
@@ -18,8 +18,8 @@ class ManualClock final : public Clock {
            !now_.compare_exchange_weak(seen, wake_at.time_since_epoch())) {
     }
   }
-  /// Rung or not: all the time passes.
-  void wait_for(Bell& /*bell*/, std::uint32_t /*heard*/, MonotonicTime wake_at) override {
+  /// Rung or not: all the time traversals.
+  void wait_for(EventCount& /*event_count*/, std::uint32_t /*received*/, MonotonicTime wake_at) override {
     sleep_until(wake_at);
   }
   void advance(MonotonicTime::duration by) { now_.store(now_.load() + by); }

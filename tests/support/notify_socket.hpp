@@ -42,7 +42,7 @@ class NotifySocket {
   NotifySocket& operator=(const NotifySocket&) = delete;
 
   /// What has come since the last call, in order.
-  std::vector<std::string> heard() {
+  std::vector<std::string> received() {
     std::vector<std::string> all;
     std::array<char, 1024> text{};
     for (ssize_t size = receive(text); size >= 0; size = receive(text))

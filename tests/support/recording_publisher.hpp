@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "daemon/publisher.hpp"
+#include "daemon/publish/publisher.hpp"
 
 namespace swiftlet {
 

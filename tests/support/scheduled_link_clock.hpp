@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "firmware_link/link_clock.hpp"
+#include "firmware_link/link/link_clock.hpp"
 
 namespace swiftlet {
 

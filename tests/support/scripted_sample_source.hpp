@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 
@@ -34,9 +34,9 @@ class ScriptedSampleSource final : public SampleSource {
     return static_cast<double>(next_) / static_cast<double>(samples_.size());
   }
 
-  [[nodiscard]] Duration since_heard() const override { return since_heard_ago; }
+  [[nodiscard]] Duration since_received() const override { return since_received_ago; }
 
-  Duration since_heard_ago{};
+  Duration since_received_ago{};
   LiveStatus live;
   std::optional<VehicleEvent> event;
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/keyframe_chain.hpp"
-#include "core/backend/scan_store.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
+#include "core/backend/store/scan_store.hpp"
 #include "tests/support/dead_reckoning_frontend.hpp"
 
 namespace swiftlet {

@@ -51,8 +51,8 @@ LOG = {"input": "a log", "calibration": {"findings": FINDINGS, "check": None}, "
        "with": relations(0.029, 0.796),
        "seconds": 29.6,
        "wheels": {"relations": 900, "scale": (0.98, 0.004), "missed_yaw_per_metre_rad": None}}
-HALL = {"input": "a hall", "calibration": {"findings": FINDINGS, "check": {"held_back_before_m": 0.0638,
-                                                                         "held_back_after_m": 0.0608}},
+HALL = {"input": "a hall", "calibration": {"findings": FINDINGS, "check": {"held_out_before_m": 0.0638,
+                                                                         "held_out_after_m": 0.0608}},
         "without": {"final": {"cells_20_cm": 1760}}, "with": {"final": {"cells_20_cm": 1630}}, "seconds": 4.2,
         "wheels": None}
 REPORT = {"date": "2026-01-02", "commit": "abc", "machine": "a machine", "missing": [], "flights": [flight(1)],

@@ -35,15 +35,20 @@ class CheckIncludes(unittest.TestCase):
             "core/frontend/b.cpp": SPDX + '#include "core/base/a.hpp"\n#include <vector>\n',
             "daemon/c.cpp": SPDX + '#include "core/base/a.hpp"\n#include <thread>\n',
             "proto/d_t.lcm": "",
-            "daemon/e.cpp": SPDX + '#include "swiftlet/d_t.hpp"\n',
+            "daemon/publish/e.cpp": SPDX + '#include "swiftlet/d_t.hpp"\n',
         }))
 
     def test_refuses_an_include_against_the_direction(self):
         for user, used in (("core/base", "core/geometry"), ("core/frontend", "core/backend"),
-                           ("core/backend", "core/mapping"), ("firmware_link", "core/backend"),
-                           ("core/mapping", "daemon"), ("daemon", "tools"), ("tools", "tests")):
+                           ("core/backend", "core/mapping"), ("core/backend/store", "core/backend/pruning"),
+                           ("firmware_link/link", "core/backend"), ("firmware_link/link", "firmware_link/session"),
+                           ("core/mapping", "daemon"), ("daemon/workers", "daemon/publish"), ("daemon", "tools"),
+                           ("tools", "tests")):
             self.assert_fault({f"{used}/a.hpp": SPDX, f"{user}/b.hpp": SPDX + f'#include "{used}/a.hpp"\n'},
                               f"{user} must not include {used}/a.hpp")
+
+    def test_refuses_a_folder_that_the_plan_does_not_know(self):
+        self.assert_fault({"firmware_link/a.hpp": SPDX}, "firmware_link/a.hpp: its folder")
 
     def test_refuses_a_path_that_does_not_begin_at_the_top(self):
         self.assert_fault({"core/base/a.hpp": SPDX, "core/base/b.hpp": SPDX + '#include "a.hpp"\n'}, "no path")

@@ -68,8 +68,8 @@ class InstructionCounts(unittest.TestCase):
         self.assertEqual(counted[instructions.TOTAL], sum(10**i for i in range(1, 7)))
 
     def test_a_function_that_is_gone_or_has_a_namesake_is_named(self):
-        for profile in (self.profile_of()[:-3], self.profile_of("LiveRefinement::step(char)")):
-            with self.assertRaisesRegex(instructions.Unusable, r"live refinement.*LiveRefinement::step\("):
+        for profile in (self.profile_of()[:-3], self.profile_of("OnlineRefinement::step(char)")):
+            with self.assertRaisesRegex(instructions.Unusable, r"live refinement.*OnlineRefinement::step\("):
                 instructions.counts_of(profile)
 
     def test_slower_and_faster_are_told_beyond_the_tolerance_alone(self):

@@ -15,11 +15,11 @@ import patrol_page  # noqa: E402
 
 STAGE = {"count": 100, "mean_ms": 0.5, "p50_ms": 0.1, "p99_ms": 0.7, "max_ms": 1.5}
 REPORT = {
-    "backend": {"scans": 100, "scans_retired": 60, "keyframes": 10},
+    "backend": {"scans": 100, "scans_pruned": 60, "keyframes": 10},
     "map": {"tiles": 4},
     "trajectory": {"duration_s": 5400},
     "absolute_trajectory_error": {"corrected": {"rmse_m": 0.0625}},
-    "stage_times": {stage: STAGE for stage in ("input", "frontend", "backend", "retirement", "final_pass", "map")},
+    "stage_times": {stage: STAGE for stage in ("input", "frontend", "backend", "pruning", "final_pass", "map")},
     "run_peak_memory_mb": 20.0,
     "peak_memory_mb": 30.0,
 }
@@ -49,7 +49,7 @@ class PatrolPage(unittest.TestCase):
 
     def test_a_row_tells_what_was_kept_and_what_was_retired(self):
         row = self.rows[0]
-        self.assertEqual((row["samples"], row["scans_retired"], row["scans_kept"]), (100, 60, 40))
+        self.assertEqual((row["samples"], row["scans_pruned"], row["scans_kept"]), (100, 60, 40))
         self.assertEqual(row["hours"], 1.5)
 
     def test_the_page_holds_a_line_for_each_length_and_what_is_over_a_limit(self):

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 #include "tests/daemon/outputs/temporary_directory.hpp"
 
 namespace swiftlet {

@@ -24,7 +24,7 @@ REPORT = {
     "map": {"tiles": 4},
     "stage_times": {"input": stage(101, 0.0, 0.0), "frontend": stage(100, 0.1, 1.5), "backend": stage(100, 0.5, 20.0),
                     "final_pass": stage(1, 30.0, 30.0), "map": stage(10, 2.0, 8.0),
-                    "retirement": stage(10, 1.0, 6.0)},
+                    "pruning": stage(10, 1.0, 6.0)},
     "run_peak_memory_mb": 20.0,
     "peak_memory_mb": 30.0,
 }
@@ -37,18 +37,18 @@ class WholeRuns(unittest.TestCase):
         self.assertAlmostEqual(figures["slam_per_scan_ms"], 0.1 + 0.5 + 0.3 + 0.1)
         self.assertEqual(figures["backend_max_ms"], 20.0, "the final pass is none of the backend's calls")
         self.assertEqual(figures["final_pass_ms"], 30.0)
-        self.assertEqual(figures["retirement_max_ms"], 6.0)
+        self.assertEqual(figures["pruning_max_ms"], 6.0)
 
     def test_of_several_runs_maxima_are_the_least_and_the_rest_medians(self):
         runs = [{"frontend_max_ms": m, "mean_per_scan_ms": m} for m in (5.0, 1.0, 2.0)]
         self.assertEqual(whole_runs.combined(runs), {"frontend_max_ms": 1.0, "mean_per_scan_ms": 2.0})
 
     def test_each_limit_is_exceeded_on_its_own(self):
-        good = {"frontend_max_ms": 2.0, "backend_max_ms": 150.0, "retirement_max_ms": 150.0, "mean_per_scan_ms": 0.5}
+        good = {"frontend_max_ms": 2.0, "backend_max_ms": 150.0, "pruning_max_ms": 150.0, "mean_per_scan_ms": 0.5}
         self.assertEqual(whole_runs.over_limits("a log", good, their_mean_ms=2.0), [])
         for key, value, part in [("frontend_max_ms", 2.1, "frontend 2.1 ms, limit 2 ms"),
                                  ("backend_max_ms", 151.0, "backend 151 ms, limit 150 ms"),
-                                 ("retirement_max_ms", 151.0, "retirement 151 ms, limit 150 ms"),
+                                 ("pruning_max_ms", 151.0, "pruning 151 ms, limit 150 ms"),
                                  ("mean_per_scan_ms", 0.6, "mean per scan 0.6 ms, limit 0.5 ms")]:
             [line] = whole_runs.over_limits("a log", {**good, key: value}, their_mean_ms=2.0)
             self.assertTrue(line.startswith("a log: "), line)

@@ -112,7 +112,7 @@ std::string calibration_text(const CalibrationReport& report) {
   for (const CalibrationFinding& finding : report.findings) text += row(finding);
   if (report.check)
     text += fmt::format("  returns held back lie {:.1f} mm off the walls, with what matters set {:.1f} mm\n",
-                        1e3 * report.check->held_back_before_m, 1e3 * report.check->held_back_after_m);
+                        1e3 * report.check->held_out_before_m, 1e3 * report.check->held_out_after_m);
   if (report.check && report.check->is_worse())
     text += "  worse than before: nothing is set; look at the maps of both before you use these figures\n";
   return text;
@@ -129,8 +129,8 @@ std::string calibration_json(const CalibrationReport& report) {
   for (const CalibrationFinding& finding : report.findings) json["findings"].push_back(json_of(finding));
   json["check"] = nullptr;
   if (report.check)
-    json["check"] = {{"held_back_before_m", report.check->held_back_before_m},
-                     {"held_back_after_m", report.check->held_back_after_m},
+    json["check"] = {{"held_out_before_m", report.check->held_out_before_m},
+                     {"held_out_after_m", report.check->held_out_after_m},
                      {"is_worse", report.check->is_worse()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

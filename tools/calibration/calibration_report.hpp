@@ -13,12 +13,12 @@ namespace swiftlet {
 
 /// How well returns that took no part in the final refinement fit the walls of other passes.
 struct CalibrationCheck {
-  double held_back_before_m = 0.0;  ///< with the settings as they were
-  double held_back_after_m = 0.0;   ///< with what matters set
+  double held_out_before_m = 0.0;  ///< with the settings as they were
+  double held_out_after_m = 0.0;   ///< with what matters set
 
   /// The figure differs by some percent between runs that are equally good. More than a tenth worse is a map
   /// in which walls lie double.
-  [[nodiscard]] bool is_worse() const { return held_back_after_m > 1.1 * held_back_before_m; }
+  [[nodiscard]] bool is_worse() const { return held_out_after_m > 1.1 * held_out_before_m; }
 };
 
 /// All that a calibration has to tell.

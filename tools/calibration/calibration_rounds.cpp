@@ -14,12 +14,12 @@ namespace {
 
 // An estimate moves each scan along its twist, which is only right for short moves: then the ranges are
 // paired with dead reckoning anew.
-constexpr int kMostRounds = 3;
+constexpr int kMaxRounds = 3;
 constexpr Duration kSettledAge = std::chrono::milliseconds(5);
-constexpr Duration kLongestAge = std::chrono::seconds(1);
+constexpr Duration kMaxAge = std::chrono::seconds(1);
 
 /// The work is done in this many parts: two for each round, one for the check.
-constexpr int kParts = 2 * kMostRounds + 1;
+constexpr int kParts = 2 * kMaxRounds + 1;
 
 /// One pairing of ranges with dead reckoning, and what came of it.
 struct Round {
@@ -79,7 +79,7 @@ Result<CalibrationCheck> Calibration::check(const CalibrationFindings& findings,
   if (!run) return run.error();
   const Result<MappingRun> map = map_samples(run->samples, sensor, run->beams, next_part());
   if (!map) return map.error();
-  return CalibrationCheck{before.held_back_after_m, map->counters.held_back_after_m};
+  return CalibrationCheck{before.held_out_after_m, map->counters.held_out_after_m};
 }
 
 /// Moves what was found at the last pairing's age to where the first one's stands.
@@ -99,10 +99,9 @@ Result<CalibrationReport> Calibration::run() {
   if (first.samples < 2)
     return Error{ErrorCode::kInvalidInput, name_ + " holds no usable run: too few samples"};
   Round last = first;
-  for (int round = 1; round < kMostRounds && last.estimate; ++round) {
+  for (int round = 1; round < kMaxRounds && last.estimate; ++round) {
     const double shift_s = last.estimate->errors(index_of(SystematicError::kRangeAge));
-    const Duration age =
-        std::clamp(last.sensor.range_age + from_seconds(shift_s), Duration::zero(), kLongestAge);
+    const Duration age = std::clamp(last.sensor.range_age + from_seconds(shift_s), Duration::zero(), kMaxAge);
     if (std::chrono::abs(age - last.sensor.range_age) < kSettledAge) break;
     const Result<Round> again = run_round(age);
     if (!again) return again.error();

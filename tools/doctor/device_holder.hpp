@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware_link/usb_device.hpp"
+#include "firmware_link/link/usb_device.hpp"
 #include "tools/doctor/system_files.hpp"
 
 namespace swiftlet {

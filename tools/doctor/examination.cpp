@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "firmware_link/link_condition.hpp"
+#include "firmware_link/link/link_condition.hpp"
 #include "tools/doctor/lcm_checks.hpp"
 #include "tools/doctor/real_time_checks.hpp"
 #include "tools/doctor/storage_checks.hpp"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/result.hpp"
-#include "firmware_link/input_uri.hpp"
-#include "firmware_link/live_link.hpp"
-#include "firmware_link/toc_cache.hpp"
-#include "firmware_link/usb_device.hpp"
+#include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/input/live_link.hpp"
+#include "firmware_link/link/usb_device.hpp"
+#include "firmware_link/session/toc_cache.hpp"
 #include "tools/doctor/finding.hpp"
 #include "tools/doctor/lcm_url.hpp"
 #include "tools/doctor/network.hpp"

@@ -35,8 +35,8 @@ Finding check_route(const LcmUrl& url, Network& network) {
 }
 
 Finding check_self_test(const LcmUrl& url, Network& network) {
-  if (const Status heard = network.send_to_self(url.group); !heard)
-    return {Mark::kProblem, "lcm self-test", heard.error().message,
+  if (const Status received = network.send_to_self(url.group); !received)
+    return {Mark::kProblem, "lcm self-test", received.error().message,
             "let the firewall pass UDP to " + url.group + ", or route it over lo: " + kRouteOverLoopback};
   return {Mark::kOk, "lcm self-test", "a datagram to " + url.group + " came back", ""};
 }

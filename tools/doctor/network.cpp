@@ -105,10 +105,10 @@ Status SystemNetwork::send_to_self(const std::string& group) {
   if (!set_option(sender.fd(), IPPROTO_IP, IP_MULTICAST_TTL, kStaysHere) ||
       sendto(sender.fd(), kText.data(), kText.size(), 0, generic(target), sizeof target) < 0)
     return failed("cannot send to " + group);
-  char heard[32];
-  const ssize_t size = recv(receiver.fd(), heard, sizeof heard, 0);
+  char received[32];
+  const ssize_t size = recv(receiver.fd(), received, sizeof received, 0);
   if (size < 0) return Error{ErrorCode::kTimeout, "a datagram sent to " + group + " did not come back"};
-  return std::string_view(heard, static_cast<std::size_t>(size)) == kText
+  return std::string_view(received, static_cast<std::size_t>(size)) == kText
              ? Status()
              : Error{ErrorCode::kDamaged, "something else than what was sent came back"};
 }

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = 65'536;
+constexpr std::size_t kMaxBytes = 65'536;
 constexpr std::string_view kBlanks = " \t";
 
 }  // namespace
@@ -27,7 +27,7 @@ bool SystemFiles::exists(const std::string& path) const {
 std::optional<std::string> SystemFiles::read(const std::string& path) const {
   std::ifstream file(real(path), std::ios::binary);
   if (!file) return std::nullopt;
-  std::string text(kMostBytes, '\0');
+  std::string text(kMaxBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   while (!text.empty() && text.back() == '\n') text.pop_back();

@@ -9,8 +9,8 @@
 #include <memory>
 #include <variant>
 
-#include "firmware_link/crazyradio.hpp"
-#include "firmware_link/usb_cable_link.hpp"
+#include "firmware_link/link/crazyradio.hpp"
+#include "firmware_link/link/usb_cable_link.hpp"
 #include "tools/doctor/device_holder.hpp"
 
 namespace swiftlet {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware_link/radio_address.hpp"
-#include "firmware_link/usb_device.hpp"
+#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/link/usb_device.hpp"
 #include "tools/doctor/finding.hpp"
 #include "tools/doctor/system_files.hpp"
 

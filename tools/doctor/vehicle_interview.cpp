@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "firmware_link/link_packet.hpp"
+#include "firmware_link/link/link_packet.hpp"
 
 namespace swiftlet {
 namespace {
@@ -27,18 +27,18 @@ std::optional<CrtpPacket> VehicleInterview::next_request(HostTime now) {
   return log_ended_at_ ? inventory_.next_request(now) : handshake_.next_request(now);
 }
 
-void VehicleInterview::hear(const LinkFrame& frame) {
-  const std::optional<LogRecord> record = session_.hear(frame);
+void VehicleInterview::on_frame(const LinkFrame& frame) {
+  const std::optional<LogRecord> record = session_.on_frame(frame);
   if (frame.direction != LinkDirection::kFromVehicle) return;
   answered_ = true;
   if (record) {
     logs_ = true;
-    monitor_.hear(*record);
+    monitor_.on_frame(*record);
   }
-  if (log_ended_at_) return inventory_.hear(frame.packet());
-  handshake_.hear(frame.packet());
+  if (log_ended_at_) return inventory_.on_frame(frame.packet());
+  handshake_.on_frame(frame.packet());
   for (const CrtpPacket& reply : handshake_.take_cached_replies())
-    static_cast<void>(session_.hear(frame_of(LinkDirection::kFromVehicle, frame.at, bytes_of(reply))));
+    static_cast<void>(session_.on_frame(frame_of(LinkDirection::kFromVehicle, frame.at, bytes_of(reply))));
   if (handshake_.finished() || handshake_.failure()) log_ended_at_ = frame.at;
 }
 
@@ -73,7 +73,7 @@ VehicleFacts interview_vehicle(Link& link, LinkClock& clock, TocCache& cache,
   for (HostTime now = begin; !interview.finished(now) && !is_hopeless(now); now = clock.now()) {
     if (const std::optional<CrtpPacket> request = interview.next_request(now))
       static_cast<void>(link.send(bytes_of(*request)));
-    if (const Result<LinkFrame> frame = link.receive(kReceiveTimeout)) interview.hear(*frame);
+    if (const Result<LinkFrame> frame = link.receive(kReceiveTimeout)) interview.on_frame(*frame);
   }
   VehicleFacts facts = interview.facts();
   facts.link = link.statistics().condition;

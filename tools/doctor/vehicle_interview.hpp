@@ -8,21 +8,21 @@
 
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
-#include "firmware_link/link.hpp"
-#include "firmware_link/link_clock.hpp"
-#include "firmware_link/link_statistics.hpp"
-#include "firmware_link/live_status.hpp"
-#include "firmware_link/log_handshake.hpp"
-#include "firmware_link/log_session.hpp"
-#include "firmware_link/toc_cache.hpp"
-#include "firmware_link/vehicle_inventory.hpp"
-#include "firmware_link/vehicle_monitor.hpp"
+#include "firmware_link/link/link.hpp"
+#include "firmware_link/link/link_clock.hpp"
+#include "firmware_link/link/link_statistics.hpp"
+#include "firmware_link/session/live_status.hpp"
+#include "firmware_link/session/log_handshake.hpp"
+#include "firmware_link/session/log_session.hpp"
+#include "firmware_link/session/toc_cache.hpp"
+#include "firmware_link/session/vehicle_inventory.hpp"
+#include "firmware_link/session/vehicle_monitor.hpp"
 
 namespace swiftlet {
 
 /// What a vehicle told of itself.
 struct VehicleFacts {
-  bool answered = false;    ///< anything was heard from it
+  bool answered = false;    ///< anything was received from it
   int protocol = 0;         ///< CRTP protocol version; 0: not told
   std::string firmware;     ///< "2026.08"; empty: not told
   std::string device_type;  ///< "Crazyflie 2.1"
@@ -43,11 +43,11 @@ class VehicleInterview {
 
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   /// A frame of either direction.
-  void hear(const LinkFrame& frame);
+  void on_frame(const LinkFrame& frame);
 
   /// All is told; or the vehicle logs, but not the rest.
   [[nodiscard]] bool finished(HostTime now) const;
-  /// Anything was heard from the vehicle.
+  /// Anything was received from the vehicle.
   [[nodiscard]] bool answered() const { return answered_; }
   [[nodiscard]] VehicleFacts facts() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/evaluation/evaluate.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

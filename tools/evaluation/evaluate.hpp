@@ -12,7 +12,7 @@
 #include "core/evaluation/relation_error.hpp"
 #include "core/evaluation/stamped_path.hpp"
 #include "core/evaluation/trajectory_error.hpp"
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 #include "tools/evaluation/reference_kind.hpp"
 
 namespace swiftlet {

@@ -10,13 +10,13 @@
 #include <cmath>
 #include <string_view>
 
-#include "firmware_link/gzip_lines.hpp"
+#include "firmware_link/file/gzip_lines.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::size_t kLongestQuote = 40;
+constexpr std::size_t kMaxQuote = 40;
 
 std::vector<std::string_view> columns_of(std::string_view line) {
   std::vector<std::string_view> columns;
@@ -32,7 +32,7 @@ std::vector<std::string_view> columns_of(std::string_view line) {
 
 /// Fit for a message, whatever the file holds.
 std::string quoted(std::string_view text) {
-  std::string quote(text.substr(0, kLongestQuote));
+  std::string quote(text.substr(0, kMaxQuote));
   std::replace_if(
       quote.begin(), quote.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return quote;

@@ -7,21 +7,21 @@
 #include <algorithm>
 #include <vector>
 
-#include "firmware_link/input_file.hpp"
+#include "firmware_link/file/input_file.hpp"
 #include "tools/evaluation/number_rows.hpp"
 #include "tools/evaluation/tum_file.hpp"
 
 namespace swiftlet {
 namespace {
 
-constexpr double kLongestRelationS = 24.0 * 3600.0;
+constexpr double kMaxRelationS = 24.0 * 3600.0;
 constexpr const char* kRemedy = "say which with --relations or --truth";
 
 Result<ReferenceKind> kind_of(const std::vector<NumberRow>& rows, const std::string& path) {
   const auto earlier = [](const NumberRow& a, const NumberRow& b) { return a.value[0] < b.value[0]; };
   const auto [first, last] = std::minmax_element(rows.begin(), rows.end(), earlier);
   const double from_s = first->value[0];
-  const double to_s = last->value[0] + kLongestRelationS;
+  const double to_s = last->value[0] + kMaxRelationS;
   const auto no_rotation = std::find_if_not(rows.begin(), rows.end(), has_unit_quaternion);
   const auto no_stamp = std::find_if_not(rows.begin(), rows.end(), [&](const NumberRow& row) {
     return row.value[1] >= from_s && row.value[1] <= to_s;

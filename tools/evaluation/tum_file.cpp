@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "firmware_link/attitude.hpp"
+#include "firmware_link/sample/attitude.hpp"
 
 namespace swiftlet {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include "core/mapping/painter.hpp"
+#include "core/mapping/picture/painter.hpp"
 #include "tools/latency/timing_report.hpp"
 
 namespace swiftlet {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
-#include "daemon/stage_times.hpp"
+#include "daemon/workers/stage_times.hpp"
 
 namespace swiftlet {
 

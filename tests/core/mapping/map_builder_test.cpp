@@ -158,14 +158,14 @@ TEST(MapBuilder, ReportsExactlyTheTilesWhoseContentChanged) {
   }
 }
 
-TEST(MapBuilder, RubsOutWhatIsRetired) {
+TEST(MapBuilder, RubsOutWhatIsPruned) {
   ForgetfulRun run;
   MapBuilder followed(MapConfig{}, run.sensor);
-  run.fly([&](const Retirement& retirement) { followed.retire(run.backend, retirement); },
+  run.fly([&](const Pruning& pruning) { followed.prune(run.backend, pruning); },
           [&](const BackendUpdate& update) {
             followed.update(run.backend, update.poses_changed, update.refined);
           });
-  ASSERT_GT(run.retired_scans, 1000U);
+  ASSERT_GT(run.pruned_scans, 1000U);
   followed.settle(run.backend);
   MapBuilder drawn_at_once(MapConfig{}, run.sensor);
   drawn_at_once.settle(run.backend);

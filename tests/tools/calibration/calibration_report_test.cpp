@@ -9,7 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "daemon/configuration.hpp"
+#include "daemon/config/configuration.hpp"
 
 namespace swiftlet {
 namespace {

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <memory>
 
-#include "firmware_link/sample_source.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
 
 namespace swiftlet {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/usb_device.hpp"
+#include "firmware_link/link/usb_device.hpp"
 
 namespace swiftlet {
 

@@ -18,13 +18,13 @@ using testing::SizeIs;
 class FakeNetwork final : public Network {
  public:
   std::optional<NetworkRoute> route = NetworkRoute{"eth0", false, true};
-  Status heard;
+  Status received;
   int sent = 0;
 
   std::optional<NetworkRoute> route_to(const std::string& /*address*/) override { return route; }
   Status send_to_self(const std::string& /*group*/) override {
     ++sent;
-    return heard;
+    return received;
   }
 };
 
@@ -80,7 +80,7 @@ TEST_F(LcmChecks, WarnsWhereOthersAreMeantToHearButTheRouteStaysHere) {
 }
 
 TEST_F(LcmChecks, ADatagramThatDoesNotComeBackIsAProblem) {
-  network_.heard = Error{ErrorCode::kTimeout, "a datagram did not come back"};
+  network_.received = Error{ErrorCode::kTimeout, "a datagram did not come back"};
   const Findings findings = check();
   EXPECT_EQ(findings[1].mark, Mark::kProblem);
   EXPECT_THAT(findings[1].remedy, HasSubstr("firewall"));

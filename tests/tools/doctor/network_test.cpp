@@ -28,8 +28,8 @@ TEST(SystemNetwork, KnowsTheRouteOfThisMachineToItself) {
 TEST(SystemNetwork, HearsItsOwnMulticastWhereThereIsARoute) {
   SystemNetwork network;
   if (!network.route_to(kGroup)) GTEST_SKIP() << "no route to multicast groups on this machine";
-  const Status heard = network.send_to_self(kGroup);
-  EXPECT_TRUE(heard.ok()) << heard.error().message;
+  const Status received = network.send_to_self(kGroup);
+  EXPECT_TRUE(received.ok()) << received.error().message;
 }
 
 // Exit codes of the child that lives in an empty network.
@@ -39,8 +39,8 @@ constexpr int kMayNotUnshare = 2;
 
 bool finds_no_route() {
   SystemNetwork network;
-  const Status heard = network.send_to_self(kGroup);
-  return !network.route_to(kGroup) && !heard;
+  const Status received = network.send_to_self(kGroup);
+  return !network.route_to(kGroup) && !received;
 }
 
 void set(sockaddr& place, in_addr_t address) {

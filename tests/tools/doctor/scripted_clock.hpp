@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include "firmware_link/link_clock.hpp"
+#include "firmware_link/link/link_clock.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 
 namespace swiftlet {

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/loop_closing/correlative_matcher.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace swiftlet {
+namespace {
+
+constexpr int kTileLevel = 3;  // blocks of which are tried pose by pose, for they are one tile
+static_assert(1 << kTileLevel == TiledByteGrid::kSide);
+// How much score a match at the edge of the window gives up against one at its centre: less than any real
+// difference, enough to settle ties.
+constexpr double kEdgePenalty = 0.02;
+// How sharply the likelihood of a pose falls with its score (Olson 2009, section IV.D, takes the score's
+// exponential).
+constexpr double kLikelihoodPerScore = 60.0;
+// No match on these grids is better than this, whatever the scores say.
+constexpr double kFloorSigmaM = 0.05;
+constexpr double kFloorSigmaYawRad = 0.015;
+constexpr double kMinSpreadM = 1.0;  // how far around the optimum the scores are looked at: as far as the
+constexpr double kMaxSpreadM = 4.0;  // window reaches, within these bounds
+constexpr int kSpreadStride = 2;     // cells
+constexpr int kYawSpreadSteps = 4;
+// A pose that lays fewer of the points on ground the submap knows is neither a match nor compared with one:
+// one wall of a corridor laid on the other would look better than both in place.
+constexpr double kMinKnownShare = 0.6;
+// A best pose farther out than this share of the window is no optimum: the walls draw it on, as they do along
+// a corridor towards whatever part of it the submap covers.
+constexpr double kEdgeOfWindow = 0.95;
+
+double farthest_m(std::span<const Point2> points) {
+  double farthest = 0.5;
+  for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
+  return farthest;
+}
+
+/// Enough that the whole search is a handful of blocks.
+int levels_for(int linear_steps) {
+  const auto farthest = static_cast<unsigned>(std::max(1, linear_steps - 1));
+  return 1 + static_cast<int>(std::bit_width(farthest));
+}
+
+/// Of submap cells, which hold 255 times theirs.
+double mean_probability(std::uint32_t sum, std::size_t count) {
+  return static_cast<double>(sum) / (255.0 * static_cast<double>(count));
+}
+
+std::vector<std::uint8_t> known_of(std::span<const std::uint8_t> submap_cells) {
+  std::vector<std::uint8_t> known(submap_cells.size());
+  std::transform(submap_cells.begin(), submap_cells.end(), known.begin(),
+                 [](std::uint8_t value) { return static_cast<std::uint8_t>(value != 0 ? 1 : 0); });
+  return known;
+}
+
+/// The sums at `side` x `side` positions, kSpreadStride apart from (x, y) on, row by row.
+std::vector<std::uint32_t> sums_of_square(const TiledByteGrid& tiles, std::span<const CellIndex> cells, int x,
+                                          int y, int side) {
+  std::vector<std::uint32_t> square(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  for (int row = 0; row < side; row += TiledByteGrid::kSide) {
+    for (int column = 0; column < side; column += TiledByteGrid::kSide) {
+      const TiledByteGrid::Sums sums = tiles.sums(cells, x + kSpreadStride * column, y + kSpreadStride * row);
+      const int count = std::min(TiledByteGrid::kSide, side - column);
+      for (int k = 0; k < TiledByteGrid::kSide && row + k < side; ++k) {
+        const int from = k * TiledByteGrid::kSide;
+        const int to = (row + k) * side + column;
+        std::copy_n(sums.begin() + from, count, square.begin() + to);
+      }
+    }
+  }
+  return square;
+}
+
+/// Weighted moments of steps from the optimum.
+struct Moments {
+  double weight = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  void add(double w, const Eigen::Vector3d& d) {
+    weight += w;
+    first += w * d;
+    second += w * d * d.transpose();
+  }
+  [[nodiscard]] Eigen::Vector3d mean() const { return first / weight; }
+  [[nodiscard]] Eigen::Matrix3d covariance() const { return second / weight - mean() * mean().transpose(); }
+};
+
+/// A scan can only match where the submap covers it: along a bare corridor the scores fall off at the
+/// submap's ends for no other reason, and that is no evidence. What the coverage alone would say of the
+/// position is taken out of the information. Where nothing is left, next to nothing is told: many such
+/// matches of one passage must not add up to a place along it.
+void take_out_coverage(const Eigen::Matrix3d& coverage, double cell_m, Eigen::Matrix3d& covariance) {
+  constexpr double kMinInformation = 1e-4;  // 100 m
+  Eigen::Matrix2d covered = coverage.topLeftCorner<2, 2>();
+  covered.diagonal().array() += cell_m * cell_m;
+  Eigen::Matrix3d information = covariance.inverse();
+  information.topLeftCorner<2, 2>() -= covered.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information);
+  const Eigen::Vector3d weights = solver.eigenvalues().cwiseMax(kMinInformation);
+  covariance =
+      solver.eigenvectors() * weights.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
+struct CorrelativeMatcher::Block {
+  int level = 0;
+  int x = 0;
+  int y = 0;
+  int yaw = 0;
+  double score = 0.0;
+  double bound = 0.0;  ///< no pose in the block is preferred more
+};
+
+CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
+                                       const SearchWindow& window)
+    : grid_(submap.geometry),
+      submap_cells_(submap.cells),
+      window_(window),
+      linear_steps_(static_cast<int>(std::ceil(window.radius_m / grid_.resolution_m))),
+      pyramid_(submap.geometry, submap.cells, levels_for(linear_steps_)),
+      tiles_(submap.geometry, submap.cells, 1) {
+  // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
+  const double ratio = grid_.resolution_m / farthest_m(points_scan);
+  angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
+  yaw_steps_ = static_cast<int>(std::ceil(window.angle_rad / angle_step_rad_));
+  cells_by_yaw_.resize(2 * static_cast<std::size_t>(yaw_steps_) + 1);
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
+    const Pose2 T(window.T_submap_scan.x_m(), window.T_submap_scan.y_m(),
+                  window.T_submap_scan.yaw_rad() + yaw * angle_step_rad_);
+    auto& list = cells_by_yaw_[slot(yaw)];
+    list.reserve(points_scan.size());
+    for (const Point2& p : points_scan) list.push_back(grid_.cell(T * p));
+  }
+}
+
+Pose2 CorrelativeMatcher::T_submap_scan(const DiscreteMatch& match) const {
+  const double cell_m = grid_.resolution_m;
+  const Pose2& predicted = window_.T_submap_scan;
+  return {predicted.x_m() + match.steps_x * cell_m, predicted.y_m() + match.steps_y * cell_m,
+          predicted.yaw_rad() + match.steps_yaw * angle_step_rad_};
+}
+
+double CorrelativeMatcher::preference(int steps_x, int steps_y, int steps_yaw) const {
+  const double linear = std::max(1, linear_steps_);
+  const double angular = std::max(1, yaw_steps_);
+  return -kEdgePenalty * ((steps_x * steps_x + steps_y * steps_y) / (linear * linear) +
+                          steps_yaw * steps_yaw / (angular * angular));
+}
+
+double CorrelativeMatcher::block_score(const Block& block) const {
+  std::uint32_t sum = 0;
+  const auto& list = cells(block.yaw);
+  for (const CellIndex& c : list) sum += pyramid_.max_at(block.level, c.x + block.x, c.y + block.y);
+  return mean_probability(sum, list.size());
+}
+
+CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(std::uint32_t sum, std::uint32_t known,
+                                                               std::size_t points) {
+  return {static_cast<double>(sum) / (255.0 * std::max(known, 1U)),
+          static_cast<double>(known) / static_cast<double>(points)};
+}
+
+CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const DiscreteMatch& at) const {
+  std::uint32_t sum = 0;
+  std::uint32_t known = 0;
+  const auto& list = cells(at.steps_yaw);
+  for (const CellIndex& c : list) {
+    const std::uint8_t value = pyramid_.max_at(0, c.x + at.steps_x, c.y + at.steps_y);
+    sum += value;
+    known += value != 0 ? 1 : 0;
+  }
+  return known_cells(sum, known, list.size());
+}
+
+CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw) const {
+  Block block{level, x, y, yaw, 0.0, 0.0};
+  block.score = block_score(block);
+  const int reach = (1 << level) - 1;
+  const int nearest_x = std::clamp(0, x, x + reach);
+  const int nearest_y = std::clamp(0, y, y + reach);
+  block.bound = block.score + preference(nearest_x, nearest_y, yaw);
+  return block;
+}
+
+void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMatch& best) const {
+  if (block.bound <= best.preferred || block.score < min_score) return;
+  if (block.level <= kTileLevel) {
+    search_all_of(block, min_score, best);
+    return;
+  }
+  const int half = 1 << (block.level - 1);
+  Block children[4];
+  int count = 0;
+  for (const int dy : {0, half}) {
+    for (const int dx : {0, half}) {
+      if (block.x + dx > linear_steps_ || block.y + dy > linear_steps_) continue;
+      children[count++] = make_block(block.level - 1, block.x + dx, block.y + dy, block.yaw);
+    }
+  }
+  std::stable_sort(children, children + count,
+                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
+  for (int i = 0; i < count; ++i) search(children[i], min_score, best);
+}
+
+void CorrelativeMatcher::search_all_of(const Block& block, double min_score, DiscreteMatch& best) const {
+  const auto& list = cells(block.yaw);
+  const TiledByteGrid::Sums sums = tiles_.sums(list, block.x, block.y);
+  const int side = 1 << block.level;
+  for (int y = block.y; y < block.y + side && y <= linear_steps_; ++y) {
+    for (int x = block.x; x < block.x + side && x <= linear_steps_; ++x) {
+      const int at = TiledByteGrid::kSide * (y - block.y) + x - block.x;
+      const double score = mean_probability(sums[static_cast<std::size_t>(at)], list.size());
+      const double preferred = score + preference(x, y, block.yaw);
+      if (score >= min_score && preferred > best.preferred) best = {x, y, block.yaw, score, preferred};
+    }
+  }
+}
+
+std::optional<DiscreteMatch> CorrelativeMatcher::best_by_branch_and_bound(double min_score) const {
+  const int level = pyramid_.levels() - 1;
+  std::vector<Block> roots;
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
+    for (int y = -linear_steps_; y <= linear_steps_; y += 1 << level) {
+      for (int x = -linear_steps_; x <= linear_steps_; x += 1 << level) {
+        const Block root = make_block(level, x, y, yaw);
+        if (root.score >= min_score) roots.push_back(root);
+      }
+    }
+  }
+  std::stable_sort(roots.begin(), roots.end(),
+                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
+  DiscreteMatch best;
+  best.score = best.preferred = -1.0;
+  for (const Block& root : roots) search(root, min_score, best);
+  if (best.score < min_score) return std::nullopt;
+  return best;
+}
+
+std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_score) const {
+  DiscreteMatch best;
+  best.score = best.preferred = -1.0;
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
+    for (int y = -linear_steps_; y <= linear_steps_; ++y) {
+      for (int x = -linear_steps_; x <= linear_steps_; ++x) {
+        const Block one = make_block(0, x, y, yaw);
+        if (one.score >= min_score && one.bound > best.preferred) best = {x, y, yaw, one.score, one.bound};
+      }
+    }
+  }
+  if (best.score < min_score) return std::nullopt;
+  return best;
+}
+
+/// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
+/// lies between the cells: the refinement below the grid's resolution. Every second cell is enough under a
+/// kernel of three.
+void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_score,
+                                       MatchResult& result) const {
+  const double cell_m = grid_.resolution_m;
+  const double reach_m = std::clamp(window_.radius_m, kMinSpreadM, kMaxSpreadM);
+  const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
+  const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - kYawSpreadSteps);
+  const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
+  const int side = 2 * reach / kSpreadStride + 1;  // positions
+  const TiledByteGrid values(grid_, submap_cells_, kSpreadStride);
+  const TiledByteGrid knowns(grid_, known_of(submap_cells_), kSpreadStride);
+  Moments likely;
+  Moments covered;
+  for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
+    const auto& list = cells(yaw);
+    const auto sums = sums_of_square(values, list, best.steps_x - reach, best.steps_y - reach, side);
+    const auto known = sums_of_square(knowns, list, best.steps_x - reach, best.steps_y - reach, side);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const KnownCells at = known_cells(sums[i], known[i], list.size());
+      if (at.share < kMinKnownShare) continue;
+      const int dx = kSpreadStride * (static_cast<int>(i) % side) - reach;
+      const int dy = kSpreadStride * (static_cast<int>(i) / side) - reach;
+      const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
+      // Points on unknown ground speak neither for the pose nor against it.
+      likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - best_score)), d);
+      covered.add(1.0, d);
+    }
+  }
+  result.covariance = likely.covariance();
+  result.covariance.diagonal() += Eigen::Vector3d(kFloorSigmaM * kFloorSigmaM, kFloorSigmaM * kFloorSigmaM,
+                                                  kFloorSigmaYawRad * kFloorSigmaYawRad);
+  take_out_coverage(covered.covariance(), cell_m, result.covariance);
+  const Pose2 T = T_submap_scan(best);
+  const Eigen::Vector3d mean = likely.mean();
+  result.T_submap_scan = Pose2(T.x_m() + mean.x(), T.y_m() + mean.y(), T.yaw_rad() + mean.z());
+}
+
+std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
+  const std::optional<DiscreteMatch> best = best_by_branch_and_bound(min_score);
+  if (!best) return std::nullopt;
+  if (std::max(std::abs(best->steps_x), std::abs(best->steps_y)) > kEdgeOfWindow * linear_steps_)
+    return std::nullopt;
+  const KnownCells known = known_cells(*best);
+  if (known.share < kMinKnownShare) return std::nullopt;
+  MatchResult result;
+  result.T_submap_scan_best = T_submap_scan(*best);
+  result.score = best->score;
+  spread_around(*best, known.score, result);
+  return result;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/backend/loop_closing/loop_closure.hpp"
+#include "core/backend/loop_closing/submap.hpp"
+#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
+
+namespace swiftlet {
+
+/// What one query found.
+struct FoundLoops {
+  std::vector<LoopClosure> sure;   ///< scores of at least config.min_score: closures
+  std::vector<LoopClosure> maybe;  ///< of at least config.min_group_score: each alone proves nothing
+};
+
+/// Finds where the recent travel overlaps earlier submaps (Algorithm 3, lines 1-2).
+class LoopDetector {
+ public:
+  /// Views all its arguments, which must outlive it.
+  LoopDetector(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
+      : config_(&config), scans_(&scans), chain_(&chain) {}
+
+  /// Matches the recent multiscan, as seen from keyframe `query`, against every submap it may overlap, given
+  /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `tried` counts
+  /// the submaps searched. Allocates.
+  FoundLoops find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
+                  const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
+                  std::uint64_t& tried) const;
+
+ private:
+  struct Candidate;
+  [[nodiscard]] ScanRange recent_scans(KeyframeId query) const;
+  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, std::span<const Point2> points_query,
+                                                  std::span<const std::shared_ptr<const Submap>> submaps,
+                                                  const PoseGraph& graph) const;
+
+  const BackendConfig* config_;
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/backend/config/backend_config.hpp"
+#include "core/backend/loop_closing/grid_geometry.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
+#include "core/base/ids.hpp"
+
+namespace swiftlet {
+
+/// A stretch of travel as a grid of occupancy probabilities in the frame of its reference keyframe, with the
+/// max kernel of eq. 22 applied. Immutable once built: shared as shared_ptr<const Submap>. A byte holds
+/// 255 * p(occupied); unknown cells hold 0.
+struct Submap {
+  KeyframeId reference{};  ///< its frame: the keyframe in the middle
+  KeyframeId first{};
+  KeyframeId last{};  ///< scans from `first` up to, not including, `last`
+  GridGeometry geometry;
+  std::vector<std::uint8_t> cells;  ///< row by row, with the kernel
+  Point2 low_m;                     ///< box around all hits and the path, in the submap's frame
+  Point2 high_m;
+};
+
+/// Draws the scans made between two keyframes. `T_w_keyframe`: the keyframes in one continuous frame.
+/// Precondition: first < last. Allocates.
+Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, const KeyframeChain& chain,
+                    std::span<const Pose2> T_w_keyframe, const BackendConfig& config);
+
+}  // namespace swiftlet

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/backend/loop_closing/grid_geometry.hpp"
+
+namespace swiftlet {
+
+/// A byte grid for summing what lies under many points, at 8 x 8 positions of the points at once: eight bytes
+/// of a row are added in one go, which is many times faster than one position after the other. Holds a copy
+/// of the grid. Frozen once built.
+class TiledByteGrid {
+ public:
+  static constexpr int kSide = 8;
+  using Sums = std::array<std::uint32_t, std::size_t{kSide} * kSide>;  ///< row by row
+
+  /// `bytes` has geometry.cell_count() values, row by row. Positions lie `stride` cells apart, 1 or 2.
+  /// Allocates.
+  TiledByteGrid(const GridGeometry& geometry, std::span<const std::uint8_t> bytes, int stride);
+
+  /// The sums with all of `cells` moved by (x + stride * column, y + stride * row). Outside the grid is 0.
+  [[nodiscard]] Sums sums(std::span<const CellIndex> cells, int x, int y) const;
+
+ private:
+  [[nodiscard]] const std::uint8_t* tile_at(int x, int y) const;
+
+  int stride_;
+  int columns_;  // of a plane, with a margin on both sides
+  int rows_;
+  std::vector<std::vector<std::uint8_t>> planes_;  // every stride-th column and row, by where they begin
+};
+
+}  // namespace swiftlet

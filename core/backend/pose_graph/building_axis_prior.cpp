@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pose_graph/building_axis_prior.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kSigmas = 4.0;  // wheels that slip in a turn lose more than their model says
+// That the heading is off by this much, and not the other way round by the rest of a quarter turn: 400 to 1.
+constexpr double kMinLogOdds = 6.0;
+constexpr double kSharedWalls =
+    3.0;  // headings a few metres apart are told by the same walls: they err together
+
+double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
+  return graph.T_map_keyframe[index_of(keyframe)].yaw_rad();
+}
+
+bool is_told(double off_rad, double variance_rad2) {
+  const double other_rad = kPi / 2.0 - std::abs(off_rad);
+  return off_rad * off_rad <= kSigmas * kSigmas * variance_rad2 &&
+         other_rad * other_rad - off_rad * off_rad >= 2.0 * kMinLogOdds * variance_rad2;
+}
+
+}  // namespace
+
+/// Mean of a quarter-turn's circle, weighted by how far each is believed.
+double BuildingAxisPrior::building_axis_rad(const PoseGraph& graph) const {
+  double x = 0.0;
+  double y = 0.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const HeadingConstraint& heading = graph.headings[i];
+    const double yaw_rad = 4.0 * (yaw_map_rad(graph, heading.keyframe) + axes_[i].yaw_rad);
+    const double weight = heading.dcs_scale * heading.dcs_scale * heading.information;
+    x += weight * std::cos(yaw_rad);
+    y += weight * std::sin(yaw_rad);
+  }
+  return std::atan2(y, x) / 4.0;
+}
+
+void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2,
+                            PoseGraph& graph) {
+  if (!axes_.empty()) {
+    const double off_rad = wrap_axis(yaw_map_rad(graph, keyframe) + axis.yaw_rad - building_axis_rad(graph));
+    if (!is_told(off_rad, yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad)) return;
+  }
+  axes_.push_back(axis);
+  const double variance_rad2 = kSharedWalls * axis.sigma_rad * axis.sigma_rad;
+  graph.headings.push_back({.keyframe = keyframe, .information = 1.0 / variance_rad2});
+}
+
+void BuildingAxisPrior::remove(const IndexRemoval& keyframes, PoseGraph& graph) {
+  IndexRemoval gone;
+  for (std::uint32_t i = 0; i < graph.headings.size(); ++i) {
+    KeyframeId& keyframe = graph.headings[i].keyframe;
+    if (keyframes.removes(index_of(keyframe))) gone.add({i, i + 1});
+    keyframe = static_cast<KeyframeId>(keyframes.new_index(index_of(keyframe)));
+  }
+  gone.apply(graph.headings);
+  gone.apply(axes_);
+}
+
+void BuildingAxisPrior::update(PoseGraph& graph) const {
+  const double building_rad = building_axis_rad(graph);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    HeadingConstraint& heading = graph.headings[i];
+    const double now_rad = yaw_map_rad(graph, heading.keyframe);
+    heading.yaw_map_rad = now_rad - wrap_axis(now_rad + axes_[i].yaw_rad - building_rad);
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pose_graph/pose_graph.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+
+PoseResidual pose_residual(const Pose2& T_from_to, const Pose2& T_map_from, const Pose2& T_map_to) {
+  const Pose2 T_from_map = T_map_from.inverse();
+  const Pose2 T_from_to_now = T_from_map * T_map_to;
+  const Pose2 T_z = T_from_to.inverse();
+  PoseResidual r;
+  r.error = (T_z * T_from_to_now).vector();
+  const Eigen::Matrix3d J_now = jacobian_compose_second(T_z);
+  r.J_from = J_now * jacobian_compose_first(T_from_map, T_map_to) * jacobian_inverse(T_map_from);
+  r.J_to = J_now * jacobian_compose_second(T_from_map);
+  return r;
+}
+
+double chi_square(const PoseConstraint& c, const std::vector<Pose2>& T_map_keyframe) {
+  const PoseResidual r =
+      pose_residual(c.T_from_to, T_map_keyframe[index_of(c.from)], T_map_keyframe[index_of(c.to)]);
+  return r.error.dot(c.information * r.error);
+}
+
+double chi_square(const HeadingConstraint& c, const std::vector<Pose2>& T_map_keyframe) {
+  const double error_rad = wrap_angle(T_map_keyframe[index_of(c.keyframe)].yaw_rad() - c.yaw_map_rad);
+  return c.information * error_rad * error_rad;
+}
+
+Eigen::Matrix3d residual_information(const Pose2& T_from_to, const Eigen::Matrix3d& covariance) {
+  // With y_i^-1 (+) y_j = z (+) d: e turns the translation by -yaw(z).
+  const Eigen::Matrix3d R_to_from = jacobian_compose_second(T_from_to).transpose();
+  return (R_to_from * covariance * R_to_from.transpose()).inverse();
+}
+
+double dcs_scale(double chi_square, double phi) { return std::min(1.0, 2.0 * phi / (phi + chi_square)); }
+
+}  // namespace swiftlet

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/backend/pose_graph/cholmod_solver.hpp"
+#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/base/result.hpp"
+
+namespace swiftlet {
+
+/// Moves all poses but the first by (x, y, yaw) each. Returns the largest component, in metres or radians.
+/// Errors: kSolver where one is not finite; the poses are then as they were.
+Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_map_pose);
+
+/// One Gauss-Newton step over a list of poses, the first of which is held as gauge: gathers the normal
+/// equations of constraints and of anything else that pulls at a pose, and solves them. The symbolic analysis
+/// is kept while the constraints join the same pairs. Allocates. One thread at a time.
+class PoseSystem {
+ public:
+  /// Sets up for `pose_count` poses joined as `constraints` say. Precondition: pose_count >= 2. Errors:
+  /// kSolver.
+  Status prepare(std::size_t pose_count, std::span<const PoseConstraint> constraints);
+
+  void set_zero() { system_.set_zero(); }
+  /// Adds a constraint at the present poses, its information times `weight`.
+  void add(const PoseConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose);
+  void add(const HeadingConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose);
+  /// Adds to one pose alone: H of its block and -g.
+  void add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
+
+  /// Solves and moves the poses. Returns the largest component of the step, in metres or radians. Errors:
+  /// kSolver, also where the step is not finite; the poses are then as they were.
+  Result<double> step(std::vector<Pose2>& T_map_pose);
+
+ private:
+  BlockSystem3 system_{0, {}, kFirstFree};  // block b is pose b + 1
+  CholmodSolver solver_;
+  std::vector<BlockSystem3::BlockIndex> analyzed_pattern_;
+  std::size_t analyzed_poses_ = 0;
+  static constexpr std::uint32_t kFirstFree = 1;
+};
+
+}  // namespace swiftlet

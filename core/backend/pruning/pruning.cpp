@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pruning/pruning.hpp"
+#include "core/backend/store/traversal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kTileM = 2.0;
+constexpr std::size_t kReturnsPerTraversal = 64;  // tell where a traversal was
+constexpr double kShareOfReturns = 0.9;           // decides: the rest are glances through doors
+constexpr std::size_t kOldestKept = 3;            // traversals in each tile, and ...
+constexpr std::size_t kNewestKept = 3;            // ... as many again
+constexpr std::size_t kMinRun = 4;                // traversals: every hole needs ties on both sides
+// Of a tie: looser than what was known of the place.
+constexpr double kTieSigmaM = 0.1;
+constexpr double kTieSigmaRad = 0.05;
+
+using Tile = std::pair<std::int32_t, std::int32_t>;
+
+struct SeenTile {
+  std::size_t number = 0;
+  double share = 0.0;  // of the traversal's returns
+};
+
+struct Traversal {
+  IndexRange keyframes;
+  IndexRange scans;
+  Point2 middle_map;
+  double path_m = 0.0;
+  std::vector<SeenTile> tiles;
+  bool stays_for_good = false;  // one of the oldest where it was
+  bool is_redundant = false;    // neither that nor one of the newest
+};
+
+/// Which traversals saw which tiles.
+class Coverage {
+ public:
+  Coverage(const ScanStore& scans, const KeyframeChain& chain, std::span<const Pose2> T_map_keyframe,
+           std::span<const KeyframeId> anchors)
+      : scans_(scans), chain_(chain), T_map_keyframe_(T_map_keyframe) {
+    const auto count = static_cast<std::uint32_t>(chain.size() / kKeyframesPerTraversal);
+    for (std::uint32_t p = 0; p < count; ++p) traversals_.push_back(make_traversal(p));
+    judge();
+    if (!traversals_.empty()) keep(0);  // it holds the map's frame
+    for (const KeyframeId anchor : anchors) keep(index_of(anchor) / kKeyframesPerTraversal);
+  }
+
+  [[nodiscard]] const std::vector<Traversal>& traversals() const { return traversals_; }
+  [[nodiscard]] std::optional<KeyframeId> anchor_of(const Traversal& traversal, double other_time_m) const;
+
+ private:
+  [[nodiscard]] Traversal make_traversal(std::uint32_t number);
+  void judge();
+  void keep(std::uint32_t traversal) {
+    traversals_[traversal].stays_for_good = true;
+    traversals_[traversal].is_redundant = false;
+  }
+
+  const ScanStore& scans_;
+  const KeyframeChain& chain_;
+  std::span<const Pose2> T_map_keyframe_;
+  std::vector<Traversal> traversals_;
+  std::map<Tile, std::size_t> number_of_;
+  std::vector<std::size_t> traversals_in_;  // of each tile
+};
+
+Traversal Coverage::make_traversal(std::uint32_t number) {
+  Traversal traversal;
+  traversal.keyframes = {number * kKeyframesPerTraversal, (number + 1) * kKeyframesPerTraversal};
+  const auto scan_at = [&](std::uint32_t k) { return chain_.scan_of(static_cast<KeyframeId>(k)); };
+  const bool is_last = traversal.keyframes.end >= chain_.size();
+  traversal.scans = {scan_at(traversal.keyframes.first),
+                     is_last ? static_cast<ScanIndex>(scans_.size()) : scan_at(traversal.keyframes.end)};
+  const auto middle = static_cast<KeyframeId>(traversal.keyframes.first + kKeyframesPerTraversal / 2);
+  traversal.middle_map = T_map_keyframe_[index_of(middle)].position();
+  traversal.path_m = chain_.path_m(middle);
+  std::map<Tile, std::size_t> returns_in;
+  const std::size_t every = 1 + scans_.return_count(traversal.scans) / kReturnsPerTraversal;
+  std::size_t number_of_return = 0;
+  for (ScanIndex i = traversal.scans.first; i < traversal.scans.end; ++i) {
+    const Pose2 T_map_body = chain_.T_w_body(i, T_map_keyframe_);
+    for (const ScanReturn& beam : scans_.returns(i)) {
+      if (number_of_return++ % every != 0 || !beam.is_hit) continue;
+      const Point2 p = T_map_body * scans_.point_body(beam);
+      ++returns_in[{static_cast<std::int32_t>(std::floor(p.x_m / kTileM)),
+                    static_cast<std::int32_t>(std::floor(p.y_m / kTileM))}];
+    }
+  }
+  std::size_t all = 0;
+  for (const auto& [tile, count] : returns_in) all += count;
+  for (const auto& [tile, count] : returns_in) {
+    const std::size_t at = number_of_.emplace(tile, number_of_.size()).first->second;
+    traversal.tiles.push_back({at, static_cast<double>(count) / static_cast<double>(all)});
+  }
+  traversals_in_.resize(number_of_.size());
+  for (const SeenTile& tile : traversal.tiles) ++traversals_in_[tile.number];
+  return traversal;
+}
+
+void Coverage::judge() {
+  std::vector<std::size_t> before(traversals_in_.size(), 0);  // the present traversal, in each tile
+  for (Traversal& traversal : traversals_) {
+    double old = 0.0;  // share of its returns where enough traversals were before it
+    double new_and_old = 0.0;
+    for (const SeenTile& tile : traversal.tiles) {
+      const std::size_t after = traversals_in_[tile.number] - before[tile.number] - 1;
+      const bool has_older = before[tile.number] >= kOldestKept;
+      old += has_older ? tile.share : 0.0;
+      new_and_old += has_older && after >= kNewestKept ? tile.share : 0.0;
+      ++before[tile.number];
+    }
+    traversal.stays_for_good = old < kShareOfReturns;
+    traversal.is_redundant = new_and_old >= kShareOfReturns;
+  }
+}
+
+std::optional<KeyframeId> Coverage::anchor_of(const Traversal& traversal, double other_time_m) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  std::optional<KeyframeId> anchor;
+  for (const Traversal& other : traversals_) {
+    if (!other.stays_for_good || std::abs(other.path_m - traversal.path_m) < other_time_m) continue;
+    const double distance_m = std::hypot(other.middle_map.x_m - traversal.middle_map.x_m,
+                                         other.middle_map.y_m - traversal.middle_map.y_m);
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    anchor = static_cast<KeyframeId>(other.keyframes.first + kKeyframesPerTraversal / 2);
+  }
+  return anchor;
+}
+
+}  // namespace
+
+Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain,
+                     std::span<const Pose2> T_map_keyframe, std::span<const KeyframeId> anchors,
+                     KeyframeId first_recent, double other_time_m, std::size_t scans_wanted) {
+  const Coverage coverage(scans, chain, T_map_keyframe, anchors);
+  const std::vector<Traversal>& traversals = coverage.traversals();
+  std::vector<std::optional<KeyframeId>> anchor_of(traversals.size());  // of those that can go
+  for (std::size_t p = 0; p < traversals.size(); ++p)
+    if (traversals[p].is_redundant && traversals[p].keyframes.end <= index_of(first_recent))
+      anchor_of[p] = coverage.anchor_of(traversals[p], other_time_m);
+  Pruning pruning;
+  for (std::size_t p = 0; p < traversals.size() && pruning.scans.size() < scans_wanted;) {
+    std::size_t end = p;
+    while (end < traversals.size() && anchor_of[end]) ++end;
+    const bool widens_a_hole = end > p && (scans[traversals[p].scans.first].starts_segment ||
+                                           scans[traversals[end - 1].scans.end].starts_segment);
+    if (end - p >= kMinRun || widens_a_hole) {
+      for (std::size_t k = p; k < end && pruning.scans.size() < scans_wanted; ++k) {
+        pruning.traversals.push_back({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]});
+        pruning.keyframes.add(traversals[k].keyframes);
+        pruning.scans.add(traversals[k].scans);
+      }
+    }
+    p = end + 1;
+  }
+  return pruning;
+}
+
+std::vector<PoseConstraint> ties_around(const Pruning& pruning, const ScanStore& scans,
+                                        std::span<const Pose2> T_map_keyframe) {
+  std::vector<PoseConstraint> ties;
+  const auto is_held_by_motion = [&](ScanIndex behind) {
+    return !scans[behind].starts_segment || scans[behind].odometry_ran_on;
+  };
+  const auto tie = [&](KeyframeId anchor, std::uint32_t end, ScanIndex behind) {
+    if (pruning.keyframes.removes(end) || !is_held_by_motion(behind)) return;
+    PoseConstraint c;
+    c.from = anchor;
+    c.to = static_cast<KeyframeId>(end);
+    c.T_from_to = between(T_map_keyframe[index_of(anchor)], T_map_keyframe[end]);
+    const Eigen::Vector3d sigma(kTieSigmaM, kTieSigmaM, kTieSigmaRad);
+    c.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+    c.is_closure = true;
+    ties.push_back(c);
+  };
+  for (const PrunedTraversal& traversal : pruning.traversals) {
+    tie(traversal.anchor, traversal.keyframes.first - 1, traversal.scans.first);
+    tie(traversal.anchor, traversal.keyframes.end, traversal.scans.end);
+  }
+  return ties;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/backend/refinement/traversal_index.hpp"
+#include "core/backend/refinement/window_refinement.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
+
+namespace swiftlet {
+
+/// Joint refinement while the run goes on, a layer upon the pose graph: each scan has an offset from where
+/// the graph puts it, and keeps it when the graph moves. Each step refines one window of bounded size against
+/// the walls of a bounded number of traversals nearby. Views scans and chain, which must outlive it.
+/// Allocates. One thread at a time. Repeatable.
+class OnlineRefinement {
+ public:
+  static constexpr ScanIndex kMaxScans = 300;  ///< of a window
+  static constexpr std::size_t kMaxPlacesWaiting = 32;
+
+  OnlineRefinement(const ScanStore& scans, const KeyframeChain& chain, const SensorModel& sensor)
+      : scans_(&scans), chain_(&chain), window_refinement_(scans, sensor.odometry) {}
+
+  /// The store has a new scan, which starts with its predecessor's offset.
+  void add_scan();
+  /// A loop has closed there: scans around it are refined in due course. With the most places waiting, the
+  /// one that waits longest is given up.
+  void queue_around(KeyframeId place);
+  /// Follows the store and the chain, from which the same whole traversals were removed.
+  void remove(const IndexRemoval& scans, const IndexRemoval& keyframes);
+  /// The graph was optimised.
+  void follow(std::span<const Pose2> T_map_keyframe);
+  /// After each keyframe: refines the newest scans or, every other time, elsewhere: around a place that
+  /// waits, or the next scans of the whole run in turn. Takes the poses of all keyframes by the graph and by
+  /// the frontend. Returns what moved. Errors: kSolver; nothing has moved then.
+  Result<ScanRange> step(std::span<const Pose2> T_map_keyframe, std::span<const Pose2> T_local_keyframe);
+
+  /// The refined pose of a scan that the graph puts there.
+  [[nodiscard]] Pose2 refined(ScanIndex scan, const Pose2& T_map_graph) const {
+    return T_map_graph * T_graph_refined_[scan];
+  }
+  /// What the last step was about.
+  [[nodiscard]] const WindowReport& last_window() const { return last_window_; }
+  [[nodiscard]] std::uint64_t windows_refined() const { return windows_refined_; }
+  [[nodiscard]] std::uint64_t windows_refused() const { return windows_refused_; }
+
+ private:
+  [[nodiscard]] Pose2 T_map_body(ScanIndex scan, std::span<const Pose2> T_map_keyframe) const;
+  [[nodiscard]] std::uint32_t newest_traversal() const;
+  [[nodiscard]] ScanRange scans_of(std::uint32_t traversal) const;
+  [[nodiscard]] ScanRange window_around(std::uint32_t traversal) const;
+  [[nodiscard]] ScanRange next_window();
+  [[nodiscard]] WindowPoses poses_of(const ScanRange& window, std::span<const Pose2> T_map_keyframe,
+                                     std::span<const Pose2> T_local_keyframe) const;
+  [[nodiscard]] std::vector<TraversalPoint> walls_around(const ScanRange& window, const WindowPoses& poses,
+                                                         std::span<const Pose2> T_map_keyframe) const;
+  void take(const ScanRange& window, const WindowPoses& poses, std::span<const Pose2> T_map_keyframe);
+  void file_traversal(std::uint32_t traversal, std::span<const Pose2> T_map_keyframe);
+
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+  WindowRefinement window_refinement_;
+  TraversalIndex traversals_;           // all but the newest, which is not complete
+  std::vector<Pose2> T_graph_refined_;  // of each scan
+  std::deque<std::uint32_t> waiting_;   // traversals
+  ScanIndex swept_ = 0;                 // scans before this one had their turn
+  std::uint32_t turn_ = 0;
+  WindowReport last_window_;
+  std::uint64_t windows_refined_ = 0;
+  std::uint64_t windows_refused_ = 0;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/point_to_line_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sensing/odometry_covariance.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kWallSigmaM = 0.05;
+constexpr double kRobustSigmas = 1.5;
+constexpr double kUnknownMotionSigma = 100.0;  // where dead reckoning began anew
+
+}  // namespace
+
+double distance_m(const LocalWall& wall, const Point2& p_map) {
+  return (p_map.x_m - wall.center_map.x_m) * wall.normal_map.x_m +
+         (p_map.y_m - wall.center_map.y_m) * wall.normal_map.y_m;
+}
+
+double judged_distance_m(const std::optional<LocalWall>& wall, const Point2& p_map) {
+  constexpr double kCapM = 3.0 * kWallSigmaM;
+  return wall ? std::min(kCapM, std::abs(distance_m(*wall, p_map))) : kCapM;
+}
+
+PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map_body, const Point2& p_body) {
+  const double off_m = distance_m(wall, T_map_body * p_body);
+  const double along_x = -T_map_body.sin_yaw() * p_body.x_m - T_map_body.cos_yaw() * p_body.y_m;
+  const double along_y = T_map_body.cos_yaw() * p_body.x_m - T_map_body.sin_yaw() * p_body.y_m;
+  const Eigen::Vector3d J(wall.normal_map.x_m, wall.normal_map.y_m,
+                          wall.normal_map.x_m * along_x + wall.normal_map.y_m * along_y);
+  const double off = off_m / (kRobustSigmas * kWallSigmaM);
+  const double robust = 1.0 / ((1.0 + off * off) * (1.0 + off * off));  // Geman-McClure
+  const double weight = robust / (kWallSigmaM * kWallSigmaM);
+  return {weight * J * J.transpose(), -weight * off_m * J};
+}
+
+Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to, const OdometryNoise& noise) {
+  double sigma_m = kUnknownMotionSigma;
+  double sigma_rad = kUnknownMotionSigma;
+  const Pose2 T_from_to = between(from.T_dead_body, to.T_dead_body);
+  if (to.starts_segment && to.odometry_ran_on) {
+    const UncertainMotion guess = unwatched_step(noise, T_from_to, to.stamp - from.stamp);
+    sigma_m = std::sqrt(guess.covariance(0, 0));
+    sigma_rad = std::sqrt(guess.covariance(2, 2));
+  } else if (!to.starts_segment) {
+    const double distance_m = std::hypot(T_from_to.x_m(), T_from_to.y_m());
+    const double turn_rad = std::abs(T_from_to.yaw_rad());
+    sigma_m = noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad;
+    sigma_rad = noise.yaw_floor_rad + noise.yaw_per_radian * turn_rad + noise.yaw_per_metre_rad * distance_m;
+  }
+  return Eigen::Vector3d(1.0 / (sigma_m * sigma_m), 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_rad * sigma_rad))
+      .asDiagonal();
+}
+
+}  // namespace swiftlet

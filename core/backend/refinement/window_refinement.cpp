@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/window_refinement.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/backend/refinement/point_to_line_factor.hpp"
+#include "core/backend/store/traversal.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kRadiusM = 0.3;       // only what is close is the same wall
+constexpr double kStepWeight = 0.25;   // twice the noise: errors of dead reckoning that persist add up
+constexpr double kTieSigmaM = 0.1;     // of each keyframe: walls decide, yet what they do not hold ...
+constexpr double kTieSigmaRad = 0.05;  // ... goes back to where the graph has it
+
+/// In a different order for each beam, so that all of them give their share.
+std::uint32_t scattered(std::size_t number) {
+  return (static_cast<std::uint32_t>(number) * 2654435761U) >> 16U;
+}
+
+}  // namespace
+
+bool is_held_out(const ScanStore& scans, ScanIndex scan, std::size_t return_of_scan) {
+  return scattered(scans[scan].number * kMaxBeams + return_of_scan) % kHoldOutEvery == 0;
+}
+
+void WindowRefinement::take_returns(const ScanRange& window, ScanIndex first_scan) {
+  std::size_t count = 0;
+  for (ScanIndex i = window.first; i < window.end; ++i) count += scans_->returns(i).size();
+  const std::size_t every = (count + kMaxReturns - 1) / kMaxReturns;
+  returns_.clear();
+  std::size_t number = 0;
+  for (ScanIndex i = window.first; i < window.end; ++i) {
+    const std::span<const ScanReturn> beams = scans_->returns(i);
+    for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
+      if (!beams[k].is_hit || number % every != 0) continue;
+      returns_.push_back({i - first_scan, traversal_of((*scans_)[i]), is_held_out(*scans_, i, k),
+                          scans_->point_body(beams[k])});
+    }
+  }
+}
+
+/// Of all that are not held back.
+WallMap WindowRefinement::walls_at(const std::vector<Pose2>& T_map_body,
+                                   std::span<const TraversalPoint> others_thinned) const {
+  std::vector<TraversalPoint> points;
+  points.reserve(returns_.size());
+  for (const PlacedReturn& r : returns_)
+    if (!r.held_out) points.push_back({T_map_body[r.pose] * r.p_body, r.traversal});
+  return {others_thinned, points, kRadiusM};
+}
+
+double WindowRefinement::held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const PlacedReturn& r : returns_) {
+    if (!r.held_out) continue;
+    const TraversalPoint at{T_map_body[r.pose] * r.p_body, r.traversal};
+    sum += judged_distance_m(walls.wall_near(at), at.p_map);
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+void WindowRefinement::take_steps(const WindowPoses& poses) {
+  steps_.clear();
+  for (std::uint32_t to = 1; to < poses.T_map_body.size(); ++to) {
+    PoseConstraint step;
+    step.from = static_cast<KeyframeId>(to - 1);
+    step.to = static_cast<KeyframeId>(to);
+    step.T_from_to = between(poses.T_local_body[to - 1], poses.T_local_body[to]);
+    const ScanIndex scan = poses.first_scan + to;
+    step.information = kStepWeight * motion_information((*scans_)[scan - 1], (*scans_)[scan], noise_);
+    steps_.push_back(step);
+  }
+}
+
+void WindowRefinement::add_walls(const WallMap& walls, const std::vector<Pose2>& T_map_body) {
+  for (const PlacedReturn& r : returns_) {
+    if (r.held_out) continue;
+    const Pose2& T = T_map_body[r.pose];
+    const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.traversal});
+    if (!wall) continue;
+    const PointToLineFactor pull = point_to_line_factor(*wall, T, r.p_body);
+    chain_.add(r.pose, pull.H, pull.rhs);
+  }
+}
+
+void WindowRefinement::add_steps(const std::vector<Pose2>& T_map_body, std::size_t moving) {
+  for (const PoseConstraint& step : steps_) {
+    const std::uint32_t from = index_of(step.from);
+    const std::uint32_t to = index_of(step.to);
+    if (to < moving) {
+      chain_.add(step, T_map_body);
+      continue;
+    }
+    // To the scan behind the window, which stays.
+    const PoseResidual r = pose_residual(step.T_from_to, T_map_body[from], T_map_body[to]);
+    const Eigen::Matrix3d A = r.J_from.transpose() * step.information;
+    chain_.add(from, A * r.J_from, -A * r.error);
+  }
+}
+
+void WindowRefinement::add_ties(const WindowPoses& poses, std::size_t moving) {
+  const Eigen::Matrix3d information =
+      Eigen::Vector3d(1.0 / (kTieSigmaM * kTieSigmaM), 1.0 / (kTieSigmaM * kTieSigmaM),
+                      1.0 / (kTieSigmaRad * kTieSigmaRad))
+          .asDiagonal();
+  for (std::uint32_t i = 1; i < moving; ++i) {
+    const ScanIndex scan = poses.first_scan + i;
+    if ((*scans_)[scan].keyframe == (*scans_)[scan - 1].keyframe) continue;
+    const PoseResidual r = pose_residual(Pose2(), poses.T_map_graph[i], poses.T_map_body[i]);
+    const Eigen::Matrix3d A = r.J_to.transpose() * information;
+    chain_.add(i, A * r.J_to, -A * r.error);
+  }
+}
+
+Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span<const TraversalPoint> others,
+                                              WindowPoses& poses) {
+  WindowReport report;
+  const std::size_t moving = window.end - poses.first_scan;  // the first of which stays
+  if (moving < 2) return report;
+  take_returns(window, poses.first_scan);
+  take_steps(poses);
+  std::vector<TraversalPoint> others_thinned;
+  append_thinned(others, others_thinned);
+  const WallMap before = walls_at(poses.T_map_body, others_thinned);
+  report.returns = returns_.size();
+  report.points = before.size();
+  report.held_out_before_m = held_out_error_m(before, poses.T_map_body);
+  chain_.reset(moving);
+  add_walls(before, poses.T_map_body);
+  add_steps(poses.T_map_body, moving);
+  add_ties(poses, moving);
+  std::vector<Pose2> T = poses.T_map_body;
+  T.resize(moving);
+  if (const Status moved = chain_.step(T); !moved) return moved.error();
+  report.held_out_after_m = held_out_error_m(walls_at(T, others_thinned), T);
+  report.accepted = report.held_out_after_m <= report.held_out_before_m;
+  if (report.accepted) std::copy(T.begin(), T.end(), poses.T_map_body.begin());
+  return report;
+}
+
+}  // namespace swiftlet

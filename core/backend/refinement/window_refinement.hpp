@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/backend/pose_graph/pose_chain.hpp"
+#include "core/backend/refinement/wall_map.hpp"
+#include "core/backend/store/scan_store.hpp"
+#include "core/base/result.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+struct WindowReport {
+  std::size_t returns = 0;  ///< that took part, held-out ones included
+  std::size_t points = 0;   ///< that walls were drawn from
+  double held_out_before_m =
+      0.0;  ///< robust mean distance of held-out returns from the walls of other traversals
+  double held_out_after_m = 0.0;
+  bool accepted = false;  ///< false: it would have explained the held-out returns worse; poses untouched
+};
+
+/// Poses of a window's scans and of its neighbours, which stay: from `first_scan`, which is the one before
+/// the window or, where it begins with the run, its first, to the one behind the window if there is one.
+struct WindowPoses {
+  ScanIndex first_scan = 0;
+  std::vector<Pose2> T_map_body;    ///< as refined so far: in and out; the first stays
+  std::vector<Pose2> T_map_graph;   ///< where the pose graph puts them
+  std::vector<Pose2> T_local_body;  ///< along the frontend's path, which gives the steps between them
+};
+
+/// A tenth of the returns, the same for all windows, has no say and judges. `return_of_scan`: its place in
+/// ScanStore::returns().
+[[nodiscard]] bool is_held_out(const ScanStore& scans, ScanIndex scan, std::size_t return_of_scan);
+
+/// One Gauss-Newton step of joint refinement over a window of consecutive scans: their returns are pulled to
+/// the walls that other traversals draw, with the frontend's path between neighbouring scans and each
+/// keyframe tied loosely to its place in the pose graph. Views the scans, which must outlive it. Allocates.
+/// One thread at a time. Repeatable.
+class WindowRefinement {
+ public:
+  static constexpr std::size_t kMaxReturns = 3000;  ///< where a window has more, they are thinned
+
+  WindowRefinement(const ScanStore& scans, const OdometryNoise& noise) : scans_(&scans), noise_(noise) {}
+
+  /// `others`: what traversals outside of the window drew nearby, ordered by traversal. Errors: kSolver; the
+  /// poses are then as they were.
+  Result<WindowReport> refine(const ScanRange& window, std::span<const TraversalPoint> others,
+                              WindowPoses& poses);
+
+ private:
+  struct PlacedReturn {
+    std::uint32_t pose = 0;  // of its scan, in the window's poses
+    std::uint32_t traversal = 0;
+    bool held_out = false;
+    Point2 p_body;
+  };
+  void take_returns(const ScanRange& window, ScanIndex first_scan);
+  [[nodiscard]] WallMap walls_at(const std::vector<Pose2>& T_map_body,
+                                 std::span<const TraversalPoint> others_thinned) const;
+  [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
+  void take_steps(const WindowPoses& poses);
+  void add_walls(const WallMap& walls, const std::vector<Pose2>& T_map_body);
+  void add_steps(const std::vector<Pose2>& T_map_body, std::size_t moving);
+  void add_ties(const WindowPoses& poses, std::size_t moving);
+
+  const ScanStore* scans_;
+  OdometryNoise noise_;
+  PoseChain chain_;
+  std::vector<PlacedReturn> returns_;
+  std::vector<PoseConstraint> steps_;  // from each pose to the next
+};
+
+}  // namespace swiftlet

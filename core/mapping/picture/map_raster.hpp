@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include "core/mapping/picture/map_scene.hpp"
+#include "core/mapping/picture/painter.hpp"
+
+namespace swiftlet {
+
+/// The picture of a run: the grid in greys (white free, dark occupied, soft grey unknown), the odometry as a
+/// thin grey line, the corrected path coloured by time, walls, loop closures green, dropped ones dashed red,
+/// marks at start and end; below it a scale bar and the legend. A pure function of the scene. The scale is
+/// chosen so that the longer side comes to between 1000 and 2000 pixels for anything from a room to a campus.
+[[nodiscard]] RgbImage draw_map(const MapScene& scene);
+
+}  // namespace swiftlet

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/mapping/picture/map_scene.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "core/backend/backend.hpp"
+#include "core/mapping/map_builder.hpp"
+#include "core/mapping/picture/wall_support.hpp"
+
+namespace swiftlet {
+
+namespace {
+
+/// What is more likely occupied than not, by several beams.
+constexpr int kOccupiedPercent = 65;
+
+class OccupiedCells {
+ public:
+  explicit OccupiedCells(const std::vector<MapTile>& tiles) {
+    for (const MapTile& tile : tiles) tiles_.emplace(tile.index, &tile);
+  }
+  bool operator()(CellIndex cell) const {
+    const TileIndex index{floor_divide(cell.x), floor_divide(cell.y)};
+    const auto found = tiles_.find(index);
+    if (found == tiles_.end()) return false;
+    const int i = (cell.y - index.y * kTileCells) * kTileCells + (cell.x - index.x * kTileCells);
+    return found->second->occupancy_percent[static_cast<std::size_t>(i)] >= kOccupiedPercent;
+  }
+
+ private:
+  static int floor_divide(int cell) { return cell >= 0 ? cell / kTileCells : (cell + 1) / kTileCells - 1; }
+  std::map<TileIndex, const MapTile*> tiles_;
+};
+
+void add_walls(MapScene& scene, const Backend& backend) {
+  const OccupiedCells is_occupied(scene.tiles);
+  for (const Wall& wall : backend.walls()) {
+    const Pose2& T_map_anchor = backend.T_map_keyframe(wall.anchor);
+    const MapSegment whole{T_map_anchor * wall.start_keyframe, T_map_anchor * wall.end_keyframe};
+    const MapSegment fitted = fitted_to_grid(whole, scene.resolution_m, std::cref(is_occupied));
+    for (const MapSegment& part : supported_parts(fitted, scene.resolution_m, std::cref(is_occupied)))
+      scene.walls.push_back(part);
+  }
+  scene.walls = distinct_walls(std::move(scene.walls));
+}
+
+}  // namespace
+
+MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
+  MapScene scene;
+  scene.resolution_m = map.config().resolution_m;
+  const std::vector<TileIndex> tiles = map.tiles();
+  scene.tiles.reserve(tiles.size());
+  for (const TileIndex index : tiles) scene.tiles.push_back(map.tile(index));
+
+  const ScanStore& scans = backend.scans();
+  const auto scan_count = static_cast<ScanIndex>(scans.size());
+  scene.scans.reserve(scan_count);
+  if (scan_count > 0) {
+    Pose2 T_map_odom;
+    for (ScanIndex i = 0; i < scan_count; ++i) {
+      const Pose2 T_map_body = backend.T_map_body(i);
+      const bool starts_segment = i == 0 || scans[i].starts_segment;
+      if (starts_segment) T_map_odom = T_map_body * scans[i].T_odom_body.inverse();
+      scene.scans.push_back(
+          {T_map_body.position(), T_map_odom * scans[i].T_odom_body.position(), starts_segment});
+    }
+    scene.duration = scans[scan_count - 1].stamp - scans[0].stamp;
+  }
+  add_walls(scene, backend);
+  for (const LoopClosure& closure : backend.closures()) {
+    const MapSegment ends{backend.T_map_keyframe(closure.from).position(),
+                          backend.T_map_keyframe(closure.to).position()};
+    (closure.dropped ? scene.dropped_closures : scene.closures).push_back(ends);
+  }
+  return scene;
+}
+
+}  // namespace swiftlet

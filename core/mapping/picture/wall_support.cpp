@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/mapping/picture/wall_support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace swiftlet {
+
+namespace {
+
+constexpr double kReachM = 0.1;
+constexpr std::array<double, 3> kFitReachesM{0.25, 0.15, 0.1};  // round by round
+constexpr std::size_t kMinCells = 6;
+constexpr double kMaxTurnCos = 0.985;  // 10 degrees: farther, and it found something else
+constexpr double kBridgeM = 0.4;
+constexpr double kMinM = 0.4;
+constexpr double kSameWallM = 0.25;
+const double kSameWallCos = std::cos(0.35);  // 20 degrees
+constexpr double kProbeM = 0.05;
+
+bool occupied_near(const Point2& p_map, double resolution_m,
+                   const std::function<bool(CellIndex)>& is_occupied) {
+  const CellIndex centre = cell_of({p_map.x_m / resolution_m, p_map.y_m / resolution_m});
+  const int reach = static_cast<int>(std::lround(kReachM / resolution_m));
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (is_occupied({centre.x + dx, centre.y + dy})) return true;
+  return false;
+}
+
+/// The centres of the occupied cells around a wall, found along its normals.
+std::vector<Point2> cells_around(const MapSegment& wall, double reach_m, double resolution_m,
+                                 const std::function<bool(CellIndex)>& is_occupied) {
+  const double dx = wall.end_map.x_m - wall.start_map.x_m;
+  const double dy = wall.end_map.y_m - wall.start_map.y_m;
+  const double length_m = std::hypot(dx, dy);
+  std::set<std::pair<int, int>> cells;
+  const int reach = static_cast<int>(std::lround(reach_m / resolution_m));
+  for (double along_m = 0.0; length_m > 0.0 && along_m <= length_m; along_m += resolution_m) {
+    for (int across = -reach; across <= reach; ++across) {
+      const double x_m = wall.start_map.x_m + (along_m * dx - across * resolution_m * dy) / length_m;
+      const double y_m = wall.start_map.y_m + (along_m * dy + across * resolution_m * dx) / length_m;
+      const CellIndex cell = cell_of({x_m / resolution_m, y_m / resolution_m});
+      if (is_occupied(cell)) cells.insert({cell.x, cell.y});
+    }
+  }
+  std::vector<Point2> centres;
+  centres.reserve(cells.size());
+  for (const auto& [x, y] : cells) centres.push_back({(x + 0.5) * resolution_m, (y + 0.5) * resolution_m});
+  return centres;
+}
+
+/// The wall's ends, carried onto the line through the points along their main axis.
+MapSegment onto_line_through(const std::vector<Point2>& points, const MapSegment& wall) {
+  Point2 mean;
+  for (const Point2& p : points) mean = {mean.x_m + p.x_m, mean.y_m + p.y_m};
+  const auto n = static_cast<double>(points.size());
+  mean = {mean.x_m / n, mean.y_m / n};
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (const Point2& p : points) {
+    xx += (p.x_m - mean.x_m) * (p.x_m - mean.x_m);
+    xy += (p.x_m - mean.x_m) * (p.y_m - mean.y_m);
+    yy += (p.y_m - mean.y_m) * (p.y_m - mean.y_m);
+  }
+  const double yaw_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const auto project = [&](const Point2& p) {
+    const double along_m = (p.x_m - mean.x_m) * std::cos(yaw_rad) + (p.y_m - mean.y_m) * std::sin(yaw_rad);
+    return Point2{mean.x_m + along_m * std::cos(yaw_rad), mean.y_m + along_m * std::sin(yaw_rad)};
+  };
+  return {project(wall.start_map), project(wall.end_map)};
+}
+
+double cos_between(const MapSegment& a, const MapSegment& b) {
+  const double ax = a.end_map.x_m - a.start_map.x_m;
+  const double ay = a.end_map.y_m - a.start_map.y_m;
+  const double bx = b.end_map.x_m - b.start_map.x_m;
+  const double by = b.end_map.y_m - b.start_map.y_m;
+  return (ax * bx + ay * by) / (std::hypot(ax, ay) * std::hypot(bx, by));
+}
+
+}  // namespace
+
+MapSegment fitted_to_grid(const MapSegment& wall, double resolution_m,
+                          const std::function<bool(CellIndex)>& is_occupied) {
+  MapSegment fitted = wall;
+  for (const double reach_m : kFitReachesM) {
+    const std::vector<Point2> points = cells_around(fitted, reach_m, resolution_m, is_occupied);
+    if (points.size() < kMinCells) return wall;
+    fitted = onto_line_through(points, fitted);
+    if (!(cos_between(fitted, wall) > kMaxTurnCos)) return wall;
+  }
+  return fitted;
+}
+
+std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolution_m,
+                                        const std::function<bool(CellIndex)>& is_occupied) {
+  const double dx = wall.end_map.x_m - wall.start_map.x_m;
+  const double dy = wall.end_map.y_m - wall.start_map.y_m;
+  const double length_m = std::hypot(dx, dy);
+  const int steps = static_cast<int>(std::ceil(length_m / resolution_m));
+  const auto point_at = [&](int step) {
+    const double share = static_cast<double>(step) / steps;
+    return Point2{wall.start_map.x_m + dx * share, wall.start_map.y_m + dy * share};
+  };
+  std::vector<MapSegment> parts;
+  int first = 0;    // of the part being followed
+  int newest = -1;  // its last supported step; -1 while there is none
+  const auto finish = [&] {
+    if (newest >= 0 && (newest - first) * length_m >= kMinM * steps)
+      parts.push_back({point_at(first), point_at(newest)});
+    newest = -1;
+  };
+  for (int step = 0; steps > 0 && step <= steps; ++step) {
+    if (!occupied_near(point_at(step), resolution_m, is_occupied)) continue;
+    if (newest >= 0 && (step - newest) * length_m > kBridgeM * steps) finish();
+    if (newest < 0) first = step;
+    newest = step;
+  }
+  finish();
+  return parts;
+}
+
+namespace {
+
+double length_of(const MapSegment& s) {
+  return std::hypot(s.end_map.x_m - s.start_map.x_m, s.end_map.y_m - s.start_map.y_m);
+}
+
+double distance_m(const Point2& p, const MapSegment& s) {
+  const double dx = s.end_map.x_m - s.start_map.x_m;
+  const double dy = s.end_map.y_m - s.start_map.y_m;
+  const double along =
+      ((p.x_m - s.start_map.x_m) * dx + (p.y_m - s.start_map.y_m) * dy) / (dx * dx + dy * dy);
+  const double share = std::clamp(along, 0.0, 1.0);
+  return std::hypot(p.x_m - s.start_map.x_m - share * dx, p.y_m - s.start_map.y_m - share * dy);
+}
+
+bool runs_along(const MapSegment& a, const MapSegment& b) {
+  const double dot = (a.end_map.x_m - a.start_map.x_m) * (b.end_map.x_m - b.start_map.x_m) +
+                     (a.end_map.y_m - a.start_map.y_m) * (b.end_map.y_m - b.start_map.y_m);
+  return std::abs(dot) > kSameWallCos * length_of(a) * length_of(b);
+}
+
+/// The stretches of `wall` that no wall of `told` covers.
+std::vector<MapSegment> untold_parts(const MapSegment& wall, const std::vector<MapSegment>& told) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_of(wall) / kProbeM)));
+  const auto point_at = [&](int step) {
+    const double share = static_cast<double>(step) / steps;
+    return Point2{wall.start_map.x_m + share * (wall.end_map.x_m - wall.start_map.x_m),
+                  wall.start_map.y_m + share * (wall.end_map.y_m - wall.start_map.y_m)};
+  };
+  const auto is_told = [&](const Point2& p) {
+    return std::any_of(told.begin(), told.end(), [&](const MapSegment& t) {
+      return runs_along(wall, t) && distance_m(p, t) < kSameWallM;
+    });
+  };
+  std::vector<MapSegment> parts;
+  int first = 0;
+  for (int step = 0; step <= steps + 1; ++step) {
+    if (step <= steps && !is_told(point_at(step))) continue;
+    const MapSegment part{point_at(first), point_at(std::max(first, step - 1))};
+    if (length_of(part) >= kMinM) parts.push_back(part);
+    first = step + 1;
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<MapSegment> distinct_walls(std::vector<MapSegment> walls) {
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const MapSegment& a, const MapSegment& b) { return length_of(a) > length_of(b); });
+  std::vector<MapSegment> told;
+  for (const MapSegment& wall : walls) {
+    const std::vector<MapSegment> parts = untold_parts(wall, told);
+    told.insert(told.end(), parts.begin(), parts.end());
+  }
+  return told;
+}
+
+}  // namespace swiftlet

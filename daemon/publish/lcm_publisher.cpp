@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/publish/lcm_publisher.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "daemon/publish/lcm_transport.hpp"
+#include "swiftlet/landmarks_t.hpp"
+#include "swiftlet/loop_closure_t.hpp"
+#include "swiftlet/map_info_t.hpp"
+#include "swiftlet/map_tile_t.hpp"
+#include "swiftlet/pose2d_t.hpp"
+#include "swiftlet/pose_t.hpp"
+#include "swiftlet/status_t.hpp"
+
+namespace swiftlet {
+namespace {
+
+std::int64_t to_utime(HostTime at) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(at.time_since_epoch()).count();
+}
+
+void copy_point(const Point2& from, double (&to)[2]) {
+  to[0] = from.x_m;
+  to[1] = from.y_m;
+}
+void copy_point(const Point2& from, float (&to)[2]) {
+  to[0] = static_cast<float>(from.x_m);
+  to[1] = static_cast<float>(from.y_m);
+}
+
+// The types hold signed numbers only; no count of a run comes near their end.
+template <typename T>
+std::int64_t i64(T value) {
+  return static_cast<std::int64_t>(value);
+}
+template <typename T>
+std::int32_t i32(T value) {
+  return static_cast<std::int32_t>(value);
+}
+
+pose2d_t pose2d_message(std::int64_t utime, const Pose2& pose) {
+  pose2d_t message;
+  message.utime = utime;
+  message.x = static_cast<float>(pose.x_m());
+  message.y = static_cast<float>(pose.y_m());
+  message.theta = static_cast<float>(pose.yaw_rad());
+  return message;
+}
+
+void fill_input(const InputStatus& input, status_t& message) {
+  message.progress = input.progress;
+  message.frames = i64(input.frames);
+  message.samples = i64(input.samples);
+  message.gaps = i64(input.gaps);
+  message.missing_packets = i64(input.missing_packets);
+  message.duplicates = i64(input.duplicates);
+  message.out_of_order = i64(input.out_of_order);
+  message.unpaired = i64(input.unpaired);
+  message.segments = i64(input.segments);
+  message.input_problems = i64(input.problems);
+}
+
+std::int8_t condition_code(LinkCondition condition) {
+  switch (condition) {
+    case LinkCondition::kNone:
+      return link_status_t::CONDITION_NONE;
+    case LinkCondition::kConnected:
+      return link_status_t::CONDITION_CONNECTED;
+    case LinkCondition::kSilent:
+      return link_status_t::CONDITION_SILENT;
+    case LinkCondition::kDeviceMissing:
+      return link_status_t::CONDITION_DEVICE_MISSING;
+    case LinkCondition::kAccessDenied:
+      return link_status_t::CONDITION_ACCESS_DENIED;
+    case LinkCondition::kDeviceBusy:
+      return link_status_t::CONDITION_DEVICE_BUSY;
+    case LinkCondition::kDeviceStalls:
+      return link_status_t::CONDITION_DEVICE_STALLS;
+    case LinkCondition::kDeviceOverflows:
+      return link_status_t::CONDITION_DEVICE_OVERFLOWS;
+    case LinkCondition::kDeviceMute:
+      return link_status_t::CONDITION_DEVICE_MUTE;
+    case LinkCondition::kDeviceFault:
+      return link_status_t::CONDITION_DEVICE_FAULT;
+  }
+  return link_status_t::CONDITION_NONE;
+}
+
+void fill_link(const LiveStatus& live, const LinkRates& rates, link_status_t& message) {
+  message.condition = condition_code(live.link.condition);
+  message.safelink = live.link.safelink ? 1 : 0;
+  message.ack_rate = rates.ack_rate;
+  message.retries_per_packet = rates.retries_per_packet;
+  message.sent_rate = rates.sent_hz;
+  message.received_rate = rates.received_hz;
+  message.round_trip_ms = live.round_trip > Duration::zero() ? to_seconds(live.round_trip) * 1e3 : -1.0;
+  message.rssi_dbm = live.vehicle.rssi_dbm.value_or(0);
+  message.battery_v = live.vehicle.battery_mv.value_or(0) * 1e-3;
+  message.flying = static_cast<std::int8_t>(live.vehicle.is_flying ? (*live.vehicle.is_flying ? 1 : 0) : -1);
+  message.packets_sent = i64(live.link.packets_sent);
+  message.packets_acked = i64(live.link.packets_acked);
+  message.packets_received = i64(live.link.packets_received);
+  message.duplicates = i64(live.link.duplicates);
+  message.silences = i64(live.link.silences);
+  message.device_losses = i64(live.link.device_losses);
+  message.usb_timeouts = i64(live.link.usb_timeouts);
+}
+
+void fill_counters(const DaemonStatus& status, status_t& message) {
+  message.keyframes = i64(status.frontend.keyframes);
+  message.batches_rolled_back = i64(status.frontend.batches_rolled_back);
+  message.submaps = i64(status.backend.submaps);
+  message.closures_accepted = i64(status.backend.closures_accepted);
+  message.closures_dropped = i64(status.backend.closures_dropped);
+  message.optimizations = i64(status.backend.optimizations);
+  message.solver_failures = i64(status.backend.solver_failures);
+  message.tile_count = i32(status.map.tiles);
+  message.version_sum = i64(status.map.version_sum);
+}
+
+void fill_queues(std::span<const QueueStatistics> queues, status_t& message) {
+  message.queues.clear();
+  for (const QueueStatistics& queue : queues) {
+    queue_status_t& out = message.queues.emplace_back();
+    out.name = queue.name;
+    out.capacity = i32(queue.capacity);
+    out.high_water = i32(queue.high_water);
+    out.refused = i64(queue.refused);
+  }
+  message.queue_count = i32(message.queues.size());
+}
+
+void fill_stages(std::span<const StageSummary> stages, status_t& message) {
+  message.stages.clear();
+  for (const StageSummary& stage : stages) {
+    stage_time_t& out = message.stages.emplace_back();
+    out.name = stage.name;
+    out.count = i64(stage.count);
+    out.mean = stage.mean_ms;
+    out.p50 = stage.p50_ms;
+    out.p99 = stage.p99_ms;
+    out.p999 = stage.p999_ms;
+    out.max = stage.max_ms;
+  }
+  message.stage_count = i32(message.stages.size());
+}
+
+std::int8_t state_code(DaemonState state) {
+  switch (state) {
+    case DaemonState::kRunning:
+      return status_t::STATE_RUNNING;
+    case DaemonState::kFinishing:
+      return status_t::STATE_FINISHING;
+    case DaemonState::kFinished:
+      break;
+  }
+  return status_t::STATE_FINISHED;
+}
+
+}  // namespace
+
+struct LcmPublisher::State {
+  State(std::unique_ptr<LcmTransport> transport, const std::string& prefix, std::int64_t id)
+      : lcm(std::move(transport)),
+        map_id(id),
+        pose_map(prefix + "POSE"),
+        pose_local(prefix + "POSE_LOCAL"),
+        pose_odom(prefix + "POSE_ODOM"),
+        pose2d_map(prefix + "POSE_2D"),
+        pose2d_odom(prefix + "POSE_ODOM_2D"),
+        map_info(prefix + "MAP_INFO"),
+        map_tile(prefix + "MAP_TILE"),
+        landmarks(prefix + "LANDMARKS"),
+        loop_closure(prefix + "LOOP_CLOSURE"),
+        status(prefix + "STATUS") {}
+
+  std::unique_ptr<LcmTransport> lcm;
+  std::int64_t map_id;
+  const std::string pose_map, pose_local, pose_odom, pose2d_map, pose2d_odom, map_info, map_tile, landmarks,
+      loop_closure, status;
+  std::uint64_t failures = 0;
+
+  // Kept from message to message for their storage.
+  map_tile_t tile_message;
+  landmarks_t landmarks_message;
+  status_t status_message;
+  std::array<std::uint8_t, kMaxMessageBytes> buffer;
+
+  template <typename Message>
+  void send(const std::string& channel, const Message& message) {
+    const std::size_t room =
+        kMaxMessageBytes - channel.size() - 1;  // the datagram also holds the channel's name
+    const int bytes = message.encode(buffer.data(), 0, static_cast<int>(room));
+    SWIFTLET_CHECK(bytes > 0, "a message fits one datagram by construction");
+    if (lcm->publish(channel, std::span(buffer).first(static_cast<std::size_t>(bytes)))) return;
+    if (failures++ == 0) spdlog::error("LCM did not take a message on {}: {}", channel, std::strerror(errno));
+  }
+
+  void send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose, const PoseUpdate& update) {
+    pose_t message;
+    message.utime = to_utime(update.stamp);
+    message.map_id = map_id;
+    message.sequence = i32(update.sequence);
+    message.segment = i32(update.segment);
+    message.keyframe = i32(index_of(update.keyframe));
+    message.correction_version = i32(update.correction_version);
+    message.frame = frame;
+    message.x = pose.x_m();
+    message.y = pose.y_m();
+    message.yaw = pose.yaw_rad();
+    send(channel, message);
+  }
+};
+
+Result<std::unique_ptr<LcmPublisher>> LcmPublisher::open(const std::string& url,
+                                                         const std::string& channel_prefix,
+                                                         std::int64_t map_id) {
+  Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
+  if (!transport) return transport.error();
+  auto state = std::make_unique<State>(std::move(transport).value(), channel_prefix, map_id);
+  return std::unique_ptr<LcmPublisher>(new LcmPublisher(std::move(state)));
+}
+
+LcmPublisher::LcmPublisher(std::unique_ptr<State> state) : state_(std::move(state)) {}
+LcmPublisher::~LcmPublisher() = default;
+
+std::uint64_t LcmPublisher::failures() const { return state_->failures; }
+
+void LcmPublisher::publish_pose(const PoseUpdate& pose) {
+  const std::int64_t utime = to_utime(pose.stamp);
+  state_->send_pose(state_->pose_map, pose_t::FRAME_MAP, pose.T_map_body, pose);
+  state_->send_pose(state_->pose_local, pose_t::FRAME_LOCAL, pose.T_local_body, pose);
+  state_->send_pose(state_->pose_odom, pose_t::FRAME_ODOM, pose.T_odom_body, pose);
+  state_->send(state_->pose2d_map, pose2d_message(utime, pose.T_map_body));
+  state_->send(state_->pose2d_odom, pose2d_message(utime, pose.T_odom_body));
+}
+
+void LcmPublisher::publish_tile(HostTime now, const MapTile& tile, double resolution_m) {
+  map_tile_t& message = state_->tile_message;
+  message.utime = to_utime(now);
+  message.map_id = state_->map_id;
+  message.tile_x = tile.index.x;
+  message.tile_y = tile.index.y;
+  message.version = i32(tile.version);
+  message.resolution = resolution_m;
+  static_assert(sizeof(message.occupancy_percent) == sizeof(tile.occupancy_percent));
+  std::memcpy(message.occupancy_percent, tile.occupancy_percent.data(), sizeof(message.occupancy_percent));
+  state_->send(state_->map_tile, message);
+}
+
+void LcmPublisher::publish_map(HostTime now, const MapSummary& map) {
+  map_info_t message;
+  message.utime = to_utime(now);
+  message.map_id = state_->map_id;
+  message.resolution = map.resolution_m;
+  message.tile_cells = kTileCells;
+  message.tile_count = i32(map.tiles);
+  message.version_sum = i64(map.version_sum);
+  message.tile_min[0] = map.lowest.x;
+  message.tile_min[1] = map.lowest.y;
+  message.tile_max[0] = map.highest.x;
+  message.tile_max[1] = map.highest.y;
+  state_->send(state_->map_info, message);
+}
+
+void LcmPublisher::publish_walls(HostTime now, std::span<const WallInMap> walls) {
+  landmarks_t& message = state_->landmarks_message;
+  message.utime = to_utime(now);
+  message.map_id = state_->map_id;
+  message.total = i32(walls.size());
+  std::size_t first = 0;
+  do {  // no walls are said, too
+    const auto part = walls.subspan(first, std::min(kMaxWallsPerMessage, walls.size() - first));
+    message.first = i32(first);
+    message.count = i32(part.size());
+    message.landmarks.resize(part.size());
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      message.landmarks[i].id = i32(index_of(part[i].id));
+      copy_point(part[i].start_map, message.landmarks[i].start);
+      copy_point(part[i].end_map, message.landmarks[i].end);
+    }
+    state_->send(state_->landmarks, message);
+    first += part.size();
+  } while (first < walls.size());
+}
+
+void LcmPublisher::publish_closure(HostTime now, const ClosureUpdate& update) {
+  const LoopClosure& closure = update.closure;
+  loop_closure_t message;
+  message.utime = to_utime(now);
+  message.map_id = state_->map_id;
+  message.index = i32(closure.number);
+  message.from_keyframe = i32(index_of(closure.from));
+  message.to_keyframe = i32(index_of(closure.to));
+  message.x = closure.T_from_to.x_m();
+  message.y = closure.T_from_to.y_m();
+  message.yaw = closure.T_from_to.yaw_rad();
+  message.sigma_x = std::sqrt(closure.covariance.xx);
+  message.sigma_y = std::sqrt(closure.covariance.yy);
+  message.sigma_yaw = std::sqrt(closure.covariance.yaw_yaw);
+  message.score = closure.score;
+  message.dcs_scale = closure.dcs_scale;
+  message.dropped = static_cast<std::int8_t>(closure.dropped ? 1 : 0);
+  copy_point(update.from_map, message.from_map);
+  copy_point(update.to_map, message.to_map);
+  state_->send(state_->loop_closure, message);
+}
+
+void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
+  status_t& message = state_->status_message;
+  message.utime = to_utime(now);
+  message.map_id = state_->map_id;
+  message.state = state_code(status.state);
+  message.sample_rate = status.sample_rate_hz;
+  fill_input(status.input, message);
+  fill_link(status.input.live, status.link_rates, message.link);
+  fill_counters(status, message);
+  fill_queues(status.queues, message);
+  fill_stages(status.stages, message);
+  message.missed_deadlines = i64(status.missed_deadlines);
+  state_->send(state_->status, message);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/base/result.hpp"
+#include "core/base/time.hpp"
+
+namespace swiftlet {
+
+/// Bytes to and from LCM. One thread at a time.
+class LcmTransport {
+ public:
+  using Listener = std::function<void(std::span<const std::uint8_t>)>;
+
+  /// kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or memq://).
+  [[nodiscard]] static Result<std::unique_ptr<LcmTransport>> open(const std::string& url);
+  ~LcmTransport();
+  LcmTransport(const LcmTransport&) = delete;
+  LcmTransport& operator=(const LcmTransport&) = delete;
+
+  /// False, with errno, when LCM did not take the message.
+  [[nodiscard]] bool publish(const std::string& channel, std::span<const std::uint8_t> message);
+  /// `listener` is called from within on_frame(), with each message on that channel.
+  void listen(const std::string& channel, Listener listener);
+  /// Waits for messages for so long at most. False when none came.
+  bool on_frame(Duration timeout);
+
+ private:
+  struct State;
+  explicit LcmTransport(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace swiftlet

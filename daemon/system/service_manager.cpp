@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/system/service_manager.hpp"
+
+#include <systemd/sd-daemon.h>
+
+#include <chrono>
+#include <cstdint>
+
+namespace swiftlet {
+namespace {
+
+/// What is not received is said again or does not matter.
+void say(const char* what) { static_cast<void>(sd_notify(0, what)); }
+
+}  // namespace
+
+ServiceManager::ServiceManager() {
+  std::uint64_t period_us = 0;
+  if (sd_watchdog_enabled(0, &period_us) > 0) watchdog_period_ = std::chrono::microseconds(period_us);
+}
+
+void ServiceManager::say_ready() const { say("READY=1"); }
+void ServiceManager::say_stopping() const { say("STOPPING=1"); }
+void ServiceManager::feed_watchdog() const { say("WATCHDOG=1"); }
+void ServiceManager::tell_status(const std::string& line) const { say(("STATUS=" + line).c_str()); }
+
+}  // namespace swiftlet

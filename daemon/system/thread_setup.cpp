@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/system/thread_setup.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <string>
+
+namespace swiftlet {
+namespace {
+
+constexpr std::size_t kTouchedStack = std::size_t{256} * 1024;
+constexpr std::size_t kPage = 4096;
+
+Error refused(const std::string& what, int why) {
+  return {ErrorCode::kInvalidInput, what + ": " + std::strerror(why)};
+}
+
+}  // namespace
+
+Status set_up_thread(pthread_t thread, const ThreadSetup& setup) {
+  if (setup.cpu >= 0) {
+    cpu_set_t cpus;
+    CPU_ZERO(&cpus);
+    CPU_SET(static_cast<std::size_t>(setup.cpu), &cpus);
+    const int failure = pthread_setaffinity_np(thread, sizeof cpus, &cpus);
+    if (failure != 0) return refused("processor " + std::to_string(setup.cpu), failure);
+  }
+  if (setup.fifo_priority > 0) {
+    sched_param priority{};
+    priority.sched_priority = setup.fifo_priority;
+    const int failure = pthread_setschedparam(thread, SCHED_FIFO, &priority);
+    if (failure != 0) return refused("SCHED_FIFO priority " + std::to_string(setup.fifo_priority), failure);
+  }
+  return {};
+}
+
+Status lock_memory() {
+  if (::mlockall(MCL_CURRENT) != 0) return refused("locked memory", errno);
+  // Whole stacks of threads to come would be read in without this.
+  if (::mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) return refused("locked memory", errno);
+  return {};
+}
+
+void prefault_stack() noexcept {
+  std::array<std::byte, kTouchedStack> room;  // NOLINT(cppcoreguidelines-pro-type-member-init): touched below
+  volatile std::byte* const bytes = room.data();
+  for (std::size_t i = 0; i < kTouchedStack; i += kPage) bytes[i] = std::byte{0};
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+
+#include "core/backend/backend.hpp"
+#include "core/mapping/map_builder.hpp"
+#include "daemon/system/clock.hpp"
+#include "daemon/workers/map_feed.hpp"
+#include "daemon/workers/pipeline_queues.hpp"
+#include "daemon/workers/pruned_scans.hpp"
+#include "daemon/workers/stage_times.hpp"
+#include "daemon/workers/worker.hpp"
+
+namespace swiftlet {
+
+/// Takes each frontend step through the backend, draws the map at keyframes, and hands corrections to the
+/// frontend and changes to the publisher. After the last step comes the final pass. One thread at a time; may
+/// allocate and may be slow.
+class BackendWorker {
+ public:
+  /// References must outlive the worker. Without `publisher` nobody is told of changes.
+  BackendWorker(Backend& backend, MapBuilder& map, const Clock& clock, StepQueue::Consumer steps,
+                CorrectionValue& correction, const std::optional<BackendOutlet>& publisher,
+                StageTimes& times);
+
+  /// Trajectories will be written: what is pruned is kept there, which must outlive the worker.
+  void keep_pruned(PrunedScans& pruned) { pruned_ = &pruned; }
+
+  /// kBlocked: only the publisher's queues stand in the way; call again in a moment.
+  StepResult step();
+  /// Sleeps until a step waits or no more will come.
+  void wait() const noexcept { steps_.wait(); }
+
+ private:
+  Backend& backend_;
+  MapBuilder& map_;
+  const Clock& clock_;
+  StepQueue::Consumer steps_;
+  CorrectionValue& correction_;
+  std::optional<MapFeed> feed_;
+  StageTimes& times_;
+  PrunedScans* pruned_ = nullptr;
+  FrontendStep step_;
+  std::uint32_t correction_version_ = 0;
+  bool final_pass_done_ = false;
+
+  void add_step();
+  void prune();
+  void run_final_pass();
+  template <typename Drawing>
+  void draw(Drawing drawing);
+  void hand_on_correction();
+  /// False while the publisher's queues have no room for all of it.
+  [[nodiscard]] bool hand_on_changes();
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/workers/frontend_worker.hpp"
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+
+FrontendWorker::FrontendWorker(Frontend& frontend, const Clock& clock, SampleQueue::Consumer samples,
+                               StepQueue::Producer steps, CorrectionValue& correction,
+                               std::optional<FrontendOutlet> publisher, StageHistogram& times)
+    : frontend_(frontend),
+      clock_(clock),
+      samples_(samples),
+      steps_(steps),
+      correction_(correction),
+      publisher_(publisher),
+      times_(times) {}
+
+StepResult FrontendWorker::step() noexcept {
+  if (!steps_.has_room()) return StepResult::kBlocked;
+  const bool ended = samples_.closed();
+  if (!samples_.try_pop(received_)) {
+    if (!ended) return StepResult::kIdle;
+    steps_.close();
+    return StepResult::kFinished;
+  }
+  const FrontendStep& step = process();
+  const bool pushed = steps_.try_push(step);
+  SWIFTLET_CHECK(pushed, "only this worker fills the queue of steps, and it had room");
+  if (publisher_) report(step);
+  return StepResult::kProgress;
+}
+
+const FrontendStep& FrontendWorker::process() noexcept {
+  static_cast<void>(correction_.load_if_new(applied_));
+  const StageTimer timer(clock_, times_);
+  return frontend_.process(received_.sample, applied_.T_map_local);
+}
+
+void FrontendWorker::report(const FrontendStep& step) noexcept {
+  const RangeSample& sample = received_.sample;
+  if (sample.starts_segment) ++segment_;
+  // A refused pose is counted by the queue.
+  static_cast<void>(publisher_->poses.try_push({.stamp = sample.stamp,
+                                                .sequence = sample.sequence,
+                                                .segment = segment_,
+                                                .keyframe = step.keyframe,
+                                                .correction_version = applied_.version,
+                                                .T_map_body = step.T_map_body,
+                                                .T_local_body = step.T_local_body,
+                                                .T_odom_body = sample.T_odom_body,
+                                                .arrived_at = received_.arrived_at}));
+  publisher_->counters.store(frontend_.counters());
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/backend/backend.hpp"
+#include "core/base/ids.hpp"
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/sensing/range_sample.hpp"
+#include "daemon/system/clock.hpp"
+#include "firmware_link/session/live_status.hpp"
+
+namespace swiftlet {
+
+/// A sample on its way to the frontend.
+struct HeardSample {
+  RangeSample sample;
+  MonotonicTime arrived_at{};  ///< the radio frame that completed it; of a recording, when it was handed over
+};
+
+/// Where the vehicle is, in all three frames; one for each sample.
+struct PoseUpdate {
+  HostTime stamp{};
+  std::uint32_t sequence = 0;  ///< RangeSample::sequence
+  std::uint32_t segment = 0;   ///< counts up each time the dead reckoning began anew; the first is 1
+  KeyframeId keyframe{};       ///< the newest at the time
+  std::uint32_t correction_version = 0;  ///< MapCorrection::version behind T_map_body; 0: none yet
+  Pose2 T_map_body{};
+  Pose2 T_local_body{};
+  Pose2 T_odom_body{};
+  MonotonicTime arrived_at{};  ///< HeardSample::arrived_at
+};
+
+/// The numbers of an InputReport, without its texts.
+struct InputStatus {
+  std::uint64_t frames = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t gaps = 0;
+  std::uint64_t missing_packets = 0;
+  std::uint64_t duplicates = 0;
+  std::uint64_t out_of_order = 0;
+  std::uint64_t unpaired = 0;
+  std::uint64_t segments = 0;
+  std::uint64_t problems = 0;
+  double progress = -1.0;  ///< 0 to 1 through a recording; negative when the end is unknown
+  bool ended = false;      ///< no further sample will come
+  LiveStatus live{};       ///< condition kNone without a live link
+};
+
+/// A wall at its present place in the map.
+struct WallInMap {
+  LandmarkId id{};
+  Point2 start_map{};
+  Point2 end_map{};
+  bool is_gone = false;  ///< forgotten
+};
+
+/// A loop closure, when found and again when the final pass drops it.
+struct ClosureUpdate {
+  LoopClosure closure{};  ///< keyframes by their frontend ids
+  Point2 from_map{};      ///< where the two keyframes stand now
+  Point2 to_map{};
+};
+
+static_assert(std::is_trivially_copyable_v<HeardSample> && std::is_trivially_copyable_v<PoseUpdate> &&
+              std::is_trivially_copyable_v<InputStatus> && std::is_trivially_copyable_v<WallInMap> &&
+              std::is_trivially_copyable_v<ClosureUpdate>);
+
+}  // namespace swiftlet

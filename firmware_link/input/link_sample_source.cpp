@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/input/link_sample_source.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/link/link_packet.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
+// After a second without the radio the vehicle gives the link up, and so do we: what it did meanwhile is a
+// guess. Its estimate runs on all the same, so that the guess is a good one as long as the step across the
+// hole is one that it can have flown; after half a minute it may have landed and been carried.
+constexpr Duration kUnwatched = std::chrono::seconds(1);
+constexpr Duration kLinkLost = std::chrono::seconds(30);
+// A vehicle that talks without end, and never of what samples are made of, must not hold the caller.
+constexpr int kMaxFramesAtOnce = 64;
+constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
+
+AssemblyConfig assembly_config(const SensorModel& sensor) {
+  AssemblyConfig config;
+  config.beams = BeamLayout::multiranger();
+  config.sensor = sensor;
+  config.continuity.longest_silence = kLinkLost;
+  config.unwatched_after = kUnwatched;
+  return config;
+}
+
+}  // namespace
+
+LinkSampleSource::LinkSampleSource(LinkInput input)
+    : input_(std::move(input)),
+      cache_(input_.cache_directory),
+      extractor_(session_),
+      assembler_(assembly_config(input_.sensor), report_) {
+  report_.notes = input_.notes;
+  if (input_.description) session_.describe(*input_.description);
+  if (input_.starts_logging) live_.emplace(session_, cache_);
+  follow_periods();
+}
+
+Status LinkSampleSource::find_first_sample() {
+  Result<RangeSample> sample = read_sample();
+  while (!sample && sample.error().code == ErrorCode::kTimeout) sample = read_sample();
+  if (sample) {
+    first_sample_ = *sample;
+    return {};
+  }
+  if (sample.error().code != ErrorCode::kEndOfRecording) return sample.error();
+  if (!report_.problems.empty())
+    return Error{ErrorCode::kDamaged, report_.problems.front() + "; it holds no sample"};
+  return Error{ErrorCode::kInvalidInput, explain_no_samples()};
+}
+
+Result<RangeSample> LinkSampleSource::next() {
+  Result<RangeSample> sample = first_sample_ ? Result<RangeSample>(*first_sample_) : read_sample();
+  first_sample_.reset();
+  if (sample && live_) live_->see(sample->T_odom_body);
+  if (sample && input_.truth)
+    input_.truth->kept.push_back({sample->stamp, input_.truth->T_world_body_at(sample->measured_at)});
+  return sample;
+}
+
+Result<RangeSample> LinkSampleSource::read_sample() {
+  for (int frames = 0; !is_live() || frames < kMaxFramesAtOnce; ++frames) {
+    if (const std::optional<RangeSample> sample = assembler_.take()) return *sample;
+    if (end_) return *end_;
+    const Status stepped = step();
+    if (!stepped) return stepped.error();
+  }
+  return Error{ErrorCode::kTimeout, "no sample yet"};  // short: not on the heap
+}
+
+Status LinkSampleSource::step() {
+  if (live_) {
+    Status sent = send_request();
+    if (!sent) return sent;
+  }
+  const Result<LinkFrame> frame = input_.link->receive(kReceiveTimeout);
+  if (!frame) return answer_failure(frame.error());
+  now_ = std::max(now_, frame->at);
+  on_frame(*frame);
+  return {};
+}
+
+Status LinkSampleSource::send_request() {
+  if (input_.clock) now_ = input_.clock->now();
+  const std::optional<CrtpPacket> request = live_->next_request(now_);
+  return request ? input_.link->send(bytes_of(*request)) : Status();
+}
+
+void LinkSampleSource::on_frame(const LinkFrame& frame) {
+  ++report_.frames;
+  if (frame.direction == LinkDirection::kFromVehicle) received_at_ = frame.at;
+  if (input_.recording != nullptr) input_.recording->take(frame);
+  const std::optional<LogRecord> record = session_.on_frame(frame);
+  if (live_ && frame.direction == LinkDirection::kFromVehicle) {
+    live_->on_frame(frame, record);
+    on_cached_toc(frame.at);
+    if (live_->failure()) end_ = live_->failure();
+  }
+  if (!record) return;
+  const std::optional<Reading> reading = extractor_.extract(*record);
+  if (!reading) return;
+  follow_periods();
+  assembler_.add(ground_.hold(*reading));
+}
+
+/// A recording has to hold the names too, or it could not be replayed.
+void LinkSampleSource::on_cached_toc(HostTime at) {
+  for (const CrtpPacket& reply : live_->take_cached_replies()) {
+    const LinkFrame frame = frame_of(LinkDirection::kFromVehicle, at, bytes_of(reply));
+    if (input_.recording != nullptr) input_.recording->take(frame);
+    static_cast<void>(session_.on_frame(frame));
+  }
+}
+
+Status LinkSampleSource::answer_failure(const Error& error) {
+  if (error.code == ErrorCode::kTimeout) {
+    now_ += kReceiveTimeout;  // of a clock, the next look sets it right
+    return error;
+  }
+  assembler_.end();
+  end_ = error;
+  if (error.code == ErrorCode::kDamaged) {
+    report_.problems.push_back(error.message);
+    end_ = Error{ErrorCode::kEndOfRecording, error.message};
+  }
+  finish_report();
+  return {};
+}
+
+void LinkSampleSource::follow_periods() {
+  const auto known_or_usual = [](Duration period) {
+    return period > Duration::zero() ? period : kUsualPeriod;
+  };
+  const Duration range_period = known_or_usual(extractor_.range_period());
+  const Duration odometry_period = known_or_usual(extractor_.odometry_period());
+  if (range_period == range_period_ && odometry_period == odometry_period_) return;
+  range_period_ = range_period;
+  odometry_period_ = odometry_period;
+  assembler_.set_periods(range_period, odometry_period);
+}
+
+void LinkSampleSource::finish_report() {
+  if (session_.used_description())
+    report_.notes.push_back("block layouts taken from " + input_.description->source +
+                            ": the recording has no table of contents for them");
+  for (const std::string& name : extractor_.missing_ranges())
+    report_.notes.push_back(name + " is not logged beside the other ranges: that beam is always invalid");
+  const UnreadableRecords& unreadable = session_.unreadable();
+  if (unreadable.unknown_block > 0)
+    report_.notes.push_back(std::to_string(unreadable.unknown_block) +
+                            " log packets of blocks that nothing describes were left out");
+  if (unreadable.misfit > 0)
+    report_.problems.push_back(input_.name + ": " + std::to_string(unreadable.misfit) +
+                               " log packets have another size than their block and were left out");
+  if (input_.truth && !input_.truth->kept.is_complete())
+    report_.notes.push_back("the truth is not known of every sample: the disk of temporary files was full");
+}
+
+std::vector<StampedPose> LinkSampleSource::ground_truth() const {
+  return input_.truth ? input_.truth->kept.read() : std::vector<StampedPose>{};
+}
+
+std::string LinkSampleSource::explain_no_samples() const {
+  const UnreadableRecords& unreadable = session_.unreadable();
+  const bool has_data = extractor_.finds_ranges() || extractor_.finds_position() || extractor_.finds_yaw();
+  if (!has_data && unreadable.unknown_block > 0)
+    return input_.name +
+           ": nothing in it tells what its log blocks hold (no table of contents); describe them in " +
+           input_.name +
+           ".toml: [[block]] id = 1, variables = [ { name = \"range.front\", type = \"uint16\" }, ... ]";
+  if (!extractor_.finds_ranges())
+    return input_.name +
+           ": no range.front, range.left, range.back or range.right in its log packets; log them";
+  if (!extractor_.finds_position())
+    return input_.name + ": no position in its log packets; log stateEstimate.x and stateEstimate.y";
+  if (!extractor_.finds_yaw()) return input_.name + ": no yaw in its log packets; log stateEstimate.yaw";
+  return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +
+         std::to_string(report_.unpaired) + " range packets)";
+}
+
+Duration LinkSampleSource::since_received() const {
+  return input_.clock ? input_.clock->now() - received_at_ : Duration();
+}
+
+std::optional<LiveStatus> LinkSampleSource::live_status() const {
+  if (!live_) return std::nullopt;
+  return LiveStatus{input_.link->statistics(), live_->round_trip(), live_->health()};
+}
+
+std::optional<VehicleEvent> LinkSampleSource::take_event() {
+  if (!live_) return std::nullopt;
+  const std::optional<VehicleEvent> event = live_->take_event();
+  const auto is_of_its_kind = [&event](const VehicleEvent& other) { return other.kind == event->kind; };
+  if (event && is_warning(*event) && std::none_of(noted_.begin(), noted_.end(), is_of_its_kind))
+    static_cast<void>(noted_.try_push_back(*event));
+  return event;
+}
+
+void LinkSampleSource::end() {
+  for (const VehicleEvent& event : noted_) report_.notes.push_back(describe(event));
+  noted_.clear();
+}
+
+std::optional<double> LinkSampleSource::progress() const {
+  return input_.progress ? input_.progress() : std::nullopt;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/result.hpp"
+#include "firmware_link/sample/sample_source.hpp"
+
+namespace swiftlet {
+
+/// Opens `replay:FILE.pcap`, `sim://WORLD?seed=N&laps=N`, or a plain path (.pcap, .clf, .clf.gz).
+/// kInvalidInput or kNotFound with one line that says what, where and what to do.
+[[nodiscard]] Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
+                                                                       const SampleSourceOptions& options);
+
+}  // namespace swiftlet

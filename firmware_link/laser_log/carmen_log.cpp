@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/laser_log/carmen_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "firmware_link/file/gzip_lines.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::size_t kMaxNamedLines = 10;
+
+/// The numbers of a line, one after the other.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view text) : text_(text) {}
+
+  template <typename Number>
+  bool read(Number& number) {
+    const std::size_t start = std::min(text_.find_first_not_of(" \t"), text_.size());
+    const char* end = text_.data() + text_.size();
+    const auto [rest, error] = std::from_chars(text_.data() + start, end, number);
+    if (error != std::errc{} || (rest != end && *rest != ' ' && *rest != '\t')) return false;
+    text_.remove_prefix(static_cast<std::size_t>(rest - text_.data()));
+    return true;
+  }
+
+ private:
+  std::string_view text_;
+};
+
+bool read_odometry_pose(Numbers& numbers, CarmenOdometry& odometry) {
+  return numbers.read(odometry.position.x_m) && numbers.read(odometry.position.y_m) &&
+         numbers.read(odometry.yaw_rad) && std::isfinite(odometry.position.x_m) &&
+         std::isfinite(odometry.position.y_m) && std::isfinite(odometry.yaw_rad);
+}
+
+/// Stamps are logged in microseconds: the nearest one undoes the rounding of the binary number.
+bool read_stamp(Numbers& numbers, HostTime& stamp) {
+  double seconds = 0.0;
+  if (!numbers.read(seconds) || !(seconds >= 0.0 && seconds < 4e9)) return false;
+  stamp = HostTime(std::chrono::microseconds(std::llround(seconds * 1e6)));
+  return true;
+}
+
+std::optional<double> step_between_readings_rad(std::size_t readings) {
+  if (readings == 180 || readings == 181) return radians(1.0);
+  if (readings == 360 || readings == 361) return radians(0.5);
+  return std::nullopt;
+}
+
+/// Collects the lines of one log.
+class CarmenParser {
+ public:
+  CarmenParser(std::string path, std::size_t beam_count) : path_(std::move(path)), beam_count_(beam_count) {}
+
+  void parse_line(std::string_view line, std::uint64_t number) {
+    log_.lines = number;
+    const char* fault = nullptr;
+    if (line.starts_with("FLASER ")) fault = parse_scan(Numbers(line.substr(7)));
+    if (line.starts_with("ODOM ")) fault = parse_odometry(Numbers(line.substr(5)));
+    if (fault == nullptr) return;
+    if (++malformed_ <= kMaxNamedLines)
+      log_.problems.push_back(path_ + ":" + std::to_string(number) + ": " + fault);
+  }
+
+  void add_problem(const std::string& problem) { log_.problems.push_back(problem); }
+
+  CarmenLog finish() {
+    if (malformed_ > kMaxNamedLines)
+      log_.problems.push_back(path_ + ": " + std::to_string(malformed_ - kMaxNamedLines) +
+                              " more malformed lines");
+    log_.beams = beams_;
+    sort_scans();
+    std::stable_sort(log_.odometry.begin(), log_.odometry.end(), earlier);
+    return std::move(log_);
+  }
+
+ private:
+  static bool earlier(const CarmenOdometry& a, const CarmenOdometry& b) { return a.stamp < b.stamp; }
+
+  /// What is wrong with the line, or nullptr.
+  const char* parse_scan(Numbers numbers) {
+    std::size_t readings = 0;
+    const bool counted = numbers.read(readings);
+    if (counted && picked_.empty()) choose_beams(readings);
+    if (!counted || readings != readings_)
+      return "FLASER with another number of readings than 180, 181, 360 or 361";
+    scratch_m_.resize(readings);
+    for (float& distance_m : scratch_m_)
+      if (!numbers.read(distance_m)) return "FLASER line cut off or garbled";
+    CarmenOdometry corrected;  // another program's estimate: not ours to use
+    CarmenOdometry scan;
+    if (!read_odometry_pose(numbers, corrected) || !read_odometry_pose(numbers, scan) ||
+        !read_stamp(numbers, scan.stamp))
+      return "FLASER line cut off or garbled";
+    if (!log_.scans.empty() && scan.stamp < log_.scans.back().stamp) {
+      ++log_.scan_reversals;
+      log_.pose_scan_lag.interrupt();
+    }
+    log_.pose_scan_lag.add(scratch_m_, scan.yaw_rad, step_rad_);
+    log_.scans.push_back(scan);
+    for (const std::size_t i : picked_) log_.distances_m.push_back(scratch_m_[i]);
+    return nullptr;
+  }
+
+  const char* parse_odometry(Numbers numbers) {
+    CarmenOdometry odometry;
+    double ignored = 0.0;
+    if (!read_odometry_pose(numbers, odometry) || !numbers.read(ignored) || !numbers.read(ignored) ||
+        !numbers.read(ignored) || !read_stamp(numbers, odometry.stamp))
+      return "ODOM line cut off or garbled";
+    if (!log_.odometry.empty() && odometry.stamp < log_.odometry.back().stamp) ++log_.odometry_reversals;
+    log_.odometry.push_back(odometry);
+    return nullptr;
+  }
+
+  void choose_beams(std::size_t readings) {
+    const std::optional<double> step_rad = step_between_readings_rad(readings);
+    if (!step_rad) return;
+    readings_ = readings;
+    step_rad_ = *step_rad;
+    picked_ = pick_beams(readings, beam_count_);
+    beams_.count = static_cast<std::uint8_t>(picked_.size());
+    for (std::size_t i = 0; i < picked_.size(); ++i)
+      beams_.bearing_rad[i] = -kPi / 2.0 + static_cast<double>(picked_[i]) * *step_rad;
+  }
+
+  void sort_scans() {
+    std::vector<std::size_t> order(log_.scans.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [this](std::size_t a, std::size_t b) { return earlier(log_.scans[a], log_.scans[b]); });
+    std::vector<CarmenOdometry> scans;
+    std::vector<float> distances_m;
+    scans.reserve(log_.scans.size());
+    distances_m.reserve(log_.distances_m.size());
+    for (const std::size_t i : order) {
+      const std::span<const float> distances = log_.distances_of(i);
+      const bool repeats = !scans.empty() && scans.back().stamp == log_.scans[i].stamp &&
+                           std::equal(distances.begin(), distances.end(), distances_m.end() - beams_.count);
+      if (repeats) {
+        ++log_.duplicate_scans;
+        continue;
+      }
+      scans.push_back(log_.scans[i]);
+      distances_m.insert(distances_m.end(), distances.begin(), distances.end());
+    }
+    log_.scans = std::move(scans);
+    log_.distances_m = std::move(distances_m);
+  }
+
+  std::string path_;
+  std::size_t beam_count_;
+  CarmenLog log_;
+  BeamLayout beams_;
+  std::size_t readings_ = 0;
+  double step_rad_ = 0.0;
+  std::vector<std::size_t> picked_;
+  std::vector<float> scratch_m_;
+  std::uint64_t malformed_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::size_t> pick_beams(std::size_t readings, std::size_t beam_count) {
+  SWIFTLET_CHECK(beam_count >= 2 && beam_count <= readings,
+                 "beams are picked from at least as many readings");
+  std::vector<std::size_t> picked;
+  const std::size_t stride = readings / (beam_count - 1);
+  for (std::size_t i = 0; i + 1 < beam_count; ++i) picked.push_back(i * stride);
+  picked.push_back(readings - 1);
+  return picked;
+}
+
+Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_count) {
+  Result<GzipLines> lines = GzipLines::open(path);
+  if (!lines) return lines.error();
+  CarmenParser parser(path, beam_count);
+  Result<std::string_view> line = lines->next();
+  for (; line; line = lines->next()) parser.parse_line(*line, lines->line_number());
+  const bool damaged = line.error().code == ErrorCode::kDamaged;
+  if (damaged) parser.add_problem(line.error().message);
+  CarmenLog log = parser.finish();
+  if (!log.scans.empty()) return log;
+  if (damaged) return line.error();
+  if (!log.problems.empty())
+    return Error{ErrorCode::kInvalidInput, log.problems.front() + "; no usable scan"};
+  return Error{ErrorCode::kInvalidInput,
+               path + ": neither a capture (pcap) nor a CARMEN laser log (no FLASER line)"};
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/sensing/sensor_model.hpp"
+#include "firmware_link/laser_log/pose_scan_lag.hpp"
+
+namespace swiftlet {
+
+/// Dead reckoning of a robot in a CARMEN log, in the log's odometry frame.
+struct CarmenOdometry {
+  HostTime stamp{};  ///< ipc_timestamp
+  Point2 position;
+  double yaw_rad = 0.0;
+};
+
+/// A laser log of the CARMEN toolkit, thinned to a few beams: the FLASER and ODOM lines
+///
+///     FLASER n r_1 .. r_n x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp
+///     ODOM x y theta tv rv accel ipc_timestamp host logger_timestamp
+///
+/// Scans and odometry are in the order of their stamps, lines with equal stamps in the order of the file.
+struct CarmenLog {
+  BeamLayout beams;
+  std::vector<CarmenOdometry> scans;     ///< stamp of each scan and the odometry in its line (odom_*)
+  std::vector<float> distances_m;        ///< beams.count a scan, as logged
+  std::vector<CarmenOdometry> odometry;  ///< of the ODOM lines
+  std::uint64_t odometry_reversals =
+      0;  ///< ODOM lines with a stamp before that of the line before, in file order
+  std::uint64_t scan_reversals = 0;   ///< the same of FLASER lines
+  std::uint64_t duplicate_scans = 0;  ///< same stamp, same distances: dropped
+  PoseScanLag pose_scan_lag;          ///< of the FLASER lines' odometry, told from all their readings
+  std::uint64_t lines = 0;
+  std::vector<std::string> problems;  ///< malformed lines and damage, by line number or byte offset
+
+  [[nodiscard]] std::span<const float> distances_of(std::size_t scan) const {
+    return std::span(distances_m).subspan(scan * beams.count, beams.count);
+  }
+};
+
+/// Sparse sensing as in the IROS 2022 paper: of `readings` takes `beam_count`: 0, k, 2k, .. with k = readings
+/// / (beam_count - 1) in whole numbers, and the last one. Precondition: 2 <= beam_count <= readings.
+[[nodiscard]] std::vector<std::size_t> pick_beams(std::size_t readings, std::size_t beam_count);
+
+/// Reads a whole log, plain or gzip. Scans have 180 or 181 readings 1 degree apart, or 360 or 361 readings
+/// half a degree apart, the first at -90 degrees; all the same as the first. Other lines are ignored. Errors:
+/// kNotFound, kInvalidInput: no such log; kDamaged: damaged before the first scan. Precondition: 2 <=
+/// beam_count <= kMaxBeams.
+[[nodiscard]] Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_count);
+
+}  // namespace swiftlet

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/result.hpp"
+#include "firmware_link/laser_log/carmen_log.hpp"
+#include "firmware_link/sample/sample_assembler.hpp"
+#include "firmware_link/sample/sample_source.hpp"
+
+namespace swiftlet {
+
+/// Range samples from a CARMEN laser log. Dead reckoning comes from the ODOM lines, taken 0.1 s before the
+/// scan, when their stamps can be trusted (they never go back and span the scans), else from the pose in each
+/// FLASER line; report().notes says which. Stamps are the ipc_timestamps as logged. One thread at a time.
+class CarmenSampleSource final : public SampleSource {
+ public:
+  /// Errors: as read_carmen_log. Precondition: options.beam_count, if given, is 2..kMaxBeams.
+  [[nodiscard]] static Result<std::unique_ptr<SampleSource>> open(const std::string& path,
+                                                                  const SampleSourceOptions& options);
+
+  [[nodiscard]] Result<RangeSample> next() override;
+  [[nodiscard]] const BeamLayout& beams() const override { return log_.beams; }
+  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
+  [[nodiscard]] const InputReport& report() const override { return report_; }
+  [[nodiscard]] std::optional<double> progress() const override;
+
+ private:
+  CarmenSampleSource(CarmenLog log, const SampleSourceOptions& options);
+  /// False when all has been fed.
+  bool feed();
+  void feed_odometry(const CarmenOdometry& odometry);
+  void feed_scan();
+
+  CarmenLog log_;
+  bool uses_odometry_lines_;
+  SensorModel sensor_;
+  InputReport report_;
+  SampleAssembler assembler_;
+  std::size_t next_odometry_ = 0;
+  std::size_t next_scan_ = 0;
+  DeviceTime last_scan_at_{};
+};
+
+}  // namespace swiftlet

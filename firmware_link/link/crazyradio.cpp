@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/link/crazyradio.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::uint8_t kOut = 0x01;
+constexpr std::uint8_t kIn = 0x81;
+
+constexpr std::uint8_t kSetChannel = 0x01;
+constexpr std::uint8_t kSetAddress = 0x02;
+constexpr std::uint8_t kSetRate = 0x03;
+constexpr std::uint8_t kSetPower = 0x04;
+constexpr std::uint8_t kSetRetryDelay = 0x05;
+constexpr std::uint8_t kSetRetries = 0x06;
+constexpr std::uint8_t kSetAcknowledge = 0x10;
+constexpr std::uint8_t kSetCarrier = 0x20;
+
+constexpr std::uint16_t kFullPower = 3;
+constexpr std::uint16_t kDelayFor32Bytes = 0xA0;
+constexpr std::uint8_t kUsualRetries = 3;
+
+constexpr Duration kControlTimeout = std::chrono::seconds(1);
+constexpr Duration kOutTimeout = std::chrono::milliseconds(100);
+// Longer than the 200 ms after which a Crazyradio 2.0 gives a packet up by itself.
+constexpr Duration kInTimeout = std::chrono::milliseconds(250);
+constexpr Duration kQuiet = std::chrono::milliseconds(10);
+// Longer than any packet takes, retransmissions at 250 kbit/s included.
+constexpr Duration kLongQuiet = std::chrono::milliseconds(25);
+constexpr int kMaxStaleAnswers = 16;
+
+std::string in_capitals(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// An index, where the name is one and not a serial number.
+std::optional<std::size_t> index_in(const std::string& name) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  return is_number && name.size() < 10 ? std::optional(index) : std::nullopt;
+}
+
+using Opened = std::variant<std::unique_ptr<UsbDevice>, UsbOutcome>;
+
+Opened open_dongle(UsbBus& bus, const UsbIdentity& identity) {
+  // Permission may come this very moment, but then this may be another dongle than the one asked for.
+  if (identity.access == UsbOutcome::kAccessDenied) return identity.access;
+  if (identity.release_bcd < kOldestCrazyradioRelease) return UsbOutcome::kFault;
+  return bus.open(identity, 0);
+}
+
+/// The first of those named that can be opened, else why the first cannot.
+Opened open_dongle(UsbBus& bus, const std::string& name) {
+  UsbOutcome failure = UsbOutcome::kDone;
+  for (const UsbIdentity& identity : dongles_named(name, bus.list(kCrazyradioVendor, kCrazyradioProduct))) {
+    Opened opened = open_dongle(bus, identity);
+    if (opened.index() == 0) return opened;
+    if (failure == UsbOutcome::kDone) failure = std::get<UsbOutcome>(opened);
+  }
+  return failure == UsbOutcome::kDone ? UsbOutcome::kNoDevice : failure;
+}
+
+}  // namespace
+
+std::vector<UsbIdentity> dongles_named(const std::string& name, std::vector<UsbIdentity> plugged_in) {
+  if (name == "*") return plugged_in;
+  if (const std::optional<std::size_t> index = index_in(name))
+    return *index < plugged_in.size() ? std::vector{plugged_in[*index]} : std::vector<UsbIdentity>{};
+  const auto has_name = [wanted = in_capitals(name)](const UsbIdentity& identity) {
+    return in_capitals(identity.serial) == wanted;
+  };
+  const bool is_there = std::ranges::any_of(plugged_in, has_name);
+  std::erase_if(plugged_in, [&](const UsbIdentity& identity) {
+    return is_there ? !has_name(identity) : identity.access != UsbOutcome::kAccessDenied;
+  });
+  return plugged_in;
+}
+
+std::variant<Crazyradio, UsbOutcome> Crazyradio::open(UsbBus& bus, const RadioAddress& address) {
+  Opened opened = open_dongle(bus, address.dongle);
+  if (opened.index() == 1) return std::get<UsbOutcome>(opened);
+  // A client that crashed leaves the dongle in any state.
+  UsbOutcome outcome = std::get<0>(opened)->reset();
+  if (outcome == UsbOutcome::kNoDevice) {
+    opened = UsbOutcome::kNoDevice;  // closed first: it came back under another number
+    opened = open_dongle(bus, address.dongle);
+    if (opened.index() == 1) return std::get<UsbOutcome>(opened);
+    outcome = UsbOutcome::kDone;
+  }
+  if (outcome != UsbOutcome::kDone) return outcome;
+  Crazyradio radio(std::get<0>(std::move(opened)));
+  outcome = radio.initialise(address);
+  if (outcome != UsbOutcome::kDone) return outcome;
+  return radio;
+}
+
+UsbOutcome Crazyradio::initialise(const RadioAddress& address) {
+  UsbOutcome outcome = set_rate(address.rate);
+  if (outcome == UsbOutcome::kDone) outcome = set_channel(address.channel);
+  if (outcome == UsbOutcome::kDone) outcome = request(kSetCarrier, 0);
+  if (outcome == UsbOutcome::kDone) outcome = set_address(address.address);
+  if (outcome == UsbOutcome::kDone) outcome = request(kSetPower, kFullPower);
+  if (outcome == UsbOutcome::kDone) outcome = set_retries(kUsualRetries);
+  if (outcome == UsbOutcome::kDone) outcome = request(kSetRetryDelay, kDelayFor32Bytes);
+  if (outcome == UsbOutcome::kDone) outcome = request(kSetAcknowledge, 1);
+  if (outcome == UsbOutcome::kDone) outcome = drain(kQuiet).outcome;
+  return outcome;
+}
+
+UsbOutcome Crazyradio::request(std::uint8_t request, std::uint16_t value,
+                               std::span<const std::uint8_t> data) {
+  return device_->control_out(request, value, 0, data, kControlTimeout).outcome;
+}
+
+UsbOutcome Crazyradio::set_rate(RadioRate rate) {
+  if (rate_ == rate) return UsbOutcome::kDone;
+  const UsbOutcome outcome = request(kSetRate, static_cast<std::uint16_t>(rate));
+  if (outcome == UsbOutcome::kDone) rate_ = rate;
+  return outcome;
+}
+
+UsbOutcome Crazyradio::set_channel(std::uint8_t channel) {
+  SWIFTLET_CHECK(channel <= 125, "the dongle has channels 0 to 125");
+  if (channel_ == channel) return UsbOutcome::kDone;
+  const UsbOutcome outcome = request(kSetChannel, channel);
+  if (outcome == UsbOutcome::kDone) channel_ = channel;
+  return outcome;
+}
+
+UsbOutcome Crazyradio::set_address(const std::array<std::uint8_t, 5>& address) {
+  if (address_ == address) return UsbOutcome::kDone;
+  const UsbOutcome outcome = request(kSetAddress, 0, address);
+  if (outcome == UsbOutcome::kDone) address_ = address;
+  return outcome;
+}
+
+UsbOutcome Crazyradio::set_retries(std::uint8_t retries) {
+  SWIFTLET_CHECK(retries <= 15, "the dongle retries up to 15 times");
+  if (retries_ == retries) return UsbOutcome::kDone;
+  const UsbOutcome outcome = request(kSetRetries, retries);
+  if (outcome == UsbOutcome::kDone) retries_ = retries;
+  return outcome;
+}
+
+RadioAnswer Crazyradio::exchange(std::span<const std::uint8_t> packet) {
+  SWIFTLET_CHECK(!packet.empty() && packet.size() <= kMaxRadioPayload, "a radio packet has 1 to 32 bytes");
+  if (!answer_may_be_late_) return exchange_once(packet);
+  RadioAnswer failed;
+  failed.outcome = drain(kQuiet).outcome;
+  if (failed.outcome != UsbOutcome::kDone) return failed;
+  const RadioAnswer answer = exchange_once(packet);
+  if (answer.outcome != UsbOutcome::kDone) return answer;
+  // The dongle answers in order: what has another answer behind it was the late one.
+  const Drained drained = drain(kLongQuiet);
+  failed.outcome = drained.outcome == UsbOutcome::kDone ? UsbOutcome::kTimeout : drained.outcome;
+  if (drained.outcome != UsbOutcome::kDone || drained.answers > 0) return failed;
+  answer_may_be_late_ = false;
+  return answer;
+}
+
+RadioAnswer Crazyradio::exchange_once(std::span<const std::uint8_t> packet) {
+  RadioAnswer failed;
+  const UsbTransfer out = device_->bulk_out(kOut, packet, kOutTimeout);
+  if (!out.done()) {
+    failed.outcome = recover(kOut, out.outcome);
+    return failed;
+  }
+  const UsbTransfer in = device_->bulk_in(kIn, buffer_, kInTimeout);
+  if (!in.done()) {
+    failed.outcome = recover(kIn, in.outcome);
+    return failed;
+  }
+  return decode(in.size);
+}
+
+UsbOutcome Crazyradio::recover(std::uint8_t endpoint, UsbOutcome failure) {
+  answer_may_be_late_ = true;
+  if (failure != UsbOutcome::kStall) return failure;
+  const UsbOutcome cleared = device_->clear_halt(endpoint);
+  return cleared == UsbOutcome::kDone ? failure : cleared;
+}
+
+Crazyradio::Drained Crazyradio::drain(Duration quiet) {
+  Drained drained;
+  for (int i = 0; i < kMaxStaleAnswers; ++i) {
+    const UsbOutcome outcome = device_->bulk_in(kIn, buffer_, quiet).outcome;
+    if (outcome == UsbOutcome::kTimeout) return drained;
+    ++drained.answers;
+    if (outcome == UsbOutcome::kDone) continue;
+    drained.outcome = recover(kIn, outcome);
+    if (drained.outcome != UsbOutcome::kStall) return drained;
+    drained.outcome = UsbOutcome::kDone;
+  }
+  drained.outcome = UsbOutcome::kFault;  // it talks without being asked
+  return drained;
+}
+
+RadioAnswer Crazyradio::decode(std::size_t size) const {
+  RadioAnswer answer;
+  const std::uint8_t status = size == 0 ? std::uint8_t{0} : buffer_[0];
+  answer.acknowledged = (status & 0x01) != 0;
+  if (!answer.acknowledged) return answer;
+  answer.strong = (status & 0x02) != 0;
+  answer.retries = status >> 4;
+  for (std::size_t i = 1; i < size && answer.payload.try_push_back(buffer_[i]); ++i) {
+  }
+  return answer;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/fixed_vector.hpp"
+#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/link/usb_device.hpp"
+
+namespace swiftlet {
+
+inline constexpr std::uint16_t kCrazyradioVendor = 0x1915;
+inline constexpr std::uint16_t kCrazyradioProduct = 0x7777;
+/// As bcdDevice counts: 0.40, the first that knows the requests.
+inline constexpr std::uint16_t kOldestCrazyradioRelease = 0x0040;
+inline constexpr std::size_t kMaxRadioPayload = 32;
+
+/// Those that a RadioAddress may mean by `name`: an index, a serial number, "*" for all. Where nobody has
+/// that serial number, those that may not be asked for theirs.
+[[nodiscard]] std::vector<UsbIdentity> dongles_named(const std::string& name,
+                                                     std::vector<UsbIdentity> plugged_in);
+
+/// What became of one packet.
+struct RadioAnswer {
+  /// kDone: the dongle has answered. kTimeout, kStall: it has not; it was put right, go on. Others: open it
+  /// anew.
+  UsbOutcome outcome = UsbOutcome::kDone;
+  bool acknowledged = false;                            ///< false: all tries were lost
+  bool strong = false;                                  ///< received above about -64 dBm
+  std::uint8_t retries = 0;                             ///< retransmissions it took, where acknowledged
+  FixedVector<std::uint8_t, kMaxRadioPayload> payload;  ///< what the vehicle sent back, 0 to 32 bytes
+
+  [[nodiscard]] bool may_go_on() const {
+    return outcome == UsbOutcome::kDone || outcome == UsbOutcome::kTimeout || outcome == UsbOutcome::kStall;
+  }
+};
+
+/// A Crazyradio PA or 2.0: sends one packet, fetches one. One thread at a time; must not outlive the bus.
+class Crazyradio {
+ public:
+  /// Finds the dongle that `address` names, resets it and tunes it. Failures: kNoDevice, kAccessDenied (also
+  /// where the serial numbers may not be read), kBusy, kFault (also firmware before 0.40), kStall, kTimeout.
+  [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const RadioAddress& address);
+
+  /// One packet out, its answer in. Takes about 1 ms, 10 ms where nobody answers, 0.25 s where the dongle
+  /// does not. An answer that comes late is thrown away before the next packet. Allocates nothing.
+  /// Precondition: 1 to 32 bytes.
+  [[nodiscard]] RadioAnswer exchange(std::span<const std::uint8_t> packet);
+
+  // Settings. What is set already is not sent again.
+  [[nodiscard]] UsbOutcome set_rate(RadioRate rate);
+  /// Precondition: 0..125.
+  [[nodiscard]] UsbOutcome set_channel(std::uint8_t channel);
+  [[nodiscard]] UsbOutcome set_address(const std::array<std::uint8_t, 5>& address);
+  /// Retransmissions after the first try. Precondition: 0..15.
+  [[nodiscard]] UsbOutcome set_retries(std::uint8_t retries);
+
+ private:
+  explicit Crazyradio(std::unique_ptr<UsbDevice> device) : device_(std::move(device)) {}
+  [[nodiscard]] UsbOutcome initialise(const RadioAddress& address);
+  [[nodiscard]] UsbOutcome request(std::uint8_t request, std::uint16_t value,
+                                   std::span<const std::uint8_t> data = {});
+  /// After a failed transfer: brings the endpoint back where that can be done.
+  [[nodiscard]] UsbOutcome recover(std::uint8_t endpoint, UsbOutcome failure);
+  struct Drained {
+    UsbOutcome outcome = UsbOutcome::kDone;
+    int answers = 0;
+  };
+  /// Throws away what the dongle has to say until it says no more for that long.
+  [[nodiscard]] Drained drain(Duration quiet);
+  [[nodiscard]] RadioAnswer exchange_once(std::span<const std::uint8_t> packet);
+  [[nodiscard]] RadioAnswer decode(std::size_t size) const;
+
+  std::unique_ptr<UsbDevice> device_;
+  std::optional<RadioRate> rate_;
+  std::optional<std::uint8_t> channel_;
+  std::optional<std::array<std::uint8_t, 5>> address_;
+  std::optional<std::uint8_t> retries_;
+  bool answer_may_be_late_ = false;
+  /// A whole USB packet: a shorter one would be an overflow where the dongle says more than expected.
+  std::array<std::uint8_t, 64> buffer_{};
+};
+
+}  // namespace swiftlet

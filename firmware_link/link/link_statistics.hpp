@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/base/time.hpp"
+
+namespace swiftlet {
+
+/// How a live link stands. Those after kSilent are the device's: the link tries again by itself each second.
+enum class LinkCondition : std::uint8_t {
+  kNone,       ///< not a live link: a recording or a simulation
+  kConnected,  ///< the vehicle was received within the last second
+  kSilent,     ///< the device works, the vehicle does not answer: switched off, out of range, other address
+  kDeviceMissing,    ///< no such dongle or cable plugged in
+  kAccessDenied,     ///< it is there, this user may not open it
+  kDeviceBusy,       ///< another program has it
+  kDeviceStalls,     ///< it refuses transfers
+  kDeviceOverflows,  ///< it sends more than it may
+  kDeviceMute,       ///< it does not answer in time
+  kDeviceFault,      ///< any other error: I/O
+};
+
+/// What a link counts, since it was made; copied into the status message. Rates are made of differences.
+struct LinkStatistics {
+  LinkCondition condition = LinkCondition::kNone;
+  std::uint64_t packets_sent = 0;  ///< every transmission, polls and repetitions too
+  std::uint64_t packets_acked =
+      0;  ///< of those, acknowledged (cable: all; UDP: sent while the vehicle is received)
+  std::uint64_t radio_retries = 0;     ///< retransmissions by the dongle, where it tells
+  std::uint64_t packets_received = 0;  ///< with content: null packets left out
+  std::uint64_t duplicates = 0;        ///< downlink packets received twice and dropped by safelink
+  std::uint64_t silences = 0;          ///< times the vehicle was not received for a second or more
+  std::uint64_t device_losses = 0;     ///< times the device had to be opened anew
+  std::uint64_t usb_timeouts = 0;      ///< answers that did not come in time and were drained
+  bool safelink = false;               ///< in use at present
+};
+static_assert(std::is_trivially_copyable_v<LinkStatistics>);
+
+}  // namespace swiftlet

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/link/radio_link.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+#include <variant>
+
+#include "core/base/check.hpp"
+#include "firmware_link/link/link_condition.hpp"
+#include "firmware_link/link/link_packet.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::array<std::uint8_t, 1> kPollPacket{0xFF};
+
+constexpr Duration kBusyPause = std::chrono::milliseconds(5);
+constexpr Duration kIdlePause = std::chrono::milliseconds(10);
+constexpr Duration kIdleAfter = std::chrono::seconds(1);
+// The vehicle deletes its log blocks when it has received nothing for a second.
+constexpr Duration kSilence = std::chrono::seconds(1);
+constexpr Duration kSilentPause = std::chrono::milliseconds(50);
+constexpr Duration kMaxPause = std::chrono::milliseconds(500);
+constexpr Duration kAskPeriodInSilence = std::chrono::seconds(1);
+constexpr int kMaxUnansweredAsks = 10;
+// When both sides count alike there are no repeats at all; a vehicle that has rebooted in between knows
+// nothing of safelink and takes half of its packets for repeats.
+constexpr int kMaxRepeats = 5;
+constexpr Duration kRepeatWindow = std::chrono::seconds(1);
+constexpr int kMaxFailuresInARow = 10;
+
+Duration pause_between(std::optional<int> rate_limit_hz) {
+  if (!rate_limit_hz) return Duration::zero();
+  return std::min(kMaxPause, Duration(std::chrono::seconds(1)) / std::max(1, *rate_limit_hz));
+}
+
+}  // namespace
+
+RadioLink::RadioLink(UsbBus& bus, LinkClock& clock, RadioAddress address)
+    : bus_(bus), clock_(clock), address_(std::move(address)), received_at_(clock.now()), mode_(Mode::kPlain) {
+  statistics_.condition = LinkCondition::kSilent;
+  ask_for_safelink();
+}
+
+Result<LinkFrame> RadioLink::receive(Duration timeout) {
+  HostTime now = clock_.now();
+  const HostTime deadline = now + timeout;
+  for (;;) {
+    if (to_hand_back_.empty() && now - pause() >= acted_at_) {
+      acted_at_ = now;
+      if (!silent_ && now - received_at_ >= kSilence) fall_silent();
+      if (!radio_) open(now);
+      if (radio_) exchange();
+    }
+    if (!to_hand_back_.empty()) {
+      const LinkFrame frame = to_hand_back_.front();
+      to_hand_back_.erase_front(1);
+      return frame;
+    }
+    now = clock_.now();
+    if (now >= deadline) return Error{ErrorCode::kTimeout, "nothing received"};  // short: not on the heap
+    const HostTime next = std::min(deadline, acted_at_ + pause());
+    if (next > now) clock_.sleep_for(next - now);
+    now = std::max(now, clock_.now());
+  }
+}
+
+Status RadioLink::send(std::span<const std::uint8_t> packet) {
+  if (unacknowledged_ && has_content(packet) && is_same_packet(bytes_of(*unacknowledged_), packet)) return {};
+  return requests_.push(packet);
+}
+
+void RadioLink::open(HostTime now) {
+  if (!reopen_.is_due(bus_, now)) return;
+  std::variant<Crazyradio, UsbOutcome> opened = Crazyradio::open(bus_, address_);
+  if (const UsbOutcome* failure = std::get_if<UsbOutcome>(&opened)) {
+    statistics_.condition = condition_of(*failure);
+    return;
+  }
+  radio_.emplace(std::get<Crazyradio>(std::move(opened)));
+  failures_in_a_row_ = 0;
+  active_at_ = now;
+  ask_for_safelink();
+}
+
+void RadioLink::lose_dongle(UsbOutcome failure) {
+  radio_.reset();
+  unacknowledged_.reset();
+  ++statistics_.device_losses;
+  statistics_.condition = condition_of(failure);
+  statistics_.safelink = false;
+}
+
+Duration RadioLink::pause() const {
+  Duration pause = kBusyPause;
+  if (!radio_)
+    pause = ReopenSchedule::kCheckPeriod;
+  else if (silent_)
+    pause = kSilentPause;
+  else if (was_acknowledged_ && (has_more_ || mode_ == Mode::kAsking || !requests_.empty()))
+    pause = Duration::zero();
+  else if (acted_at_ - kIdleAfter >= active_at_)
+    pause = kIdlePause;
+  return radio_ ? std::max(pause, pause_between(address_.rate_limit_hz)) : pause;
+}
+
+void RadioLink::exchange() {
+  const HostTime now = acted_at_ = clock_.now();
+  const CrtpPacket packet = next_packet(now);
+  const RadioAnswer answer = radio_->exchange(bytes_of(packet));
+  was_acknowledged_ = answer.acknowledged;
+  has_more_ = false;
+  failures_in_a_row_ = answer.outcome == UsbOutcome::kDone ? 0 : failures_in_a_row_ + 1;
+  last_outcome_ = answer.outcome;
+  if (!answer.may_go_on() || failures_in_a_row_ >= kMaxFailuresInARow) return lose_dongle(answer.outcome);
+  ++statistics_.packets_sent;
+  if (answer.outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
+  if (sent_ == Sent::kRequest) hand_back(frame_of(LinkDirection::kToVehicle, now, bytes_of(packet)));
+  if (answer.acknowledged)
+    on_frame(answer, clock_.now());
+  else if (answer.outcome == UsbOutcome::kDone && statistics_.condition != LinkCondition::kConnected)
+    statistics_.condition = LinkCondition::kSilent;  // the dongle works again
+}
+
+void RadioLink::fall_silent() {
+  silent_ = true;
+  ++statistics_.silences;
+  if (statistics_.condition == LinkCondition::kConnected)
+    statistics_.condition =
+        last_outcome_ == UsbOutcome::kDone ? LinkCondition::kSilent : condition_of(last_outcome_);
+  requests_.clear();
+  ask_for_safelink();
+}
+
+void RadioLink::ask_for_safelink() {
+  mode_ = address_.safelink ? Mode::kAsking : Mode::kPlain;
+  sent_ = Sent::kPoll;
+  unanswered_asks_ = 0;
+  unacknowledged_.reset();
+  statistics_.safelink = false;
+}
+
+CrtpPacket RadioLink::next_packet(HostTime now) {
+  if (mode_ == Mode::kAsking) {
+    // Not twice in a row: a vehicle whose yes was lost answers only after another packet.
+    const bool asks = silent_ ? now - kAskPeriodInSilence >= asked_at_ : sent_ != Sent::kAsk;
+    sent_ = asks ? Sent::kAsk : Sent::kPoll;
+    if (asks) asked_at_ = now;
+    return asks ? packet_of(kSafelinkRequest) : packet_of(kPollPacket);
+  }
+  if (unacknowledged_) {
+    sent_ = Sent::kPoll;  // a request among them was handed back already
+    return *unacknowledged_;
+  }
+  sent_ = requests_.empty() || silent_ ? Sent::kPoll : Sent::kRequest;
+  if (sent_ == Sent::kRequest) active_at_ = now;
+  CrtpPacket packet = sent_ == Sent::kRequest ? requests_.pop() : packet_of(kPollPacket);
+  if (mode_ == Mode::kSafelink) {
+    packet[0] = safelink_.header(packet[0]);
+    unacknowledged_ = packet;
+  }
+  return packet;
+}
+
+void RadioLink::hand_back(const LinkFrame& frame) {
+  SWIFTLET_CHECK(to_hand_back_.try_push_back(frame), "an exchange yields two frames at most");
+}
+
+void RadioLink::on_frame(const RadioAnswer& answer, HostTime now) {
+  ++statistics_.packets_acked;
+  statistics_.radio_retries += answer.retries;
+  statistics_.condition = LinkCondition::kConnected;
+  received_at_ = now;
+  silent_ = false;
+  unacknowledged_.reset();
+  const std::span<const std::uint8_t> payload(answer.payload.data(), answer.payload.size());
+  switch (mode_) {
+    case Mode::kAsking:
+      return on_while_asking(payload, now);
+    case Mode::kSafelink:
+      return on_by_safelink(payload, now);
+    case Mode::kPlain:
+      return on_content(payload, now);
+  }
+}
+
+void RadioLink::on_while_asking(std::span<const std::uint8_t> payload, HostTime now) {
+  if (sent_ == Sent::kAsk) {
+    if (is_safelink_echo(payload)) {
+      safelink_.restart();
+      mode_ = Mode::kSafelink;
+      statistics_.safelink = true;
+      return;
+    }
+    if (++unanswered_asks_ >= kMaxUnansweredAsks) mode_ = Mode::kPlain;
+  }
+  // Its counters unknown, the vehicle may say again what it said last.
+  if (last_received_ && is_same_packet(bytes_of(*last_received_), payload)) {
+    ++statistics_.duplicates;
+    return;
+  }
+  on_content(payload, now);
+}
+
+void RadioLink::on_by_safelink(std::span<const std::uint8_t> payload, HostTime now) {
+  if (safelink_.acknowledged(payload) != Safelink::Payload::kRepeat) return on_content(payload, now);
+  if (!is_null_packet(payload)) ++statistics_.duplicates;
+  if (now - kRepeatWindow >= repeats_since_) {
+    repeats_since_ = now;
+    repeats_ = 0;
+  }
+  if (++repeats_ < kMaxRepeats) return;
+  repeats_ = 0;
+  ask_for_safelink();
+}
+
+void RadioLink::on_content(std::span<const std::uint8_t> payload, HostTime now) {
+  if (!has_content(payload)) return;
+  ++statistics_.packets_received;
+  active_at_ = now;
+  has_more_ = true;
+  last_received_ = packet_of(payload);
+  hand_back(frame_of(LinkDirection::kFromVehicle, now, payload));
+}
+
+}  // namespace swiftlet

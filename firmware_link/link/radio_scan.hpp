@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/link/usb_device.hpp"
+
+namespace swiftlet {
+
+/// Sends one poll at each data rate and channel and returns who acknowledged: `wanted`'s dongle and address
+/// with the rates and channels found, the other fields as they were; or why the dongle cannot be used. Takes
+/// one to two seconds with a real dongle. Not while a RadioLink uses the same dongle.
+[[nodiscard]] std::variant<std::vector<RadioAddress>, UsbOutcome> scan_radio(UsbBus& bus,
+                                                                             const RadioAddress& wanted);
+
+}  // namespace swiftlet

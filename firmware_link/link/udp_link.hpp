@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "firmware_link/link/link.hpp"
+#include "firmware_link/link/link_clock.hpp"
+#include "firmware_link/link/request_queue.hpp"
+
+namespace swiftlet {
+
+/// A simulated vehicle on UDP: one datagram is one CRTP packet of 1 to 31 bytes, either way. While nothing is
+/// received it greets every 200 ms, in the ways that are in use (`f3` registers with CrazySim, `ff` is the
+/// client library's scan); then it sends a null packet whenever it has sent nothing for 100 ms, because a
+/// vehicle drops its log after a second without any. What it sends of its own accord is never more than null
+/// packets. Nobody listening, a network that is down: kSilent, and it goes on trying.
+///
+/// Null packets from the vehicle count as hearing it and are not handed back. Datagrams of other sizes are
+/// dropped. A frame is stamped with the time at which it reached the machine, however late it is read.
+/// receive() and send() do not allocate.
+class UdpLink final : public Link {
+ public:
+  /// Looks the name up (this may take seconds); IPv4 where it has both, for the vendor's simulators listen to
+  /// nothing else. `clock` must keep pace with real time and outlive the link. Errors: kNotFound: there is no
+  /// such host. kInvalidInput: no socket to be had.
+  [[nodiscard]] static Result<std::unique_ptr<UdpLink>> open(const std::string& host, std::uint16_t port,
+                                                             LinkClock& clock);
+  ~UdpLink() override;
+
+  [[nodiscard]] Result<LinkFrame> receive(Duration timeout) override;
+  /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet.
+  [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
+  /// As of the last receive().
+  [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
+
+ private:
+  struct Peer {
+    sockaddr_storage address{};
+    socklen_t size = 0;
+  };
+  static Result<Peer> find(const std::string& host, std::uint16_t port);
+
+  UdpLink(int socket, const Peer& peer, LinkClock& clock) : socket_(socket), peer_(peer), clock_(clock) {}
+  void note_silence(HostTime now);
+  void note_received(HostTime now);
+  void keep_alive(HostTime now);
+  std::optional<LinkFrame> send_next(HostTime now);
+  std::optional<LinkFrame> take_datagrams();
+  void wait_until(HostTime wake_at, HostTime now) const;
+  bool transmit(std::span<const std::uint8_t> packet, HostTime now);
+  bool associate();
+
+  int socket_;
+  Peer peer_;
+  LinkClock& clock_;
+  HostTime handed_back_at_{};  // stamp of the last frame: they never go back
+  bool associated_ = false;    // with the peer: a route to it is known
+  RequestQueue requests_;
+  std::optional<HostTime> received_at_;  // since when it is not silent
+  HostTime greets_at_{};                 // while silent
+  HostTime sent_at_{};
+  LinkStatistics statistics_{.condition = LinkCondition::kSilent};
+};
+
+}  // namespace swiftlet

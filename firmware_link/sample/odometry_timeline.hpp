@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/time.hpp"
+#include "core/geometry/angle.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// When readings of dead reckoning belong together.
+struct ContinuityLimits {
+  Duration longest_interpolation{};  ///< no value between readings further apart than this
+  Duration longest_silence{};        ///< after a longer one the dead reckoning counts as begun anew
+  double top_speed_m_per_s = 5.0;    ///< what moves faster (and further than the slack) has been reset
+  double jump_slack_m = 0.1;
+  double top_turn_rate_rad_per_s = 4.0 * kPi;
+};
+
+struct YawReading {
+  double yaw_rad = 0.0;
+};
+
+inline Point2 interpolate(const Point2& a, const Point2& b, double fraction) {
+  return {a.x_m + fraction * (b.x_m - a.x_m), a.y_m + fraction * (b.y_m - a.y_m)};
+}
+/// The short way round.
+inline YawReading interpolate(const YawReading& a, const YawReading& b, double fraction) {
+  return {wrap_angle(a.yaw_rad + fraction * wrap_angle(b.yaw_rad - a.yaw_rad))};
+}
+/// Whether one can follow the other after `elapsed`, as motions go.
+inline bool is_motion(const Point2& a, const Point2& b, Duration elapsed, const ContinuityLimits& limits) {
+  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) <=
+         limits.jump_slack_m + limits.top_speed_m_per_s * to_seconds(elapsed);
+}
+inline bool is_motion(const YawReading& a, const YawReading& b, Duration elapsed,
+                      const ContinuityLimits& limits) {
+  return std::abs(wrap_angle(b.yaw_rad - a.yaw_rad)) <= limits.top_turn_rate_rad_per_s * to_seconds(elapsed);
+}
+
+/// The latest readings of one part of the dead reckoning (position or yaw), interpolated in time. Fixed
+/// storage: the oldest reading gives way. One thread at a time.
+template <typename Value, std::size_t kCapacity = 128>
+class OdometryTimeline {
+ public:
+  enum class Outcome {
+    kFound,
+    kTooEarly,  ///< nothing received yet at or after that time: ask again
+    kNever,     ///< a hole, a jump, or before all that is remembered
+  };
+  struct Answer {
+    Outcome outcome = Outcome::kNever;
+    Value value{};
+    /// Counts the times the dead reckoning began anew: answers with equal runs are joined by motion.
+    std::uint32_t run = 0;
+  };
+
+  explicit OdometryTimeline(const ContinuityLimits& limits) : limits_(limits) {}
+
+  void set_limits(const ContinuityLimits& limits) { limits_ = limits; }
+  /// Readings not later than the newest are ignored. NaN and infinity, too.
+  void add(DeviceTime at, const Value& value) {
+    if (count_ > 0) {
+      const Reading& last = newest();
+      if (at <= last.at) return;
+      const Duration elapsed = at - last.at;
+      if (elapsed > limits_.longest_silence || !is_motion(last.value, value, elapsed, limits_)) ++run_;
+    }
+    readings_[(first_ + count_) % kCapacity] = {at, value, run_};
+    if (count_ < kCapacity) {
+      ++count_;
+    } else {
+      first_ = (first_ + 1) % kCapacity;
+    }
+  }
+  /// Forgets all readings; what follows is a new run.
+  void restart() {
+    count_ = 0;
+    ++run_;
+  }
+
+  [[nodiscard]] Answer at(DeviceTime time) const {
+    if (count_ == 0 || newest().at < time) return {Outcome::kTooEarly, {}, run_};
+    for (std::size_t i = count_; i > 0; --i) {
+      const Reading& before = reading(i - 1);
+      if (before.at > time) continue;
+      if (before.at == time) return {Outcome::kFound, before.value, before.run};
+      const Reading& after = reading(i);
+      const Duration hole = after.at - before.at;
+      if (hole > limits_.longest_interpolation || before.run != after.run) return {};
+      const double fraction = to_seconds(time - before.at) / to_seconds(hole);
+      return {Outcome::kFound, interpolate(before.value, after.value, fraction), before.run};
+    }
+    return {};
+  }
+
+ private:
+  struct Reading {
+    DeviceTime at{};
+    Value value{};
+    std::uint32_t run = 0;
+  };
+  [[nodiscard]] const Reading& reading(std::size_t i) const { return readings_[(first_ + i) % kCapacity]; }
+  [[nodiscard]] const Reading& newest() const { return reading(count_ - 1); }
+
+  ContinuityLimits limits_;
+  std::array<Reading, kCapacity> readings_{};
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+  std::uint32_t run_ = 0;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/time.hpp"
+#include "firmware_link/sample/sample_assembler.hpp"
+#include "firmware_link/session/log_session.hpp"
+
+namespace swiftlet {
+
+/// The distances of the Multiranger deck by variable, in the order of BeamLayout::multiranger().
+inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "range.left", "range.back",
+                                                            "range.right"};
+
+/// Finds in the vehicle's log records what samples are made of, by the names of the variables, in whichever
+/// blocks they come: the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or
+/// stateEstimateZ.x/y); the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ).
+/// Each of the three is taken from the first block that offers it. Names are resolved when a layout changes,
+/// not per packet: fixed storage. One thread at a time; `session` must outlive it.
+class ReadingExtractor {
+ public:
+  explicit ReadingExtractor(const LogSession& session) : session_(session) {}
+
+  /// nullopt when the record holds nothing of use.
+  [[nodiscard]] std::optional<Reading> extract(const LogRecord& record);
+
+  /// How often each arrives, as the blocks were started; 0 when unknown.
+  [[nodiscard]] Duration range_period() const { return period_of(range_source_); }
+  [[nodiscard]] Duration odometry_period() const;
+  [[nodiscard]] bool finds_ranges() const { return range_source_.has_value(); }
+  [[nodiscard]] bool finds_position() const { return position_source_.has_value(); }
+  [[nodiscard]] bool finds_yaw() const { return yaw_source_.has_value(); }
+  /// Distances that the block with the ranges lacks; allocates.
+  [[nodiscard]] std::vector<std::string> missing_ranges() const;
+
+ private:
+  using Slot = std::optional<std::uint8_t>;  ///< entry of a block
+  enum class PositionKind : std::uint8_t { kNone, kMetres, kMillimetres };
+  enum class YawKind : std::uint8_t { kNone, kDegrees, kQuaternion, kPackedQuaternion };
+  /// Where a block holds what.
+  struct Slots {
+    bool resolved = false;
+    std::array<Slot, 4> ranges{};
+    bool has_ranges = false;
+    PositionKind position = PositionKind::kNone;
+    std::array<Slot, 2> position_slots{};
+    YawKind yaw = YawKind::kNone;
+    std::array<Slot, 4> yaw_slots{};  ///< x, y, z, w for a quaternion
+    Slot flying;
+    unsigned flying_mask = 0;
+  };
+  struct Source {
+    std::uint8_t block_id = 0;
+    Duration period{};
+  };
+  /// stateEstimateZ.x counts millimetres in 16 bits and wraps at 32.767 m: made continuous again.
+  struct WrappedMillimetres {
+    std::int64_t value_mm = 0;
+    double unwrap_m(double wrapped_mm);
+  };
+
+  const Slots& slots_of(const LogRecord& record);
+  void resolve(const LogRecord& record, Slots& slots) const;
+  void resolve_position(const LogRecord& record, Slots& slots) const;
+  void resolve_yaw(const LogRecord& record, Slots& slots) const;
+  void resolve_flying(const LogRecord& record, Slots& slots) const;
+  /// The slot of each name; false when one is missing.
+  bool find_all(const LogRecord& record, std::span<const std::string_view> names,
+                std::span<Slot> slots) const;
+  [[nodiscard]] Slot find(const LogRecord& record, std::string_view name) const;
+  static bool take_from(std::optional<Source>& source, const LogRecord& record);
+  static Duration period_of(const std::optional<Source>& source);
+  Point2 read_position(const LogRecord& record, const Slots& slots);
+  static double read_yaw_rad(const LogRecord& record, const Slots& slots);
+
+  const LogSession& session_;
+  std::uint32_t revision_ = 0;
+  std::array<Slots, 256> slots_{};
+  std::optional<Source> range_source_;
+  std::optional<Source> position_source_;
+  std::optional<Source> yaw_source_;
+  WrappedMillimetres x_;
+  WrappedMillimetres y_;
+};
+
+}  // namespace swiftlet

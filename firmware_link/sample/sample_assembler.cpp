@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample/sample_assembler.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr Duration kReboot = std::chrono::seconds(1);
+constexpr double kMaxHoleInPeriods = 1.5;
+
+Duration scaled(Duration duration, double factor) { return from_seconds(to_seconds(duration) * factor); }
+
+}  // namespace
+
+RangeStatus classify_distance(double distance_m, const SensorModel& sensor) {
+  if (!(distance_m >= sensor.min_range_m)) return RangeStatus::kInvalid;
+  return distance_m >= sensor.max_range_m ? RangeStatus::kNoReturn : RangeStatus::kHit;
+}
+
+SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputReport& report)
+    : config_(config), report_(report), positions_(config.continuity), yaws_(config.continuity) {}
+
+void SampleAssembler::set_periods(Duration range_period, Duration odometry_period) {
+  config_.range_period = range_period;
+  config_.continuity.longest_interpolation = scaled(odometry_period, kMaxHoleInPeriods);
+  positions_.set_limits(config_.continuity);
+  yaws_.set_limits(config_.continuity);
+}
+
+void SampleAssembler::add(const Reading& reading) {
+  SWIFTLET_CHECK(reading.distance_m.empty() || reading.distance_m.size() == config_.beams.count,
+                 "a reading has a distance for each beam of the layout, or none");
+  if (!accept_time(reading)) return;
+  latest_ = std::max(latest_, reading.at);
+  if (reading.begins_anew) {
+    positions_.restart();
+    yaws_.restart();
+  }
+  if (reading.position_odom || reading.yaw_odom_rad) ++report_.odometry_packets;
+  if (reading.position_odom && std::isfinite(reading.position_odom->x_m) &&
+      std::isfinite(reading.position_odom->y_m))
+    positions_.add(reading.at, *reading.position_odom);
+  if (reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad))
+    yaws_.add(reading.at, {*reading.yaw_odom_rad});
+  if (!reading.distance_m.empty()) hold_ranges(reading);
+}
+
+bool SampleAssembler::accept_time(const Reading& reading) {
+  if (reading.boot != boot_) {
+    boot_ = reading.boot;
+    restart();
+    latest_ = reading.at;
+  }
+  std::optional<DeviceTime>& last = last_by_stream_[reading.stream];
+  if (last && reading.at == *last) {
+    ++report_.duplicates;
+    return false;
+  }
+  if (last && reading.at < *last && *last - reading.at <= kReboot) {
+    ++report_.out_of_order;
+    return false;
+  }
+  if (latest_ - reading.at > kReboot) {
+    restart();
+    latest_ = reading.at;
+  }
+  last = reading.at;
+  return true;
+}
+
+void SampleAssembler::restart() {
+  while (!pending_.empty()) drop_oldest();
+  last_by_stream_.fill(std::nullopt);
+  last_ranges_at_.reset();
+  positions_.restart();
+  yaws_.restart();
+}
+
+void SampleAssembler::hold_ranges(const Reading& reading) {
+  // The block that ranges come in can change: then they may come crosswise.
+  if (last_ranges_at_ && reading.at <= *last_ranges_at_) {
+    ++report_.out_of_order;
+    return;
+  }
+  ++report_.range_packets;
+  count_gap(reading);
+  if (pending_.full()) drop_oldest();
+  static_cast<void>(
+      pending_.try_push_back({reading.at - config_.sensor.range_age, reading.received, reading.distance_m}));
+}
+
+/// By the vehicle's clock; by ours where the vehicle's began anew.
+void SampleAssembler::count_gap(const Reading& reading) {
+  if (last_ranges_received_ && config_.range_period > Duration::zero()) {
+    const Duration since =
+        last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.received - *last_ranges_received_;
+    const double periods = to_seconds(since) / to_seconds(config_.range_period);
+    if (periods > kMaxHoleInPeriods) {
+      ++report_.gaps;
+      report_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
+    }
+  }
+  last_ranges_at_ = reading.at;
+  last_ranges_received_ = reading.received;
+}
+
+std::optional<RangeSample> SampleAssembler::take() {
+  using Outcome = OdometryTimeline<Point2>::Outcome;
+  using YawOutcome = OdometryTimeline<YawReading>::Outcome;
+  while (!pending_.empty()) {
+    const DeviceTime at = pending_.front().measured_at;
+    const auto position = positions_.at(at);
+    const auto yaw = yaws_.at(at);
+    const bool too_early = position.outcome == Outcome::kTooEarly || yaw.outcome == YawOutcome::kTooEarly;
+    const bool never = position.outcome == Outcome::kNever || yaw.outcome == YawOutcome::kNever;
+    // What is later than one interpolation span could not be used any more; another span of grace for
+    // packets that overtake each other.
+    const bool may_come = !ended_ && latest_ - at <= 2 * config_.continuity.longest_interpolation;
+    if (too_early && !never && may_come) return std::nullopt;
+    if (too_early || never) {
+      drop_oldest();
+      continue;
+    }
+    const Pose2 T_odom_body(position.value.x_m, position.value.y_m, yaw.value.yaw_rad);
+    const RangeSample sample = finish(pending_.front(), T_odom_body, {position.run, yaw.run, at});
+    pending_.erase(0);
+    return sample;
+  }
+  return std::nullopt;
+}
+
+RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_odom_body,
+                                    const Motion& motion) {
+  RangeSample sample;
+  sample.sequence = next_sequence_++;
+  sample.measured_at = ranges.measured_at;
+  sample.stamp = ranges.received;
+  sample.T_odom_body = T_odom_body;
+  const bool runs_on = last_motion_ && last_motion_->position_run == motion.position_run &&
+                       last_motion_->yaw_run == motion.yaw_run;
+  const bool was_watched = runs_on && motion.at - last_motion_->at < config_.unwatched_after;
+  sample.starts_segment = !was_watched;
+  sample.odometry_ran_on = runs_on && !was_watched;
+  last_motion_ = motion;
+  sample.beam_count = config_.beams.count;
+  for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {
+    const RangeStatus status = classify_distance(static_cast<double>(ranges.distance_m[i]), config_.sensor);
+    sample.status[i] = status;
+    if (status == RangeStatus::kHit) sample.distance_m[i] = ranges.distance_m[i];
+    if (status == RangeStatus::kHit) ++report_.hits;
+    if (status == RangeStatus::kNoReturn) ++report_.no_returns;
+    if (status == RangeStatus::kInvalid) ++report_.invalid;
+  }
+  ++report_.samples;
+  if (sample.starts_segment) ++report_.segments;
+  return sample;
+}
+
+void SampleAssembler::drop_oldest() {
+  ++report_.unpaired;
+  pending_.erase(0);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/base/fixed_vector.hpp"
+#include "core/base/time.hpp"
+#include "core/sensing/range_sample.hpp"
+#include "core/sensing/sensor_model.hpp"
+#include "firmware_link/sample/odometry_timeline.hpp"
+#include "firmware_link/sample/sample_source.hpp"
+
+namespace swiftlet {
+
+/// What one packet, or one line of a log, said, whatever its format.
+struct Reading {
+  std::uint8_t stream = 0;  ///< log block, or kind of line: times ascend within one
+  std::uint32_t boot = 0;   ///< of the vehicle: its clock and its dead reckoning begin anew with each
+  DeviceTime at{};
+  HostTime received{};
+  std::optional<Point2> position_odom;
+  std::optional<double> yaw_odom_rad;
+  std::optional<bool> is_flying;  ///< nullopt where the vehicle does not tell
+  bool begins_anew = false;       ///< the dead reckoning does not continue what came before
+  /// One distance a beam, or empty: no ranges in this packet. NaN is no measurement; out-of-range values stay
+  /// as they are.
+  FixedVector<float, kMaxBeams> distance_m;
+};
+
+struct AssemblyConfig {
+  BeamLayout beams;
+  SensorModel sensor;
+  Duration range_period{};  ///< nominal, to count gaps by; 0: irregular, gaps are not counted
+  ContinuityLimits continuity;
+  /// Dead reckoning that nobody received for so long is a guess: RangeSample::odometry_ran_on.
+  Duration unwatched_after = Duration::max();
+};
+
+/// Makes range samples of readings: pairs ranges with dead reckoning of the same instant (the packet's time
+/// less the range's age), position and yaw each interpolated on its own time line, because they may come in
+/// different packets. Waits for dead reckoning that is still to come, but not for long; keeps the order;
+/// counts what it drops. Fixed storage, no allocation, one thread at a time.
+class SampleAssembler {
+ public:
+  /// Counts into `report`, which must outlive the assembler.
+  SampleAssembler(const AssemblyConfig& config, InputReport& report);
+
+  /// Once the traffic has told them: how often ranges and dead reckoning come. Dead reckoning is then
+  /// interpolated across at most 1.5 periods.
+  void set_periods(Duration range_period, Duration odometry_period);
+  /// A reading of the past second's order or of no use is dropped and counted; a step back of more than a
+  /// second is a reboot of the vehicle.
+  void add(const Reading& reading);
+  /// No more readings will come: what waits for dead reckoning is dropped.
+  void end() { ended_ = true; }
+  /// The next finished sample, if any. Call until empty after each add().
+  [[nodiscard]] std::optional<RangeSample> take();
+
+ private:
+  struct PendingRanges {
+    DeviceTime measured_at{};
+    HostTime received{};
+    FixedVector<float, kMaxBeams> distance_m;
+  };
+  /// Where a sample stands in the dead reckoning: how often that began anew, and when it was measured.
+  struct Motion {
+    std::uint32_t position_run = 0;
+    std::uint32_t yaw_run = 0;
+    DeviceTime at{};
+  };
+
+  /// False when the reading is a duplicate or late.
+  bool accept_time(const Reading& reading);
+  void restart();
+  void count_gap(const Reading& reading);
+  void hold_ranges(const Reading& reading);
+  RangeSample finish(const PendingRanges& ranges, const Pose2& T_odom_body, const Motion& motion);
+  void drop_oldest();
+
+  AssemblyConfig config_;
+  InputReport& report_;
+  OdometryTimeline<Point2> positions_;
+  OdometryTimeline<YawReading> yaws_;
+  FixedVector<PendingRanges, 16> pending_;
+  std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
+  std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart
+  std::optional<HostTime> last_ranges_received_;
+  std::uint32_t boot_ = 0;
+  DeviceTime latest_{};  ///< of all readings since the last restart
+  std::optional<Motion> last_motion_;
+  std::uint32_t next_sequence_ = 0;
+  bool ended_ = false;
+};
+
+/// What a distance says, given the sensor's limits: below min_range_m and NaN kInvalid, max_range_m and
+/// beyond kNoReturn. The firmware's sentinels fall out of the same rule: 0 mm is no measurement, 32766 mm no
+/// target; firmware before 2022.09 reports distances beyond the sensor's reach instead.
+[[nodiscard]] RangeStatus classify_distance(double distance_m, const SensorModel& sensor);
+
+}  // namespace swiftlet

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/base/time.hpp"
+#include "core/geometry/stamped_pose.hpp"
+#include "core/sensing/range_sample.hpp"
+#include "core/sensing/sensor_model.hpp"
+#include "firmware_link/link/frame_sink.hpp"
+#include "firmware_link/session/live_status.hpp"
+#include "firmware_link/session/vehicle_event.hpp"
+
+namespace swiftlet {
+
+/// What an input had to say about itself, good and bad; copied into report.json and the status message.
+struct InputReport {
+  std::uint64_t frames = 0;   ///< radio frames (laser logs: lines) read
+  std::uint64_t samples = 0;  ///< samples delivered
+  std::uint64_t range_packets = 0;
+  std::uint64_t odometry_packets = 0;
+  std::uint64_t duplicates = 0;       ///< same block, same device time: dropped
+  std::uint64_t out_of_order = 0;     ///< device time went back: dropped
+  std::uint64_t gaps = 0;             ///< holes of more than 1.5 periods between range packets
+  std::uint64_t missing_packets = 0;  ///< range packets those holes stand for
+  std::uint64_t unpaired = 0;         ///< range packets without dead reckoning around them: dropped
+  std::uint64_t segments = 0;         ///< times the dead reckoning began anew (1 for an undisturbed run)
+  std::uint64_t hits = 0;             ///< beams by status
+  std::uint64_t no_returns = 0;
+  std::uint64_t invalid = 0;
+  std::vector<std::string> notes;     ///< what to know (e.g. layout taken from a side file)
+  std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
+};
+
+/// Anything that yields range samples in time order: a link with its log session and assembler, or a laser
+/// log. One thread at a time.
+class SampleSource {
+ public:
+  SampleSource() = default;
+  virtual ~SampleSource() = default;
+  SampleSource(const SampleSource&) = delete;
+  SampleSource& operator=(const SampleSource&) = delete;
+
+  /// The next sample. Errors: kEndOfRecording at the end, also where damage ended it early (then
+  /// report().problems says so); kTimeout: nothing now, call again; anything else is final.
+  [[nodiscard]] virtual Result<RangeSample> next() = 0;
+  [[nodiscard]] virtual const BeamLayout& beams() const = 0;
+  /// The sensor model this input is taken with, unless the configuration says otherwise.
+  [[nodiscard]] virtual const SensorModel& sensor() const = 0;
+  [[nodiscard]] virtual const InputReport& report() const = 0;
+  /// How far through a recording it is, 0 to 1; nullopt when the end is unknown.
+  [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
+  /// A vehicle that cannot be asked to wait: samples come when they come, and there is no end.
+  [[nodiscard]] virtual bool is_live() const { return false; }
+  /// How long ago the frame came that completed the last sample, by the link's own clock; zero for recordings
+  /// and laser logs.
+  [[nodiscard]] virtual Duration since_received() const { return {}; }
+  /// How the link and the vehicle stand; nullopt for recordings and laser logs.
+  [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
+  /// What happened to the vehicle or its link since the last call, in order.
+  [[nodiscard]] virtual std::optional<VehicleEvent> take_event() { return std::nullopt; }
+  /// No more will be taken: what happened on the way is put into words in report() now. Allocates.
+  virtual void end() {}
+  /// T_world_body at every sample delivered so far, stamped like the sample; empty where nobody knows the
+  /// truth.
+  [[nodiscard]] virtual std::vector<StampedPose> ground_truth() const { return {}; }
+};
+
+struct SampleSourceOptions {
+  std::optional<int> beam_count;      ///< laser logs: how many beams to keep (default 11); 2..kMaxBeams
+  std::optional<Duration> range_age;  ///< overrides the sensor model's
+  std::optional<double> max_range_m;  ///< overrides the sensor model's
+  std::optional<double> min_range_m;  ///< overrides the sensor model's
+  FrameSink* recording = nullptr;     ///< links only: hears every frame; must outlive the source
+};
+
+}  // namespace swiftlet

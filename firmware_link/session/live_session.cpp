@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/session/live_session.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace swiftlet {
+namespace {
+
+using Kind = VehicleEvent::Kind;
+
+// The firmware's own watchdog: after as long without a packet it deletes the log blocks.
+constexpr Duration kMaxSilence = std::chrono::seconds(1);
+constexpr Duration kTryAgainAfter = std::chrono::seconds(5);
+// With each request repeated five times a second no mere loss lasts as long; no vehicle is exchanged sooner.
+constexpr Duration kMaxHandshakeSilence = std::chrono::seconds(3);
+
+}  // namespace
+
+LiveSession::LiveSession(const LogSession& session, TocCache& cache)
+    : session_(session), cache_(cache), handshake_(session, cache), inventory_(cache), monitor_(session) {}
+
+std::optional<CrtpPacket> LiveSession::next_request(HostTime now) {
+  watch_for_silence(now);
+  if (refused_at_ && now - *refused_at_ >= kTryAgainAfter) restart();
+  if (!handshake_.finished()) return handshake_.next_request(now);
+  if (!inventory_.finished()) return inventory_.next_request(now);
+  return round_trip_.next_request(now);
+}
+
+void LiveSession::watch_for_silence(HostTime now) {
+  if (handshake_.finished()) {
+    const auto has_stopped = [now](const Stream& stream) { return now - stream.data_at > kMaxSilence; };
+    if (std::ranges::none_of(streams_, has_stopped)) return;
+    tell(Kind::kDataStopped);
+    restart();
+  } else if (received_at_ && !refused_at_ && now - *received_at_ > kMaxHandshakeSilence) {
+    restart();
+  }
+}
+
+void LiveSession::restart() {
+  handshake_ = LogHandshake(session_, cache_);
+  inventory_ = VehicleInventory(cache_);
+  inventory_told_ = false;
+  monitor_.restart();
+  round_trip_.restart();
+  streams_.clear();
+  received_at_.reset();
+  refused_at_.reset();
+}
+
+void LiveSession::on_frame(const LinkFrame& frame, const std::optional<LogRecord>& record) {
+  if (!handshake_.finished()) return on_handshake(frame);
+  if (record) {
+    for (Stream& stream : streams_)
+      if (stream.block == record->block_id) stream.data_at = frame.at;
+    monitor_.on_frame(*record);
+    if (record->boot != boot_) tell(Kind::kRebooted);
+    boot_ = record->boot;
+  }
+  round_trip_.on_frame(frame.packet(), frame.at);
+  on_inventory(frame);
+}
+
+void LiveSession::on_handshake(const LinkFrame& frame) {
+  if (refused_at_) return;
+  received_at_ = frame.at;
+  handshake_.on_frame(frame.packet());
+  if (handshake_.failure()) {
+    refused_at_ = frame.at;
+    if (was_connected_) return tell(Kind::kRefused);
+    failure_ = handshake_.failure();
+  } else if (handshake_.finished()) {
+    was_connected_ = true;
+    for (const std::uint8_t block : handshake_.essential_blocks())
+      static_cast<void>(streams_.try_push_back({block, frame.at}));
+    tell(Kind::kConnected, handshake_.protocol());
+    if (handshake_.protocol() > kNewestProtocol) tell(Kind::kProtocolNewer, handshake_.protocol());
+  }
+}
+
+void LiveSession::on_inventory(const LinkFrame& frame) {
+  inventory_.on_frame(frame.packet());
+  if (!inventory_.finished() || inventory_told_) return;
+  inventory_told_ = true;
+  if (inventory_.has_multiranger() == false) tell(Kind::kNoMultiranger);
+  if (inventory_.has_flow_deck() == false) tell(Kind::kNoFlowDeck);
+}
+
+void LiveSession::tell(Kind kind, std::int32_t value) {
+  static_cast<void>(events_.try_push_back({kind, value}));
+}
+
+std::optional<VehicleEvent> LiveSession::take_event() {
+  if (events_.empty()) return monitor_.take_event();
+  const VehicleEvent event = events_.front();
+  events_.erase(0);
+  return event;
+}
+
+std::string LiveSession::vehicle_text() const {
+  if (!inventory_.finished()) return {};
+  const std::string& type = inventory_.device_type();
+  const std::string& firmware = inventory_.firmware();
+  return (type.empty() ? "Crazyflie" : type) + ", firmware " + (firmware.empty() ? "unknown" : firmware);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/fixed_vector.hpp"
+#include "core/base/result.hpp"
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/link/link.hpp"
+#include "firmware_link/session/log_handshake.hpp"
+#include "firmware_link/session/log_session.hpp"
+#include "firmware_link/session/round_trip.hpp"
+#include "firmware_link/session/toc_cache.hpp"
+#include "firmware_link/session/vehicle_event.hpp"
+#include "firmware_link/session/vehicle_inventory.hpp"
+#include "firmware_link/session/vehicle_monitor.hpp"
+
+namespace swiftlet {
+
+/// Keeps a live vehicle sending: brings it to log, asks what it carries, measures the round trip, and begins
+/// anew when a log block that samples are made of sent nothing for a second: the vehicle itself deletes its
+/// log blocks when it hears nothing for that long, or it has rebooted. No link, no clock. One thread at a
+/// time; allocates while it connects, not while log data flows. `session` must outlive it and hear each
+/// packet first; `cache` must outlive it.
+class LiveSession {
+ public:
+  LiveSession(const LogSession& session, TocCache& cache);
+
+  /// The packet to send now, if any.
+  [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
+  /// A packet from the vehicle; `record` where it was log data that can be read.
+  void on_frame(const LinkFrame& frame, const std::optional<LogRecord>& record);
+  /// Dead reckoning, as samples come.
+  void see(const Pose2& T_odom_body) { monitor_.see(T_odom_body); }
+  /// As LogHandshake's: replies to be received as if the vehicle had given them now.
+  [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return handshake_.take_cached_replies(); }
+
+  /// Why the first vehicle met cannot be used. Later ones are tried again and again.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+  /// What happened since the last call, in order. The oldest are kept where there are many.
+  [[nodiscard]] std::optional<VehicleEvent> take_event();
+  [[nodiscard]] const VehicleHealth& health() const { return monitor_.health(); }
+  [[nodiscard]] Duration round_trip() const { return round_trip_.last(); }
+  /// What a report should say of the vehicle: "firmware 2026.08, Crazyflie 2.1"; empty while unknown.
+  [[nodiscard]] std::string vehicle_text() const;
+
+ private:
+  /// A log block that samples cannot do without.
+  struct Stream {
+    std::uint8_t block = 0;
+    HostTime data_at{};  ///< the last log data, or the end of the handshake
+  };
+  void restart();
+  void tell(VehicleEvent::Kind kind, std::int32_t value = 0);
+  void on_handshake(const LinkFrame& frame);
+  void on_inventory(const LinkFrame& frame);
+  void watch_for_silence(HostTime now);
+
+  const LogSession& session_;
+  TocCache& cache_;
+  LogHandshake handshake_;
+  VehicleInventory inventory_;
+  bool inventory_told_ = false;
+  RoundTrip round_trip_;
+  VehicleMonitor monitor_;
+  FixedVector<Stream, 2> streams_;
+  std::optional<HostTime> received_at_;  ///< the last packet, in the handshake
+  std::optional<HostTime> refused_at_;   ///< the handshake failed
+  bool was_connected_ = false;
+  std::uint32_t boot_ = 0;
+  std::optional<Error> failure_;
+  FixedVector<VehicleEvent, 16> events_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include "core/base/time.hpp"
+#include "firmware_link/link/link_statistics.hpp"
+
+namespace swiftlet {
+
+/// What the vehicle's log said last about its own state; nullopt where it does not say.
+struct VehicleHealth {
+  std::optional<int> battery_mv;
+  std::optional<int> rssi_dbm;  ///< of our packets at the vehicle
+  std::optional<bool> is_flying;
+  bool battery_is_low = false;
+};
+
+/// How a live input stands.
+struct LiveStatus {
+  LinkStatistics link;
+  Duration round_trip{0};  ///< to the vehicle and back, the last one measured; 0 before the first
+  VehicleHealth vehicle;
+};
+static_assert(std::is_trivially_copyable_v<LiveStatus>);
+
+}  // namespace swiftlet

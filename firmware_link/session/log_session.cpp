@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/session/log_session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "firmware_link/crtp/byte_order.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+
+namespace swiftlet {
+namespace {
+
+// Packets of less than a second wait in the vehicle while the link is silent; older ones are thrown away, but
+// for eight in its radio.
+constexpr Duration kClocksAgree = std::chrono::seconds(2);
+
+}  // namespace
+
+void LogSession::describe(const BlockDescription& description) {
+  described_blocks_.assign(256, LogBlock{});
+  std::uint16_t variable = 0;
+  for (const auto& [id, described] : description.blocks) {
+    LogBlock& block = described_blocks_[id];
+    block.exists = true;
+    block.running = true;
+    block.period = described.period;
+    for (const BlockDescription::Variable& entry : described.variables) {
+      described_toc_.add(variable, entry.type, entry.name);
+      const bool fits = append_entry(block.entries, variable, entry.type);
+      SWIFTLET_CHECK(fits, "a described block holds at most 26 bytes");
+      ++variable;
+    }
+  }
+}
+
+std::optional<LogRecord> LogSession::on_frame(const LinkFrame& frame) {
+  const std::span<const std::uint8_t> packet = frame.packet();
+  if (frame.direction == LinkDirection::kToVehicle) {
+    on_request(packet);
+  } else if (is_on(packet, kLogDataTopic)) {
+    return read(frame);
+  } else if (is_on(packet, kLogTocTopic)) {
+    if (toc_.on_reply(packet)) ++toc_revision_;
+  } else if (is_on(packet, kLogControlTopic)) {
+    blocks_.on_reply(packet);
+  }
+  return std::nullopt;
+}
+
+void LogSession::on_request(std::span<const std::uint8_t> packet) {
+  if (!is_on(packet, kLogControlTopic)) return;
+  blocks_.on_request(packet);
+  if (packet.size() > 1 && packet[1] == static_cast<std::uint8_t>(LogCommand::kReset)) reset_received_ = true;
+}
+
+/// A reset is how a session begins, also after the link was lost. If the vehicle's clock did not run on as
+/// long as ours did meanwhile, the vehicle has rebooted (or is another one).
+DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime received) {
+  const bool is_after_reset = std::exchange(reset_received_, false);
+  bool has_waited = false;
+  if (last_data_) {
+    using std::chrono::milliseconds;
+    const auto ours_ms = (received - last_data_->received) / milliseconds(1);
+    const auto theirs_ms = static_cast<std::int64_t>(counter_ms) - last_data_->counter_ms;
+    const Duration late = milliseconds(DeviceClockUnwrapper::shortest_step_ms(ours_ms - theirs_ms));
+    if (is_after_reset && std::chrono::abs(late) > kClocksAgree) {
+      ++boot_;
+      clock_ = {};
+    } else {
+      has_waited = late > kClocksAgree;
+    }
+  }
+  // The few that the vehicle's radio keeps through any silence do not tell how the clocks stand.
+  if (!has_waited) last_data_ = {counter_ms, received};
+  return clock_.unwrap(counter_ms);
+}
+
+std::optional<LogRecord> LogSession::read(const LinkFrame& frame) {
+  const std::span<const std::uint8_t> packet = frame.packet();
+  if (packet.size() < kLogDataPrefix) {
+    ++unreadable_.misfit;
+    return std::nullopt;
+  }
+  LogRecord record;
+  record.block_id = packet[1];
+  record.at = time_of(static_cast<std::uint32_t>(load_little_endian(packet, 2, 3)), frame.at);
+  record.boot = boot_;
+  record.received = frame.at;
+  record.values = packet.subspan(kLogDataPrefix);
+  record.entry_count = blocks_.entries_in(record.block_id, record.values.size());
+  record.block = &blocks_[record.block_id];
+  if (is_named(*record.block, std::max<std::size_t>(record.entry_count, 1))) {
+    if (record.entry_count > 0) return record;
+    ++unreadable_.misfit;
+    return std::nullopt;
+  }
+  if (described_blocks_.empty() || !described_blocks_[record.block_id].exists) {
+    ++unreadable_.unknown_block;
+    return std::nullopt;
+  }
+  record.block = &described_blocks_[record.block_id];
+  if (byte_count(record.block->entries) != record.values.size()) {
+    ++unreadable_.misfit;
+    return std::nullopt;
+  }
+  record.described = true;
+  record.entry_count = record.block->entries.size();
+  used_description_ = true;
+  return record;
+}
+
+bool LogSession::is_named(const LogBlock& block, std::size_t entry_count) const {
+  return block.entries.size() >= entry_count &&
+         std::all_of(block.entries.begin(), block.entries.begin() + entry_count,
+                     [this](const LogEntry& entry) { return toc_.has(entry.variable); });
+}
+
+std::string_view LogSession::name_of(const LogRecord& record, std::size_t entry) const {
+  const LogToc& toc = record.described ? described_toc_ : toc_;
+  return toc.name_of(record.block->entries[entry].variable);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/session/vehicle_event.hpp"
+
+namespace swiftlet {
+
+using Kind = VehicleEvent::Kind;
+
+bool is_warning(const VehicleEvent& event) { return event.kind != Kind::kConnected; }
+
+std::string describe(const VehicleEvent& event) {
+  const std::string value = std::to_string(event.value);
+  switch (event.kind) {
+    case Kind::kConnected:
+      return "connected to the vehicle, CRTP protocol " + value + "; log data flows";
+    case Kind::kProtocolNewer:
+      return "the vehicle's firmware speaks CRTP protocol " + value +
+             ", newer than the newest known; if samples look wrong, update swiftlet";
+    case Kind::kDataStopped:
+      return "no log data for a second; the map is kept, and the session begins anew when the vehicle is "
+             "received";
+    case Kind::kRebooted:
+      return "the vehicle has rebooted; its dead reckoning begins anew, the map is kept";
+    case Kind::kRefused:
+      return "this vehicle cannot be used; swiftlet doctor says why; trying again";
+    case Kind::kNoMultiranger:
+      return "the vehicle finds no Multiranger deck (deck.bcMultiranger is 0), so there are no ranges: check "
+             "how it is mounted and restart the vehicle";
+    case Kind::kNoFlowDeck:
+      return "the vehicle finds no Flow deck (deck.bcFlow2 is 0), so it does not know how it moves: check "
+             "how it is mounted and restart the vehicle";
+    case Kind::kYawTrap:
+      return "the vehicle moves with its motors off: its firmware then pulls the yaw back to the initial one "
+             "within seconds, and the map will be wrong; fly, or do not turn";
+    case Kind::kBatteryLow:
+      return "the vehicle's battery is low (" + value + " mV): land";
+    case Kind::kRangesFrozen:
+      return "none of the ranges has changed for two seconds: a range sensor hangs, and what is mapped now "
+             "is "
+             "wrong; land and restart the vehicle";
+  }
+  return {};
+}
+
+}  // namespace swiftlet

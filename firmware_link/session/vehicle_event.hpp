@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+namespace swiftlet {
+
+/// What happened to a live vehicle or its link, for people; noted on the radio thread without a word, put
+/// into words by describe().
+struct VehicleEvent {
+  enum class Kind : std::uint8_t {
+    kConnected,      ///< log data flows; value: CRTP protocol version
+    kProtocolNewer,  ///< value: CRTP protocol version
+    kDataStopped,    ///< no log data for a second: the session begins anew when the vehicle is received
+    kRebooted,       ///< its clock began anew
+    kRefused,        ///< after a reconnection, it cannot be used (the session tries again)
+    kNoMultiranger,
+    kNoFlowDeck,
+    kYawTrap,       ///< it is carried or pushed with its motors off
+    kBatteryLow,    ///< value: millivolts
+    kRangesFrozen,  ///< in flight none of them has changed for seconds
+  };
+  Kind kind = Kind::kConnected;
+  std::int32_t value = 0;
+};
+static_assert(std::is_trivially_copyable_v<VehicleEvent>);
+
+/// Whether somebody should do something about it.
+[[nodiscard]] bool is_warning(const VehicleEvent& event);
+/// One line: what, and what to do. Allocates.
+[[nodiscard]] std::string describe(const VehicleEvent& event);
+
+}  // namespace swiftlet

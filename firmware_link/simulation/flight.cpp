@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/simulation/flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/check.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
+constexpr int kTakeOffSteps = 200;
+constexpr double kLookAheadM = 0.35;         // how far ahead of the vehicle the pilot aims
+constexpr double kArrivedM = 0.1;            // near enough to a place where there is something to do
+constexpr double kVelocityResponseS = 0.3;   // velocity follows the stick with this time constant
+constexpr double kMaxAcceleration = 1.2;     // m/s^2
+constexpr double kYawGain = 2.0;             // 1/s
+constexpr double kMaxYawAcceleration = 4.0;  // rad/s^2
+
+double limited(double value, double magnitude) { return std::clamp(value, -magnitude, magnitude); }
+
+double bearing(const Point2& from, const Point2& to) {
+  return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
+}
+double distance_m(const Point2& a, const Point2& b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
+
+}  // namespace
+
+RepeatedScript::RepeatedScript(std::vector<Waypoint> script, int laps) : script_(std::move(script)) {
+  SWIFTLET_CHECK(script_.size() >= 2 && laps >= 1, "a flight leads somewhere");
+  const Point2 start = script_.front().position;
+  const Point2 end = script_.back().position;
+  const std::size_t legs = script_.size() - 1;
+  const bool is_closed = start.x_m == end.x_m && start.y_m == end.y_m;
+  period_ = is_closed ? legs : 2 * legs;
+  size_ = 1 + legs + static_cast<std::size_t>(laps - 1) * period_;
+}
+
+Waypoint RepeatedScript::operator[](std::size_t i) const {
+  if (i == 0) return script_.front();
+  const std::size_t in_period = 1 + (i - 1) % period_;
+  const std::size_t last = script_.size() - 1;
+  if (in_period <= last) return script_[in_period];
+  return {script_[2 * last - in_period].position};
+}
+
+SimulatedFlight::Wander::Wander(double sigma, double time_constant_s)
+    : keep_(std::exp(-kStepS / time_constant_s)), kick_(sigma * std::sqrt(1.0 - keep_ * keep_)) {}
+
+SimulatedFlight::SimulatedFlight(const SimulatedWorld& world, const PilotModel& model, std::uint64_t seed)
+    : script_(world.flight, model.laps),
+      model_(model),
+      noise_(seed, "pilot"),
+      wander_x_(model.wander_m, 4.0),
+      wander_y_(model.wander_m, 4.0),
+      wander_yaw_(model.wander_yaw_rad, 3.0),
+      wander_speed_(model.wander_speed_share, 5.0),
+      aim_(script_[0].position),
+      nose_rad_(bearing(aim_, script_[1].position)) {
+  state_.T_world_body = Pose2(aim_.x_m, aim_.y_m, nose_rad_);
+}
+
+void SimulatedFlight::step() {
+  if (take_off_steps_ < kTakeOffSteps) {
+    hover(model_.height_m * ++take_off_steps_ / kTakeOffSteps);
+  } else if (!arrived()) {
+    follow_script();
+  } else if (!is_over()) {
+    hover(model_.height_m * --landing_steps_left_ / kLandingSteps);
+  }
+}
+
+void SimulatedFlight::follow_script() {
+  move_aim();
+  if (spin_left_rad_ != 0.0) {
+    look_around();
+  } else {
+    steer(wander_yaw_.step(noise_));
+  }
+}
+
+/// One step in place, at that height.
+void SimulatedFlight::hover(double height_m) {
+  state_.height_m = height_m;
+  apply(0.0, 0.0, 0.0);
+}
+
+/// Keeps the aim kLookAheadM ahead on the scripted lines; at a spin it waits for the vehicle.
+void SimulatedFlight::move_aim() {
+  const Point2 here = state_.T_world_body.position();
+  while (!arrived() && spin_left_rad_ == 0.0 && distance_m(here, aim_) < kLookAheadM) {
+    const Waypoint target = script_[next_];
+    const double left_m = distance_m(aim_, target.position);
+    if (left_m > 1e-9) {
+      const double share = std::min(1.0, 0.01 / left_m);
+      aim_.x_m += share * (target.position.x_m - aim_.x_m);
+      aim_.y_m += share * (target.position.y_m - aim_.y_m);
+      if (target.heading == PilotHeading::kIntoTravel)
+        nose_rad_ = bearing(script_[next_ - 1].position, target.position);
+      continue;
+    }
+    const bool stops_here = target.spin_rad != 0.0 || next_ + 1 == script_.size();
+    if (stops_here && distance_m(here, aim_) > kArrivedM) return;
+    spin_left_rad_ = target.spin_rad;
+    ++next_;
+  }
+}
+
+void SimulatedFlight::look_around() {
+  const double rate = std::copysign(model_.turn_rate_rad_s, spin_left_rad_);
+  apply(0.0, 0.0, rate);
+  const double turned = state_.yaw_rate_rad_s * kStepS;
+  spin_left_rad_ = std::abs(turned) >= std::abs(spin_left_rad_) ? 0.0 : spin_left_rad_ - turned;
+  nose_rad_ = state_.T_world_body.yaw_rad();
+}
+
+/// Towards the aim, slowly while the nose is still elsewhere.
+void SimulatedFlight::steer(double wander_yaw_rad) {
+  const Point2 here = state_.T_world_body.position();
+  const Point2 aim{aim_.x_m + wander_x_.step(noise_), aim_.y_m + wander_y_.step(noise_)};
+  const double nose_error = wrap_angle(nose_rad_ + wander_yaw_rad - state_.T_world_body.yaw_rad());
+  const double readiness = std::clamp(std::cos(nose_error), 0.1, 1.0);
+  const double nearness = std::min(1.0, distance_m(here, aim) / kLookAheadM);
+  const double speed = model_.speed_m_s * readiness * nearness * (1.0 + wander_speed_.step(noise_));
+  const double course = bearing(here, aim);
+  apply(speed * std::cos(course), speed * std::sin(course),
+        limited(kYawGain * nose_error, model_.turn_rate_rad_s));
+}
+
+/// Lets the vehicle follow the commanded velocity (world frame) and yaw rate for one step.
+void SimulatedFlight::apply(double vx_m_s, double vy_m_s, double yaw_rate_rad_s) {
+  double ax = (vx_m_s - vx_m_s_) / kVelocityResponseS;
+  double ay = (vy_m_s - vy_m_s_) / kVelocityResponseS;
+  const double excess = std::hypot(ax, ay) / kMaxAcceleration;
+  if (excess > 1.0) {
+    ax /= excess;
+    ay /= excess;
+  }
+  vx_m_s_ += ax * kStepS;
+  vy_m_s_ += ay * kStepS;
+  state_.yaw_rate_rad_s += limited(yaw_rate_rad_s - state_.yaw_rate_rad_s, kMaxYawAcceleration * kStepS);
+  const Pose2& was = state_.T_world_body;
+  state_.T_world_body = Pose2(was.x_m() + vx_m_s_ * kStepS, was.y_m() + vy_m_s_ * kStepS,
+                              was.yaw_rad() + state_.yaw_rate_rad_s * kStepS);
+  const double c = state_.T_world_body.cos_yaw();
+  const double s = state_.T_world_body.sin_yaw();
+  state_.vx_body_m_s = c * vx_m_s_ + s * vy_m_s_;
+  state_.vy_body_m_s = -s * vx_m_s_ + c * vy_m_s_;
+  state_.ax_body_m_s2 = c * ax + s * ay;
+  state_.ay_body_m_s2 = -s * ax + c * ay;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+#include "firmware_link/simulation/random.hpp"
+#include "firmware_link/simulation/world.hpp"
+
+namespace swiftlet {
+
+inline constexpr int kMaxLaps = 1000;
+
+/// How a flight is flown. The wandering terms are standard deviations of slow, mean-reverting deviations from
+/// the script.
+struct PilotModel {
+  double speed_m_s = 0.5;
+  double turn_rate_rad_s = radians(60.0);  ///< at most
+  double height_m = 0.5;
+  double wander_m = 0.04;
+  double wander_yaw_rad = radians(3.0);
+  double wander_speed_share = 0.06;  ///< of the speed
+  int laps = 1;                      ///< how often the script is flown before landing
+};
+
+/// The true motion at one instant.
+struct FlightState {
+  Pose2 T_world_body;
+  double vx_body_m_s = 0.0;
+  double vy_body_m_s = 0.0;
+  double yaw_rate_rad_s = 0.0;
+  double ax_body_m_s2 = 0.0;
+  double ay_body_m_s2 = 0.0;
+  double height_m = 0.0;  ///< above the floor
+};
+
+/// Between two states of a flight.
+inline constexpr Duration kFlightStep = std::chrono::milliseconds(10);
+
+/// A script flown over and over, without being stored more than once: from its end on, or back along it where
+/// it does not end where it began.
+class RepeatedScript {
+ public:
+  /// Precondition: a script of at least two waypoints, at least one lap. Allocates.
+  RepeatedScript(std::vector<Waypoint> script, int laps);
+
+  /// Waypoints of all laps.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Waypoint operator[](std::size_t i) const;
+  /// How often the script is flown from one end to the other, back too.
+  [[nodiscard]] int passes() const { return static_cast<int>((size_ - 1) / (script_.size() - 1)); }
+
+ private:
+  std::vector<Waypoint> script_;
+  std::size_t period_ = 0;  // waypoints after which all comes again
+  std::size_t size_ = 0;
+};
+
+/// The flight through a world's script from take-off to landing, flown step by step, in the same memory
+/// however long it is. A copy flies the same flight on. Noise source: "pilot". One thread at a time; step()
+/// allocates nothing.
+class SimulatedFlight {
+ public:
+  /// On the ground, in the first state. Allocates.
+  SimulatedFlight(const SimulatedWorld& world, const PilotModel& pilot, std::uint64_t seed);
+
+  [[nodiscard]] const FlightState& state() const { return state_; }
+  /// It has landed: this is the last state.
+  [[nodiscard]] bool is_over() const { return landing_steps_left_ == 0; }
+  /// On to the state kFlightStep later; the last one stays.
+  void step();
+
+ private:
+  /// A mean-reverting random walk (Ornstein-Uhlenbeck), exact for a fixed step.
+  class Wander {
+   public:
+    Wander(double sigma, double time_constant_s);
+    double step(NoiseSource& noise) { return value_ = keep_ * value_ + noise.gaussian(kick_); }
+
+   private:
+    double keep_;
+    double kick_;
+    double value_ = 0.0;
+  };
+  static constexpr int kLandingSteps = 200;
+
+  [[nodiscard]] bool arrived() const { return next_ == script_.size(); }
+  void follow_script();
+  void hover(double height_m);
+  void move_aim();
+  void look_around();
+  void steer(double wander_yaw_rad);
+  void apply(double vx_m_s, double vy_m_s, double yaw_rate_rad_s);
+
+  RepeatedScript script_;
+  PilotModel model_;
+  NoiseSource noise_;
+  Wander wander_x_;
+  Wander wander_y_;
+  Wander wander_yaw_;
+  Wander wander_speed_;
+  FlightState state_;
+  int take_off_steps_ = 0;
+  int landing_steps_left_ = kLandingSteps;
+  Point2 aim_;            // where the pilot steers to, on the scripted lines
+  std::size_t next_ = 1;  // the waypoint that the aim moves towards
+  double nose_rad_;       // where the nose should point
+  double spin_left_rad_ = 0.0;
+  double vx_m_s_ = 0.0;  // in the world frame
+  double vy_m_s_ = 0.0;
+};
+
+}  // namespace swiftlet

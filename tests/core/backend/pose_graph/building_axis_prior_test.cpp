@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pose_graph/building_axis_prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/backend/pose_graph/pose_graph_optimizer.hpp"
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kSigmaRad = radians(2.5);
+constexpr double kStepSigmaRad = radians(1);
+constexpr double kDriftRad = radians(0.4);  // that each step does not know of
+
+KeyframeId keyframe(std::size_t i) { return static_cast<KeyframeId>(i); }
+
+WallAxis axis_seen_at(double true_yaw_rad, double building_rad = 0.0) {
+  return {wrap_axis(building_rad - true_yaw_rad), kSigmaRad};
+}
+
+/// Flies around a square in a building whose walls run with the map, with dead reckoning that turns
+/// unnoticed.
+struct Flight {
+  PoseGraph graph;
+  BuildingAxisPrior hold;
+  PoseGraphOptimizer optimizer{5.0, 20};
+  double true_yaw_rad = 0.0;
+
+  Flight() { graph.T_map_keyframe.emplace_back(); }
+
+  void step(bool sees_walls, double building_rad = 0.0) {
+    const std::size_t count = graph.T_map_keyframe.size();
+    const double turn_rad = count % 20 == 0 ? kPi / 2.0 : 0.0;
+    true_yaw_rad += turn_rad;
+    const Pose2 T(0.5, 0.0, turn_rad + kDriftRad);
+    graph.constraints.push_back(
+        {keyframe(count - 1), keyframe(count), T,
+         Eigen::Vector3d(1e4, 1e4, 1.0 / (kStepSigmaRad * kStepSigmaRad)).asDiagonal()});
+    graph.T_map_keyframe.push_back(graph.T_map_keyframe.back() * T);
+    since_rad2 += kStepSigmaRad * kStepSigmaRad;
+    if (!sees_walls || count % 6 != 0) return;
+    const std::size_t before = graph.headings.size();
+    hold.add(keyframe(count), axis_seen_at(true_yaw_rad, building_rad), since_rad2, graph);
+    if (graph.headings.size() == before) return;
+    since_rad2 = 0.0;
+    hold.update(graph);
+    ASSERT_TRUE(optimizer.optimize(graph));
+  }
+
+  [[nodiscard]] double yaw_error_rad() const {
+    return std::abs(wrap_angle(graph.T_map_keyframe.back().yaw_rad() - true_yaw_rad));
+  }
+  /// How far the way is bent: the heading's error at the end against that after the first lap.
+  [[nodiscard]] double bend_rad() const {
+    const double after_a_lap_rad = graph.T_map_keyframe[80].yaw_rad() - 4.0 * kPi / 2.0;
+    return std::abs(wrap_angle(graph.T_map_keyframe.back().yaw_rad() - true_yaw_rad - after_a_lap_rad));
+  }
+  double since_rad2 = 0.0;
+};
+
+TEST(BuildingAxisPrior, KeepsTheHeadingAlongAWayThatDeadReckoningLosesItOn) {
+  Flight flight;
+  Flight without;
+  for (int i = 0; i < 300; ++i) {
+    flight.step(true);
+    without.step(false);
+  }
+  EXPECT_GT(without.yaw_error_rad(), radians(110)) << "120 degrees of drift";
+  EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kSigmaRad)
+      << "a heading is good to that; of 88 degrees of drift";
+  EXPECT_GT(without.bend_rad(), radians(80));
+  EXPECT_EQ(flight.graph.headings.size(), 50U);
+}
+
+TEST(BuildingAxisPrior, LeavesAWingThatStandsAskewAlone) {
+  Flight flight;
+  for (int i = 0; i < 60; ++i) flight.step(true);
+  const std::size_t before = flight.graph.headings.size();
+  const double error_before_rad = flight.yaw_error_rad();
+  for (int i = 0; i < 24; ++i) flight.step(true, radians(40));
+  EXPECT_EQ(flight.graph.headings.size(), before);
+  EXPECT_LT(flight.yaw_error_rad(), error_before_rad + 24 * kDriftRad + radians(1))
+      << "as dead reckoning has it";
+}
+
+TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
+  Flight flight;
+  for (int i = 0; i < 60; ++i) flight.step(true);
+  const double yaw_rad = flight.graph.T_map_keyframe.back().yaw_rad();
+  const std::size_t before = flight.graph.headings.size();
+  flight.hold.add(keyframe(60), axis_seen_at(yaw_rad, radians(42)), radians(90) * radians(90), flight.graph);
+  EXPECT_EQ(flight.graph.headings.size(), before);
+}
+
+TEST(BuildingAxisPrior, TurnsBackAsFarAsTheOtherWayRoundIsMuchLessLikely) {
+  const auto is_taken = [](double off_rad, double sigma_rad) {
+    PoseGraph graph;
+    graph.T_map_keyframe = {Pose2(), Pose2(5.0, 0.0, off_rad)};
+    BuildingAxisPrior hold;
+    hold.add(keyframe(0), axis_seen_at(0.0), 0.0, graph);
+    hold.add(keyframe(1), axis_seen_at(0.0), sigma_rad * sigma_rad, graph);
+    return graph.headings.size() == 2;
+  };
+  EXPECT_TRUE(is_taken(radians(34), radians(9))) << "after a spin; the other way round it were 56";
+  EXPECT_FALSE(is_taken(radians(34), radians(6))) << "farther than can be believed";
+  EXPECT_FALSE(is_taken(radians(34), radians(18))) << "the other way round is no wonder either";
+  EXPECT_TRUE(is_taken(radians(16), radians(18)));
+}
+
+TEST(BuildingAxisPrior, AFalseAxisIsScaledAwayByTheOthers) {
+  Flight flight;
+  for (int i = 0; i < 120; ++i) flight.step(true);
+  const std::size_t wrong = flight.graph.headings.size();
+  flight.hold.add(keyframe(120), axis_seen_at(flight.true_yaw_rad, radians(22)), radians(9) * radians(9),
+                  flight.graph);
+  ASSERT_EQ(flight.graph.headings.size(), wrong + 1);
+  for (int i = 0; i < 60; ++i) flight.step(true);
+  EXPECT_LT(flight.graph.headings[wrong].dcs_scale, 0.7);
+  EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kSigmaRad);
+}
+
+TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreRemovedGoWithThem) {
+  Flight flight;
+  for (int i = 0; i < 60; ++i) flight.step(true);
+  ASSERT_EQ(flight.graph.headings.size(), 10U);
+  IndexRemoval gone;
+  gone.add({10, 25});  // and with it the headings of 12, 18 and 24
+  gone.apply(flight.graph.T_map_keyframe);
+  flight.hold.remove(gone, flight.graph);
+  ASSERT_EQ(flight.graph.headings.size(), 7U);
+  EXPECT_EQ(flight.graph.headings[0].keyframe, keyframe(6));
+  EXPECT_EQ(flight.graph.headings[1].keyframe, keyframe(15)) << "was 30";
+  flight.hold.update(flight.graph);
+  for (const HeadingConstraint& heading : flight.graph.headings) {
+    const double now_rad = flight.graph.T_map_keyframe[index_of(heading.keyframe)].yaw_rad();
+    EXPECT_NEAR(wrap_angle(heading.yaw_map_rad - now_rad), 0.0, radians(5)) << "each says what it said";
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet

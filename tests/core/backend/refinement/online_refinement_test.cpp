@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/online_refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/dead_reckoning_frontend.hpp"
+#include "tests/support/loop_corridor.hpp"
+#include "tests/support/pose_near.hpp"
+
+namespace swiftlet {
+namespace {
+
+TestVehicle flown(const std::string& places, const TestVehicleModel& model = {}) {
+  TestVehicle vehicle = vehicle_at_start(model, 61);
+  fly_along(vehicle, loop_corridor(), places);
+  return vehicle;
+}
+
+/// Where a graph puts a keyframe that the frontend has at `T_local_keyframe`.
+using Graph = std::function<Pose2(KeyframeId, const Pose2& T_local_keyframe)>;
+Pose2 as_the_frontend(KeyframeId /*id*/, const Pose2& T_local_keyframe) { return T_local_keyframe; }
+
+/// A flight, refined as it goes.
+struct LiveRun {
+  ScanStore scans{BeamLayout::multiranger()};
+  KeyframeChain chain{scans};
+  OnlineRefinement live{scans, chain, SensorModel::crazyflie()};
+  DeadReckoningFrontend frontend;
+  std::vector<Pose2> T_local;
+  std::vector<Pose2> T_graph;
+  std::vector<ScanRange> moved;       // by each step
+  std::vector<WindowReport> windows;  // of each step
+
+  void add(const RangeSample& sample, const Graph& graph) {
+    const FrontendStep step = frontend.process(sample);
+    const ScanIndex scan = scans.add(step);
+    live.add_scan();
+    if (!step.has_keyframe) return;
+    chain.add(scan);
+    T_local.push_back(step.T_local_body);
+    T_graph.push_back(graph(step.keyframe, step.T_local_body));
+    refine();
+  }
+  void refine() {
+    const Result<ScanRange> range = live.step(T_graph, T_local);
+    ASSERT_TRUE(range) << range.error().message;
+    moved.push_back(*range);
+    windows.push_back(live.last_window());
+  }
+  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const {
+    return live.refined(scan, chain.T_w_body(scan, T_graph));
+  }
+};
+
+std::unique_ptr<LiveRun> refined(const TestVehicle& vehicle, const Graph& graph = as_the_frontend) {
+  auto run = std::make_unique<LiveRun>();
+  for (const RangeSample& sample : vehicle.samples()) run->add(sample, graph);
+  return run;
+}
+
+/// From this keyframe on the graph is off, as after a closure that was not exact.
+Graph off_from(std::uint32_t keyframe, const Pose2& T_off) {
+  return [=](KeyframeId id, const Pose2& T_local_keyframe) {
+    return index_of(id) >= keyframe ? T_off * T_local_keyframe : T_local_keyframe;
+  };
+}
+
+TEST(OnlineRefinement, TheNewestPoseFindsToTheWallsOfAnEarlierPass) {
+  // The dead reckoning does not err, hence is the truth; the second time along, the graph lies 15 cm off.
+  const TestVehicle vehicle = flown("baba");
+  const Pose2 T_off(0.05, 0.14, 0.01);
+  const auto run = refined(vehicle, off_from(60, T_off));
+  const auto newest = static_cast<ScanIndex>(run->scans.size() - 1);
+  const Pose2& truth = vehicle.samples()[newest].T_odom_body;
+  EXPECT_FALSE(poses_near(run->chain.T_w_body(newest, run->T_graph), truth, 0.13, 1.0));
+  EXPECT_TRUE(poses_near(run->T_map_body(newest), truth, 0.06, 0.02));
+  EXPECT_GT(run->live.windows_refined(), 30U);
+}
+
+TEST(OnlineRefinement, OffsetsAreCarriedAlongWhenTheGraphMoves) {
+  const TestVehicle vehicle = flown("baba");
+  const auto run = refined(vehicle, off_from(60, Pose2(0.05, 0.14, 0.01)));
+  std::vector<Pose2> before;
+  for (ScanIndex i = 0; i < run->scans.size(); ++i) before.push_back(run->T_map_body(i));
+  const Pose2 T_moved(7.0, -3.0, 1.0);
+  for (Pose2& T : run->T_graph) T = T_moved * T;
+  run->live.follow(run->T_graph);
+  for (ScanIndex i = 0; i < run->scans.size(); ++i)
+    ASSERT_TRUE(poses_near(run->T_map_body(i), T_moved * before[i], 1e-9, 1e-9)) << i;
+}
+
+TEST(OnlineRefinement, WallsAreFoundWhereTheGraphMovedThem) {
+  const auto run = refined(flown("baba"));
+  const auto points_of_four_steps = [&] {
+    std::size_t points = 0;
+    for (int i = 0; i < 4; ++i) {
+      run->refine();
+      points += run->windows.back().points;
+    }
+    return points;
+  };
+  const std::size_t before = points_of_four_steps();
+  const Pose2 T_moved(37.0, -3.0, 1.0);
+  for (Pose2& T : run->T_graph) T = T_moved * T;
+  run->live.follow(run->T_graph);
+  EXPECT_GT(points_of_four_steps(), before - before / 10);
+}
+
+TEST(OnlineRefinement, TwoRunsGiveTheSameBytes) {
+  TestVehicleModel drifting;
+  drifting.drift_rad_per_m = 0.004;
+  const TestVehicle vehicle = flown("baba", drifting);
+  const auto one = refined(vehicle);
+  const auto other = refined(vehicle);
+  EXPECT_GT(one->live.windows_refined(), 0U);
+  for (ScanIndex i = 0; i < one->scans.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(one->T_map_body(i).vector()[k]),
+                std::bit_cast<std::uint64_t>(other->T_map_body(i).vector()[k]))
+          << i;
+    }
+  }
+}
+
+TEST(OnlineRefinement, AStepTakesNoMoreHoweverLongTheRunAndHoweverOftenAPlaceWasSeen) {
+  const auto run = refined(flown("babababababababababa"));
+  std::size_t max_points_of_middle = 0;
+  std::size_t max_points_of_end = 0;
+  const std::size_t steps = run->windows.size();
+  for (std::size_t i = 0; i < steps; ++i) {
+    EXPECT_LE(run->moved[i].size(), OnlineRefinement::kMaxScans);
+    EXPECT_LE(run->windows[i].returns, WindowRefinement::kMaxReturns);
+    EXPECT_LE(run->windows[i].points,
+              TraversalIndex::kMaxTraversalsNearby * TraversalIndex::kMaxPointsPerTraversal +
+                  WindowRefinement::kMaxReturns);
+    if (i > steps / 3 && i <= 2 * steps / 3)
+      max_points_of_middle = std::max(max_points_of_middle, run->windows[i].points);
+    if (i > 2 * steps / 3) max_points_of_end = std::max(max_points_of_end, run->windows[i].points);
+  }
+  EXPECT_GT(max_points_of_middle, 1000U);
+  EXPECT_LT(max_points_of_end, 1.2 * static_cast<double>(max_points_of_middle));
+}
+
+TEST(OnlineRefinement, ALongHoverIsBoundedToo) {
+  const TestVehicle vehicle = flown("b");
+  auto run = std::make_unique<LiveRun>();
+  for (const RangeSample& sample : vehicle.samples()) run->add(sample, as_the_frontend);
+  for (int i = 0; i < 2000; ++i) run->add(vehicle.samples().back(), as_the_frontend);
+  run->refine();
+  run->refine();
+  for (const ScanRange& moved : run->moved) EXPECT_LE(moved.size(), OnlineRefinement::kMaxScans);
+  EXPECT_LE(run->windows.back().returns, WindowRefinement::kMaxReturns);
+}
+
+TEST(OnlineRefinement, ScansAroundAClosureHaveTheirTurnSoon) {
+  const TestVehicle vehicle = flown("babababa");
+  const auto count_of_turns = [&](bool closes) {
+    const auto run = refined(vehicle, off_from(60, Pose2(0.05, 0.1, 0.0)));
+    const KeyframeId place{70};
+    if (closes) run->live.queue_around(place);
+    // By hand a little off, so that there is something to gain.
+    for (std::uint32_t k = 65; k < 75; ++k) run->T_graph[k] = Pose2(0.0, -0.1, 0.0) * run->T_graph[k];
+    int turns = 0;
+    const ScanIndex scan = run->chain.scan_of(place);
+    for (int i = 0; i < 4; ++i) {
+      run->refine();
+      turns += run->moved.back().first <= scan && scan < run->moved.back().end ? 1 : 0;
+    }
+    return turns;
+  };
+  EXPECT_EQ(count_of_turns(false), 0);
+  EXPECT_EQ(count_of_turns(true), 1);
+}
+
+TEST(OnlineRefinement, EveryPartOfTheRunHasItsTurn) {
+  TestVehicleModel drifting;
+  drifting.odometry_sigma_m = 0.003;
+  const auto run = refined(flown("babababa", drifting));
+  for (int i = 0; i < 60; ++i) run->refine();
+  std::vector<bool> has_moved(run->scans.size(), false);
+  for (std::size_t k = run->moved.size() - 60; k < run->moved.size(); ++k)
+    std::fill_n(has_moved.begin() + static_cast<std::ptrdiff_t>(run->moved[k].first), run->moved[k].size(),
+                true);
+  EXPECT_GT(std::count(has_moved.begin(), has_moved.end(), true),
+            static_cast<std::ptrdiff_t>(run->scans.size() / 2));
+}
+
+TEST(OnlineRefinement, NewScansStartWithTheNewestOffsetUnlessTheyAreElsewhere) {
+  const TestVehicle vehicle = flown("baba");
+  const auto run = refined(vehicle, off_from(60, Pose2(0.05, 0.14, 0.01)));
+  const auto newest = static_cast<ScanIndex>(run->scans.size() - 1);
+  const Pose2 T_graph_refined = run->live.refined(newest, Pose2());
+  EXPECT_FALSE(poses_near(T_graph_refined, Pose2(), 0.05, 1.0));
+  FrontendStep step;
+  run->scans.add(step);
+  run->live.add_scan();
+  EXPECT_TRUE(poses_near(run->live.refined(newest + 1, Pose2()), T_graph_refined, 0.0, 0.0));
+  step.sample.starts_segment = true;
+  step.sample.odometry_ran_on = true;
+  run->scans.add(step);
+  run->live.add_scan();
+  EXPECT_TRUE(poses_near(run->live.refined(newest + 2, Pose2()), T_graph_refined, 0.0, 0.0));
+  step.sample.odometry_ran_on = false;
+  run->scans.add(step);
+  run->live.add_scan();
+  EXPECT_TRUE(poses_near(run->live.refined(newest + 3, Pose2()), Pose2(), 0.0, 0.0));
+}
+
+}  // namespace
+}  // namespace swiftlet

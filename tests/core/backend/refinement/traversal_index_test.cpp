@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/traversal_index.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "tests/support/random_draws.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TraversalWalls walls(std::vector<Point2> points) { return {0, std::move(points)}; }
+
+std::vector<std::uint32_t> near(const TraversalIndex& index, const Point2& place,
+                                std::uint32_t excluded_first = 0, std::uint32_t excluded_end = 0) {
+  return index.near(std::vector<Point2>{place}, excluded_first, excluded_end);
+}
+
+TEST(TraversalIndex, FindsThePassesWithWallsNearAPlace) {
+  std::mt19937 random(31);
+  TraversalIndex index;
+  std::vector<std::vector<Point2>> drawn;
+  for (std::uint32_t traversal = 0; traversal < 40; ++traversal) {
+    const Pose2 T_map_reference = random_pose(random, 12.0);
+    std::vector<Point2> points(20);
+    for (Point2& p : points) p = {random_in(random, -2.0, 2.0), random_in(random, -2.0, 2.0)};
+    index.set(traversal, walls(points), T_map_reference);
+    for (Point2& p : points) p = T_map_reference * p;
+    drawn.push_back(points);
+  }
+  for (int trial = 0; trial < 200; ++trial) {
+    const Point2 place{random_in(random, -12.0, 12.0), random_in(random, -12.0, 12.0)};
+    const std::vector<std::uint32_t> found = near(index, place);
+    if (found.size() >= TraversalIndex::kMaxTraversalsPerTile) continue;  // some may have been left out
+    for (std::uint32_t traversal = 0; traversal < drawn.size(); ++traversal) {
+      double nearest_m = 1e9;
+      for (const Point2& p : drawn[traversal])
+        nearest_m = std::min(nearest_m, std::hypot(p.x_m - place.x_m, p.y_m - place.y_m));
+      const bool is_found = std::binary_search(found.begin(), found.end(), traversal);
+      EXPECT_TRUE(is_found || nearest_m > 0.5) << nearest_m;
+      EXPECT_TRUE(!is_found || nearest_m < 4.0) << nearest_m;
+    }
+  }
+}
+
+TEST(TraversalIndex, LeavesOutTheExcluded) {
+  TraversalIndex index;
+  for (std::uint32_t traversal = 0; traversal < 6; ++traversal) index.set(traversal, walls({{1.0, 1.0}}), {});
+  EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(near(index, {1.0, 1.0}, 1, 4), ElementsAre(0, 4, 5));
+  EXPECT_THAT(near(index, {1.0, 1.0}, 0, 6), IsEmpty());
+}
+
+TEST(TraversalIndex, APassIsFoundWhereItMoved) {
+  TraversalIndex index;
+  index.set(0, walls({{1.0, 1.0}}), {});
+  index.move(0, Pose2(0.1, 0.1, 0.0));
+  EXPECT_THAT(near(index, {1.1, 1.1}), ElementsAre(0)) << "a little";
+  index.move(0, Pose2(20.0, 0.0, 0.0));
+  EXPECT_THAT(near(index, {21.0, 1.0}), ElementsAre(0));
+  EXPECT_THAT(near(index, {1.0, 1.0}), IsEmpty());
+  index.move(0, Pose2(20.0, 0.0, kPi));
+  EXPECT_THAT(near(index, {19.0, -1.0}), ElementsAre(0)) << "and turned";
+}
+
+TEST(TraversalIndex, APassFiledAnewIsForgottenWhereItWas) {
+  TraversalIndex index;
+  index.set(0, walls({{1.0, 1.0}, {9.0, 1.0}}), {});
+  index.set(0, walls({{9.0, 1.0}}), {});
+  EXPECT_THAT(near(index, {1.0, 1.0}), IsEmpty());
+  EXPECT_THAT(near(index, {9.0, 1.0}), ElementsAre(0));
+  EXPECT_EQ(index.size(), 1U);
+}
+
+TEST(TraversalIndex, OfManyPassesOverOnePlaceTakesAFewFromFirstToLast) {
+  TraversalIndex index;
+  for (std::uint32_t traversal = 0; traversal < 1000; ++traversal)
+    index.set(traversal, walls({{1.0, 1.0}}), {});
+  const std::vector<std::uint32_t> found = near(index, {1.0, 1.0});
+  ASSERT_EQ(found.size(), TraversalIndex::kMaxTraversalsPerTile);
+  EXPECT_EQ(found.front(), 0U);
+  EXPECT_EQ(found.back(), 999U);
+  for (std::size_t i = 1; i < found.size(); ++i) EXPECT_NEAR(found[i] - found[i - 1], 1000.0 / 7.0, 2.0);
+  EXPECT_EQ(near(index, {1.0, 1.0}, 500, 1000).back(), 499U);
+}
+
+TEST(TraversalIndex, WhatItBringsIsBoundedHoweverManyPassesThereAre) {
+  std::mt19937 random(32);
+  TraversalIndex index;
+  std::vector<Point2> everywhere;
+  for (std::uint32_t traversal = 0; traversal < 500; ++traversal) {
+    std::vector<Point2> points(1000);
+    for (Point2& p : points) p = {random_in(random, -9.0, 9.0), random_in(random, -9.0, 9.0)};
+    everywhere.push_back(points[0]);
+    index.set(traversal, walls(std::move(points)), {});
+    EXPECT_EQ(index[traversal].points_reference.size(), TraversalIndex::kMaxPointsPerTraversal);
+  }
+  const std::vector<std::uint32_t> found = index.near(everywhere, 0, 0);
+  EXPECT_EQ(found.size(), TraversalIndex::kMaxTraversalsNearby);
+  EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+}
+
+TEST(TraversalIndexDeathTest, AGapBetweenPassesIsABrokenPromise) {
+  TraversalIndex index;
+  EXPECT_DEATH(index.set(1, walls({}), {}), "broken promise.*without gaps");
+}
+
+TEST(TraversalIndex, WhatIsRemovedIsFoundNoMoreAndTheRestByItsNewNumber) {
+  TraversalIndex index;
+  for (std::uint32_t traversal = 0; traversal < 6; ++traversal) {
+    const double x_m = traversal < 3 ? 1.0 : 9.0;
+    index.set(traversal, {10 * traversal, {{x_m, 1.0}}}, {});
+  }
+  IndexRemoval traversals;
+  traversals.add({1, 2});
+  traversals.add({4, 5});
+  IndexRemoval scans;
+  scans.add({10, 20});
+  scans.add({40, 50});
+  index.remove(traversals, scans);
+  ASSERT_EQ(index.size(), 4U);
+  EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 1));
+  EXPECT_THAT(near(index, {9.0, 1.0}), ElementsAre(2, 3));
+  EXPECT_EQ(index[1].reference, 10U) << "was 20";
+  EXPECT_EQ(index[3].reference, 30U) << "was 50";
+}
+
+}  // namespace
+}  // namespace swiftlet

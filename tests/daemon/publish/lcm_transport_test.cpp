@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/publish/lcm_transport.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <vector>
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(LcmTransport, BringsWhatWasPublishedToWhoeverListensOnTheChannel) {
+  const auto lcm = LcmTransport::open("memq://");
+  ASSERT_TRUE(lcm.ok());
+  std::vector<std::uint8_t> received;
+  (*lcm)->listen("HERE", [&received](auto bytes) { received.assign(bytes.begin(), bytes.end()); });
+  const std::vector<std::uint8_t> message{1, 2, 3};
+  EXPECT_TRUE((*lcm)->publish("THERE", std::vector<std::uint8_t>{9}));
+  EXPECT_TRUE((*lcm)->publish("HERE", message));
+  for (int i = 0; i < 100 && received.empty(); ++i) (*lcm)->on_frame(milliseconds(100));
+  EXPECT_THAT(received, ElementsAre(1, 2, 3));
+}
+
+TEST(LcmTransport, ComesBackWhenNothingIsToBeHeard) {
+  const auto lcm = LcmTransport::open("memq://");
+  ASSERT_TRUE(lcm.ok());
+  EXPECT_FALSE((*lcm)->on_frame(milliseconds(10)));
+}
+
+TEST(LcmTransport, RefusesAUrlThatLcmDoesNotKnow) {
+  const auto lcm = LcmTransport::open("mqtt://here");
+  ASSERT_FALSE(lcm.ok());
+  EXPECT_THAT(lcm.error().message, HasSubstr("\"mqtt://here\": must begin with udpm://"));
+}
+
+}  // namespace
+}  // namespace swiftlet

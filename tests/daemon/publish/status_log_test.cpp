@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/publish/status_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <sstream>
+
+namespace swiftlet {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class StatusLog : public testing::Test {
+ protected:
+  StatusLog() {
+    auto logger =
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_));
+    logger->set_level(spdlog::level::warn);
+    spdlog::set_default_logger(std::move(logger));
+  }
+  std::string logged() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+};
+
+TEST_F(StatusLog, IsSilentWhileAllGoesWell) {
+  DaemonStatus now;
+  now.input.samples = 10;
+  now.input.segments = 1;  // the first beginning is none anew
+  log_changes(DaemonStatus{}, now);
+  EXPECT_THAT(logged(), IsEmpty());
+}
+
+TEST_F(StatusLog, NamesWhatWasRefusedAndWhereAndHowOften) {
+  DaemonStatus now;
+  now.queues[0].name = "samples";
+  now.queues[0].refused = 3;
+  now.frontend.batches_rolled_back = 2;
+  log_changes(DaemonStatus{}, now);
+  EXPECT_THAT(logged(), HasSubstr("queue of samples: full, 3 refused"));
+  EXPECT_THAT(logged(), HasSubstr("batches rolled back: 2 more"));
+}
+
+TEST_F(StatusLog, SaysHowTheLinkStandsWhenThatChanges) {
+  DaemonStatus before;
+  before.input.live.link.condition = LinkCondition::kConnected;
+  DaemonStatus now = before;
+  log_changes(before, now);
+  EXPECT_THAT(logged(), IsEmpty());
+  now.input.live.link.condition = LinkCondition::kDeviceBusy;
+  log_changes(before, now);
+  EXPECT_THAT(logged(), HasSubstr("another program"));
+}
+
+TEST_F(StatusLog, PutsEventsIntoWords) {
+  log_event({VehicleEvent::Kind::kNoMultiranger, 0});
+  EXPECT_THAT(logged(), HasSubstr("no Multiranger deck"));
+}
+
+TEST_F(StatusLog, SaysEachThingOnce) {
+  DaemonStatus now;
+  now.backend.solver_failures = 2;
+  log_changes(now, now);
+  EXPECT_THAT(logged(), Not(HasSubstr("solver")));
+}
+
+TEST_F(StatusLog, TellsAClosureFoundFromOneDropped) {
+  spdlog::set_level(spdlog::level::debug);
+  ClosureUpdate update;
+  update.closure.from = KeyframeId{4};
+  update.closure.to = KeyframeId{90};
+  log_closure(update);
+  EXPECT_THAT(logged(), HasSubstr("loop closed between keyframes 4 and 90"));
+  update.closure.dropped = true;
+  log_closure(update);
+  EXPECT_THAT(logged(), HasSubstr("loop dropped between keyframes 4 and 90"));
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/workers/backend_worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/support/manual_clock.hpp"
+#include "tests/support/scripted_sample_source.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// A backend worker behind a queue that the test fills from a frontend.
+struct Bench {
+  Bench()
+      : worker(backend, map, clock, queues->steps.consumer(), queues->correction,
+               queues->to_publisher.backend_outlet(), times) {}
+
+  void push(const RangeSample& sample) {
+    ASSERT_TRUE(queues->steps.producer().try_push(frontend.process(sample)));
+  }
+  std::optional<MapTile> pop_tile() {
+    MapTile tile;
+    if (!queues->to_publisher.tiles.consumer().try_pop(tile)) return std::nullopt;
+    return tile;
+  }
+
+  ManualClock clock;
+  SensorModel sensor = SensorModel::crazyflie();
+  Frontend frontend{FrontendConfig{}, sensor, BeamLayout::multiranger()};
+  Backend backend{BackendConfig{}, sensor, BeamLayout::multiranger()};
+  MapBuilder map{MapConfig{}, sensor};
+  std::unique_ptr<PipelineQueues> queues = std::make_unique<PipelineQueues>();
+  StageTimes times;
+  BackendWorker worker;
+};
+
+TEST(BackendWorker, IsIdleWhileNothingComes) {
+  Bench bench;
+  EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
+}
+
+TEST(BackendWorker, DrawsAtKeyframesAndHandsOnTheTiles) {
+  Bench bench;
+  for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) {
+    bench.push(sample);
+    ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+  }
+  EXPECT_TRUE(bench.pop_tile());
+  EXPECT_EQ(bench.backend.counters().scans, 30U);
+  const StageSummary drawn = bench.times.map.summary("map");
+  EXPECT_EQ(drawn.count, bench.frontend.counters().keyframes);
+}
+
+TEST(BackendWorker, RunsTheFinalPassOnceAndFinishesWhenAllIsHandedOn) {
+  Bench bench;
+  for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) bench.push(sample);
+  bench.queues->steps.producer().close();
+  StepResult result = StepResult::kProgress;
+  for (int i = 0; i < 30; ++i) ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+  result = bench.worker.step();
+  EXPECT_EQ(result, StepResult::kFinished);
+  EXPECT_TRUE(bench.queues->to_publisher.tiles.consumer().closed());
+  EXPECT_EQ(bench.worker.step(), StepResult::kFinished);
+
+  std::map<TileIndex, MapTile> received;
+  while (const std::optional<MapTile> tile = bench.pop_tile()) received.insert_or_assign(tile->index, *tile);
+  ASSERT_EQ(received.size(), bench.map.tiles().size());
+  for (const auto& [index, tile] : received)
+    EXPECT_EQ(tile.occupancy_percent, bench.map.tile(index).occupancy_percent);
+}
+
+TEST(BackendWorker, WithoutAPublisherFinishesAllTheSame) {
+  Bench bench;
+  BackendWorker alone(bench.backend, bench.map, bench.clock, bench.queues->steps.consumer(),
+                      bench.queues->correction, std::nullopt, bench.times);
+  bench.push(flight_in_square_room(1, 2.0, 1.0).front());
+  bench.queues->steps.producer().close();
+  EXPECT_EQ(alone.step(), StepResult::kProgress);
+  EXPECT_EQ(alone.step(), StepResult::kFinished);
+  EXPECT_FALSE(bench.map.tiles().empty());
+}
+
+}  // namespace
+}  // namespace swiftlet

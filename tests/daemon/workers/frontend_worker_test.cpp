@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/workers/frontend_worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/support/manual_clock.hpp"
+#include "tests/support/scripted_sample_source.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// A frontend worker between queues that the test fills and empties.
+struct Bench {
+  Bench()
+      : worker(frontend, clock, queues->samples.consumer(), queues->steps.producer(), queues->correction,
+               queues->to_publisher.frontend_outlet(), times) {}
+
+  void push(const RangeSample& sample, MonotonicTime arrived_at = {}) {
+    ASSERT_TRUE(queues->samples.producer().try_push({sample, arrived_at}));
+  }
+  PoseUpdate pop_pose() {
+    PoseUpdate pose;
+    EXPECT_TRUE(queues->to_publisher.poses.consumer().try_pop(pose));
+    return pose;
+  }
+
+  ManualClock clock;
+  Frontend frontend{FrontendConfig{}, SensorModel::crazyflie(), BeamLayout::multiranger()};
+  std::unique_ptr<PipelineQueues> queues = std::make_unique<PipelineQueues>();
+  StageHistogram times;
+  FrontendWorker worker;
+};
+
+TEST(FrontendWorker, IsIdleUntilASampleComesAndFinishedAfterTheLast) {
+  Bench bench;
+  EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
+  bench.push(resting_samples(1).front());
+  bench.queues->samples.producer().close();
+  EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+  EXPECT_FALSE(bench.queues->steps.consumer().closed());
+  EXPECT_EQ(bench.worker.step(), StepResult::kFinished);
+  EXPECT_TRUE(bench.queues->steps.consumer().closed());
+}
+
+TEST(FrontendWorker, HandsItsAnswerToTheBackend) {
+  Bench bench;
+  bench.push(flight_in_square_room(1, 3.0, 1.0).front());
+  ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+  FrontendStep step;
+  ASSERT_TRUE(bench.queues->steps.consumer().try_pop(step));
+  EXPECT_EQ(step.sample.sequence, 0U);
+  EXPECT_TRUE(step.has_keyframe) << "the first sample is the first keyframe";
+}
+
+TEST(FrontendWorker, WaitsForRoomSoThatNoKeyframeIsEverMissing) {
+  Bench bench;
+  const auto filler = std::make_unique<FrontendStep>();
+  while (bench.queues->steps.producer().has_room())
+    ASSERT_TRUE(bench.queues->steps.producer().try_push(*filler));
+  bench.push(resting_samples(1).front());
+  EXPECT_EQ(bench.worker.step(), StepResult::kBlocked);
+  EXPECT_EQ(bench.frontend.counters().samples, 0U);
+  ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*filler));
+  EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+  EXPECT_EQ(bench.queues->steps.rejected_count(), 0U);
+}
+
+TEST(FrontendWorker, ThePoseKnowsWhenItsSampleArrived) {
+  Bench bench;
+  bench.push(resting_samples(1).front(), MonotonicTime(std::chrono::seconds(7)));
+  ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+  EXPECT_EQ(bench.pop_pose().arrived_at, MonotonicTime(std::chrono::seconds(7)));
+}
+
+TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {
+  Bench bench;
+  const std::vector<RangeSample> flight = flight_in_square_room(2, 3.0, 1.0);
+  bench.push(flight[0]);
+  static_cast<void>(bench.worker.step());
+  const PoseUpdate before = bench.pop_pose();
+  EXPECT_EQ(before.correction_version, 0U);
+  EXPECT_DOUBLE_EQ(before.T_map_body.x_m(), before.T_local_body.x_m());
+
+  bench.queues->correction.store({.keyframe = {}, .T_map_local = Pose2(9.0, 0.0, 0.0), .version = 1});
+  bench.queues->correction.store({.keyframe = {}, .T_map_local = Pose2(10.0, 0.0, 0.0), .version = 2});
+  bench.push(flight[1]);
+  static_cast<void>(bench.worker.step());
+  const PoseUpdate after = bench.pop_pose();
+  EXPECT_EQ(after.correction_version, 2U);
+  EXPECT_DOUBLE_EQ(after.T_map_body.x_m(), after.T_local_body.x_m() + 10.0);
+  EXPECT_DOUBLE_EQ(after.T_odom_body.x_m(), flight[1].T_odom_body.x_m());
+
+  const auto handed_on = std::make_unique<FrontendStep>();
+  for (const PoseUpdate& published : {before, after}) {
+    ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*handed_on));
+    EXPECT_DOUBLE_EQ(handed_on->T_map_body.x_m(), published.T_map_body.x_m());
+  }
+}
+
+TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {
+  Bench bench;
+  std::vector<RangeSample> samples = resting_samples(3);
+  samples[2].starts_segment = true;
+  for (const RangeSample& sample : samples) {
+    bench.push(sample);
+    static_cast<void>(bench.worker.step());
+  }
+  EXPECT_EQ(bench.pop_pose().segment, 1U);
+  EXPECT_EQ(bench.pop_pose().segment, 1U);
+  EXPECT_EQ(bench.pop_pose().segment, 2U);
+}
+
+TEST(FrontendWorker, GoesOnWhenThePublisherTakesNoPoses) {
+  Bench bench;
+  const std::vector<RangeSample> samples = resting_samples(PoseQueue::capacity() + 1);
+  const auto handed_on = std::make_unique<FrontendStep>();
+  for (const RangeSample& sample : samples) {
+    bench.push(sample);
+    ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+    ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*handed_on));
+  }
+  EXPECT_EQ(bench.queues->to_publisher.poses.rejected_count(), 1U);
+}
+
+}  // namespace
+}  // namespace swiftlet

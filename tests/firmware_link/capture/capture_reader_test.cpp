@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/capture/capture_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/temporary_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+
+std::string as_text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+struct WholeRead {
+  std::vector<CaptureRecord> records;
+  Error end;
+};
+WholeRead read_all(const std::string& path) {
+  WholeRead reading;
+  Result<CaptureReader> reader = CaptureReader::open(path);
+  if (!reader) {
+    reading.end = reader.error();
+    return reading;
+  }
+  for (;;) {
+    const Result<CaptureRecord> record = reader->next();
+    if (!record) {
+      reading.end = record.error();
+      EXPECT_EQ(reader->next().error().message, reading.end.message);
+      return reading;
+    }
+    reading.records.push_back(*record);
+  }
+}
+
+constexpr const char* kHeader = "d4 c3 b2 a1 02 00 04 00 00 00 00 00 00 00 00 00 ff ff 00 00 a2 00 00 00";
+
+TEST(CaptureReader, ReadsARadioRecord) {
+  const TemporaryFile file(
+      "a.pcap", as_text(hex(std::string(kHeader) + "61 e6 fd 60 b8 db 07 00 0e 00 00 00 0e 00 00 00"
+                                                   "01 01 e7 e7 e7 e7 01 50 00 52 01 8e 11 00")));
+  const WholeRead reading = read_all(file.path());
+  ASSERT_EQ(reading.records.size(), 1U);
+  const CaptureRecord& record = reading.records[0];
+  EXPECT_EQ(record.vehicle, radio_vehicle(0x01));
+  EXPECT_EQ(record.frame.direction, LinkDirection::kFromVehicle);
+  EXPECT_EQ(record.frame.at, host_ms(1'627'252'321'515));
+  EXPECT_THAT(record.frame.packet(), ElementsAreArray(hex("52 01 8e 11 00")));
+  EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording);
+}
+
+TEST(CaptureReader, ReadsAUsbRecord) {
+  const TemporaryFile file(
+      "a.pcap", as_text(hex(std::string(kHeader) + "61 e6 fd 60 b8 db 07 00 11 00 00 00 11 00 00 00"
+                                                   "02 00 00 01 02 03 04 05 06 07 08 09 0a 0b 00 00 ff")));
+  const WholeRead reading = read_all(file.path());
+  ASSERT_EQ(reading.records.size(), 1U);
+  EXPECT_EQ(reading.records[0].vehicle.text(), "usb 000102030405060708090A0B");
+  EXPECT_EQ(reading.records[0].frame.direction, LinkDirection::kToVehicle);
+  EXPECT_THAT(reading.records[0].frame.packet(), ElementsAreArray(hex("ff")));
+}
+
+TEST(CaptureReader, ReadsBigEndianAndNanoseconds) {
+  const TemporaryFile file(
+      "a.pcap", as_text(hex("a1 b2 3c 4d 00 02 00 04 00 00 00 00 00 00 00 00 00 00 ff ff 00 00 00 a2"
+                            "60 fd e6 61 1e b3 3b 87 00 00 00 0a 00 00 00 0a"
+                            "01 00 e7 e7 e7 e7 e7 50 00 ff")));
+  const WholeRead reading = read_all(file.path());
+  ASSERT_EQ(reading.records.size(), 1U) << reading.end.message;
+  EXPECT_EQ(reading.records[0].frame.at, HostTime(std::chrono::nanoseconds(1'627'252'321'515'062'663)));
+}
+
+TEST(CaptureReader, PassesOverRecordsWithoutAPacket) {
+  const TemporaryFile file(
+      "a.pcap", as_text(hex(std::string(kHeader) + "00 00 00 00 00 00 00 00 03 00 00 00 03 00 00 00"
+                                                   "07 01 02"
+                                                   "00 00 00 00 00 00 00 00 09 00 00 00 09 00 00 00"
+                                                   "01 01 e7 e7 e7 e7 e7 50 00"
+                                                   "00 00 00 00 00 00 00 00 0a 00 00 00 0a 00 00 00"
+                                                   "01 00 e7 e7 e7 e7 e7 50 00 ff")));
+  Result<CaptureReader> reader = CaptureReader::open(file.path());
+  ASSERT_TRUE(reader.ok());
+  EXPECT_TRUE(reader->next().ok());
+  EXPECT_EQ(reader->skipped(), 2U);
+  EXPECT_EQ(reader->next().error().code, ErrorCode::kEndOfRecording);
+}
+
+TEST(CaptureReader, CutAnywhereItYieldsAllThatPrecedesTheCut) {
+  SyntheticCapture capture;
+  capture.packets = 3;
+  const std::vector<LinkFrame> frames = capture.frames();
+  const TemporaryFile whole("whole.pcap");
+  write_capture(whole.path(), frames);
+  const std::string bytes = whole.read();
+  std::vector<std::size_t> ends{kPcapFileHeader};  // where each record ends
+  for (const LinkFrame& frame : frames)
+    ends.push_back(ends.back() + kPcapRecordHeader + record_prefix(CaptureLinkKind::kRadio) + frame.size);
+  ASSERT_EQ(ends.back(), bytes.size());
+
+  const TemporaryFile cut("cut.pcap");
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    cut.write(std::string_view(bytes).substr(0, length));
+    const WholeRead reading = read_all(cut.path());
+    const auto complete = std::upper_bound(ends.begin(), ends.end(), length) - ends.begin() - 1;
+    if (length < kPcapFileHeader) {
+      EXPECT_EQ(reading.end.code, ErrorCode::kInvalidInput);
+      continue;
+    }
+    ASSERT_EQ(reading.records.size(), static_cast<std::size_t>(complete)) << "cut at " << length;
+    const std::size_t last_end = ends[static_cast<std::size_t>(complete)];
+    if (last_end == length) {
+      EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording);
+    } else {
+      EXPECT_EQ(reading.end.code, ErrorCode::kDamaged);
+      EXPECT_THAT(reading.end.message, HasSubstr("damaged at byte " + std::to_string(last_end) + " of "));
+    }
+  }
+}
+
+TEST(CaptureReader, ImpossibleRecordsAreDamage) {
+  const std::vector<std::pair<const char*, const char*>> cases{
+      {"00 00 00 00 00 00 00 00 0b 00 00 00 0a 00 00 00", "length"},
+      {"00 00 00 00 00 00 00 00 00 00 01 00 00 00 01 00", "length"},
+      {"00 00 00 00 40 42 0f 00 0a 00 00 00 0a 00 00 00", "time"},
+      {"00 00 00 00 00 00 00 00 64 00 00 00 64 00 00 00", "ends inside"}};
+  for (const auto& [record, fault] : cases) {
+    const TemporaryFile file("bad.pcap",
+                             as_text(hex(std::string(kHeader) + record + "01 00 e7 e7 e7 e7 e7 50 00 ff")));
+    const WholeRead reading = read_all(file.path());
+    EXPECT_EQ(reading.end.code, ErrorCode::kDamaged) << record;
+    EXPECT_THAT(reading.end.message, HasSubstr(fault)) << record;
+    EXPECT_THAT(reading.end.message, HasSubstr("byte 24 of 50")) << record;
+  }
+}
+
+TEST(CaptureReader, NoCorruptionMakesItFail) {
+  const TemporaryFile whole("whole.pcap");
+  write_capture(whole.path(), SyntheticCapture{}.frames());
+  const std::string bytes = whole.read();
+  const TemporaryFile corrupt("corrupt.pcap");
+  std::mt19937 random(20);
+  for (int round = 0; round < 500; ++round) {
+    std::string mutated = bytes;
+    for (int i = 0; i < 1 + round % 5; ++i)
+      mutated[random() % mutated.size()] = static_cast<char>(random() & 0xFF);
+    corrupt.write(mutated);
+    const WholeRead reading = read_all(corrupt.path());
+    EXPECT_LE(reading.records.size(), SyntheticCapture{}.frames().size() + 1);
+    EXPECT_FALSE(reading.end.message.empty());
+  }
+}
+
+TEST(CaptureReader, SaysWhatIsWrongWithAFileThatIsNoCapture) {
+  const TemporaryFile text("notes.txt", "These are not the bytes of a capture.");
+  EXPECT_THAT(read_all(text.path()).end.message, HasSubstr("not a classic pcap"));
+  const TemporaryFile ethernet(
+      "eth.pcap", as_text(hex("d4 c3 b2 a1 02 00 04 00 00 00 00 00 00 00 00 00 ff ff 00 00 01 00 00 00")));
+  EXPECT_THAT(read_all(ethernet.path()).end.message, HasSubstr("link type 1,"));
+  const TemporaryFile brief("brief.pcap", "\xD4\xC3\xB2\xA1");
+  EXPECT_THAT(read_all(brief.path()).end.message, HasSubstr("4 bytes, too short"));
+}
+
+}  // namespace
+}  // namespace swiftlet

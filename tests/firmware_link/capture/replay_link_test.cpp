@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/capture/replay_link.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/temporary_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(ReplayLink, PlaysBothDirectionsInOrderToTheEnd) {
+  const TemporaryFile file("a.pcap");
+  const std::vector<LinkFrame> frames = SyntheticCapture{}.frames();
+  write_capture(file.path(), frames);
+  auto link = ReplayLink::open(file.path());
+  ASSERT_TRUE(link.ok());
+  EXPECT_LT((*link)->progress(), 0.1);
+  for (const LinkFrame& expected : frames) {
+    const Result<LinkFrame> frame = (*link)->receive(Duration::zero());
+    ASSERT_TRUE(frame.ok());
+    EXPECT_EQ(frame->at, expected.at);
+    EXPECT_EQ(frame->direction, expected.direction);
+    EXPECT_EQ(frame->bytes, expected.bytes);
+  }
+  EXPECT_EQ((*link)->receive(Duration::zero()).error().code, ErrorCode::kEndOfRecording);
+  EXPECT_EQ((*link)->progress(), 1.0);
+  EXPECT_TRUE((*link)->notes().empty());
+  EXPECT_TRUE((*link)->send(hex("ff")).ok());
+}
+
+TEST(ReplayLink, FollowsTheVehicleThatSendsLogDataFirstAndNamesTheOthers) {
+  const TemporaryFile file("a.pcap");
+  {
+    auto writer = CaptureWriter::create(file.path(), radio_vehicle(0x01));
+    ASSERT_TRUE(writer.ok());
+    ASSERT_TRUE(writer->write(sent(hex("ff"))).ok());
+    writer->set_vehicle(radio_vehicle(0x02));
+    ASSERT_TRUE(writer->write(received(hex("52 01 00 00 00 01"))).ok());
+    writer->set_vehicle(radio_vehicle(0x02, 90));
+    ASSERT_TRUE(writer->write(received(hex("52 01 00 00 00 02"))).ok());
+    writer->set_vehicle(radio_vehicle(0x02));
+    ASSERT_TRUE(writer->write(received(hex("52 01 00 00 00 03"))).ok());
+  }
+  auto link = ReplayLink::open(file.path());
+  ASSERT_TRUE(link.ok());
+  EXPECT_EQ((*link)->receive(Duration::zero())->packet()[5], 1);
+  EXPECT_EQ((*link)->receive(Duration::zero())->packet()[5], 3);
+  EXPECT_FALSE((*link)->receive(Duration::zero()).ok());
+  EXPECT_THAT((*link)->notes(),
+              ElementsAre("follows radio E7E7E7E702 channel 80, leaves out radio E7E7E7E701 channel 80",
+                          "follows radio E7E7E7E702 channel 80, leaves out radio E7E7E7E702 channel 90"));
+}
+
+TEST(ReplayLink, ReportsDamageAfterWhatPrecedesIt) {
+  const TemporaryFile file("a.pcap");
+  const std::vector<LinkFrame> frames = SyntheticCapture{}.frames();
+  write_capture(file.path(), frames);
+  const std::string bytes = file.read();
+  file.write(std::string_view(bytes).substr(0, bytes.size() - 3));
+  auto link = ReplayLink::open(file.path());
+  ASSERT_TRUE(link.ok());
+  for (std::size_t i = 0; i + 1 < frames.size(); ++i) EXPECT_TRUE((*link)->receive(Duration::zero()).ok());
+  const auto end = (*link)->receive(Duration::zero());
+  ASSERT_FALSE(end.ok());
+  EXPECT_EQ(end.error().code, ErrorCode::kDamaged);
+  EXPECT_THAT(end.error().message, HasSubstr("damaged at byte "));
+}
+
+TEST(ReplayLink, RefusesACaptureWithoutAPacket) {
+  const TemporaryFile file("a.pcap");
+  write_capture(file.path(), {});
+  const auto link = ReplayLink::open(file.path());
+  ASSERT_FALSE(link.ok());
+  EXPECT_THAT(link.error().message, HasSubstr("without a single packet"));
+}
+
+}  // namespace
+}  // namespace swiftlet

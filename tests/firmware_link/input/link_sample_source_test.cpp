@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/input/link_sample_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/manual_link_clock.hpp"
+#include "tests/firmware_link/scripted_vehicle.hpp"
+#include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Plays frames, then ends as told.
+class FrameLink final : public Link {
+ public:
+  FrameLink(std::vector<LinkFrame> frames, Error end) : frames_(std::move(frames)), end_(std::move(end)) {}
+  Result<LinkFrame> receive(Duration /*timeout*/) override {
+    if (next_ == frames_.size()) return end_;
+    return frames_[next_++];
+  }
+  Status send(std::span<const std::uint8_t> /*packet*/) override { return {}; }
+
+ private:
+  std::vector<LinkFrame> frames_;
+  Error end_;
+  std::size_t next_ = 0;
+};
+
+/// The time of a scripted link, which must outlive it.
+class ScriptedClock final : public LinkClock {
+ public:
+  explicit ScriptedClock(const ScriptedLink& link) : link_(link) {}
+  HostTime now() override { return host_ms(link_.now_ms); }
+  void sleep_for(Duration /*duration*/) override {}
+
+ private:
+  const ScriptedLink& link_;
+};
+
+LinkInput input_of(std::vector<LinkFrame> frames, Error end = {ErrorCode::kEndOfRecording, "end"}) {
+  LinkInput input;
+  input.name = "flight.pcap";
+  input.link = std::make_unique<FrameLink>(std::move(frames), std::move(end));
+  return input;
+}
+
+std::vector<RangeSample> read_all(LinkSampleSource& source) {
+  std::vector<RangeSample> samples;
+  for (;;) {
+    const Result<RangeSample> sample = source.next();
+    if (sample) samples.push_back(*sample);
+    if (!sample && sample.error().code != ErrorCode::kTimeout) return samples;
+  }
+}
+
+TEST(LinkSampleSource, TurnsFramesIntoSamples) {
+  SyntheticCapture capture;
+  LinkSampleSource source(input_of(capture.frames()));
+  const std::vector<RangeSample> samples = read_all(source);
+  ASSERT_EQ(samples.size(), 7U);  // the first packet's ranges are older than the flight
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].measured_at, device_ms(1000 + 100 * static_cast<int>(i)));
+    EXPECT_EQ(samples[i].stamp, capture.data(static_cast<int>(i) + 1).at);
+    EXPECT_NEAR(samples[i].T_odom_body.x_m(), 0.05 * static_cast<double>(i), 1e-6);
+    EXPECT_FLOAT_EQ(samples[i].distance_m[0], 1.95F - 0.05F * static_cast<float>(i));
+    EXPECT_FLOAT_EQ(samples[i].distance_m[1], 0.7F);
+    EXPECT_EQ(samples[i].status[2], RangeStatus::kNoReturn);
+    EXPECT_EQ(samples[i].status[3], RangeStatus::kInvalid);
+  }
+  EXPECT_EQ(source.report().frames, capture.frames().size());
+  EXPECT_EQ(source.report().unpaired, 1U);
+  EXPECT_TRUE(source.report().problems.empty());
+  EXPECT_EQ(source.beams().count, 4);
+}
+
+TEST(LinkSampleSource, RunsOnWhenTheDeviceClockWraps) {
+  SyntheticCapture capture;
+  capture.packets = 40;
+  capture.first_ms = 0xFFFFFF - 1950;
+  LinkSampleSource source(input_of(capture.frames()));
+  EXPECT_EQ(read_all(source).size(), 39U);
+  EXPECT_EQ(source.report().segments, 1U);
+  EXPECT_EQ(source.report().gaps, 0U);
+}
+
+TEST(LinkSampleSource, CountsLostAndRepeatedPackets) {
+  SyntheticCapture capture;
+  std::vector<LinkFrame> frames = capture.handshake();
+  for (const int i : {0, 1, 2, 2, 3, 6, 5, 7, 8, 9}) frames.push_back(capture.data(i));
+  LinkSampleSource source(input_of(frames));
+  EXPECT_EQ(read_all(source).size(), 6U);
+  EXPECT_EQ(source.report().duplicates, 1U);
+  EXPECT_EQ(source.report().out_of_order, 1U);
+  EXPECT_EQ(source.report().gaps, 1U);
+  EXPECT_EQ(source.report().missing_packets, 2U);
+  EXPECT_EQ(source.report().segments, 1U);
+}
+
+TEST(LinkSampleSource, DeliversWhatPrecedesDamageAndReportsIt) {
+  LinkSampleSource source(input_of(SyntheticCapture{}.frames(), {ErrorCode::kDamaged, "damaged at byte 77"}));
+  EXPECT_EQ(read_all(source).size(), 7U);
+  EXPECT_EQ(source.next().error().code, ErrorCode::kEndOfRecording);
+  EXPECT_THAT(source.report().problems, ElementsAre("damaged at byte 77"));
+}
+
+TEST(LinkSampleSource, PassesOnALostDevice) {
+  LinkSampleSource source(input_of(SyntheticCapture{}.frames(), {ErrorCode::kDeviceLost, "unplugged"}));
+  EXPECT_EQ(read_all(source).size(), 7U);
+  EXPECT_EQ(source.next().error().code, ErrorCode::kDeviceLost);
+}
+
+TEST(LinkSampleSource, ALiveLinkThatNeverYieldsASampleDoesNotHoldItsCaller) {
+  SyntheticCapture capture;
+  capture.packets = 1000;
+  std::vector<LinkFrame> frames = capture.frames();
+  for (LinkFrame& frame : frames)
+    if (frame.direction == LinkDirection::kToVehicle) frame.bytes[1] = 0;  // so that no block is known
+  LinkInput input = input_of(std::move(frames));
+  input.clock = std::make_shared<ManualLinkClock>();
+  LinkSampleSource source(std::move(input));
+  const Result<RangeSample> sample = source.next();
+  ASSERT_FALSE(sample.ok());
+  EXPECT_EQ(sample.error().code, ErrorCode::kTimeout);
+  EXPECT_LT(source.report().frames, 200U);
+}
+
+TEST(LinkSampleSource, DoesNotAllocateForASample) {
+  if (!test::counts_allocations()) GTEST_SKIP() << "sanitizers bring a malloc of their own";
+  SyntheticCapture capture;
+  capture.packets = 1000;
+  LinkSampleSource source(input_of(capture.frames()));
+  ASSERT_TRUE(source.next().ok());
+  const test::AllocationCounter counter;
+  for (int i = 0; i < 900; ++i) ASSERT_TRUE(source.next().ok());
+  EXPECT_EQ(counter.count(), 0U);
+}
+
+TEST(LinkSampleSource, FallsBackToADescriptionAndSaysSo) {
+  SyntheticCapture capture;
+  capture.with_toc = false;
+  LinkInput input = input_of(capture.frames());
+  BlockDescription description;
+  description.source = "flight.pcap.toml";
+  for (std::size_t i = 0; i < SyntheticCapture::kNames.size(); ++i)
+    description.blocks[1].variables.push_back(
+        {(i < 3 ? "stateEstimate." : "range.") + std::string(SyntheticCapture::kNames[i]),
+         i < 3 ? LogType::kFloat : LogType::kUint16});
+  input.description = description;
+  LinkSampleSource source(std::move(input));
+  EXPECT_TRUE(source.find_first_sample().ok());
+  EXPECT_EQ(read_all(source).size(), 7U);
+  EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("taken from flight.pcap.toml")));
+}
+
+TEST(LinkSampleSource, SaysWhyARecordingHoldsNoSample) {
+  const auto reason = [](const std::vector<LinkFrame>& frames) {
+    LinkSampleSource source(input_of(frames));
+    const Status found = source.find_first_sample();
+    return found ? "found one" : found.error().message;
+  };
+  SyntheticCapture capture;
+  EXPECT_THAT(reason(capture.handshake()), HasSubstr("no range.front"));
+  EXPECT_THAT(reason({capture.handshake().front()}), HasSubstr("flight.pcap: no range.front"));
+  std::vector<LinkFrame> one = capture.handshake();
+  one.push_back(capture.data(0));
+  EXPECT_THAT(reason(one), HasSubstr("never lie close enough in time"));
+  capture.with_toc = false;
+  EXPECT_THAT(reason(capture.frames()), HasSubstr("describe them in flight.pcap.toml"));
+}
+
+TEST(LinkSampleSource, DeliversTheFirstSampleItLookedForOnce) {
+  LinkSampleSource source(input_of(SyntheticCapture{}.frames()));
+  ASSERT_TRUE(source.find_first_sample().ok());
+  const std::vector<RangeSample> samples = read_all(source);
+  ASSERT_EQ(samples.size(), 7U);
+  EXPECT_EQ(samples[0].sequence, 0U);
+  EXPECT_EQ(samples[1].sequence, 1U);
+}
+
+TEST(LinkSampleSource, BringsALiveVehicleToSendSamples) {
+  auto link = std::make_unique<ScriptedLink>();
+  link->vehicle.variables = ScriptedVehicle::modern_variables();
+  link->last_ms = 5000;
+  LinkInput input;
+  input.name = "sim://test";
+  input.link = std::move(link);
+  input.starts_logging = true;
+  input.truth.emplace([](DeviceTime at) { return Pose2(to_seconds(at.time_since_epoch()), 0.0, 0.0); },
+                      std::move(PoseFile::open()).value());
+  LinkSampleSource source(std::move(input));
+  const std::vector<RangeSample> samples = read_all(source);
+  ASSERT_GT(samples.size(), 40U);
+  EXPECT_FLOAT_EQ(samples[0].distance_m[0], 1.0F);
+  const std::vector<StampedPose> truth = source.ground_truth();
+  ASSERT_EQ(truth.size(), samples.size());
+  EXPECT_EQ(truth[9].stamp, samples[9].stamp);
+  EXPECT_NEAR(truth[9].pose.x_m(), to_seconds(samples[9].measured_at.time_since_epoch()), 1e-12);
+}
+
+TEST(LinkSampleSource, NotesEachKindOfWarningOnceHoweverLongTheFlight) {
+  auto link = std::make_unique<ScriptedLink>();
+  link->vehicle.variables = ScriptedVehicle::modern_variables();
+  link->reaches = [](std::int64_t ms) { return ms % 6000 < 3000; };
+  LinkInput input;
+  input.clock = std::make_shared<ScriptedClock>(*link);
+  input.link = std::move(link);
+  input.starts_logging = true;
+  LinkSampleSource source(std::move(input));
+  std::size_t stops = 0;
+  for (Result<RangeSample> sample = source.next(); sample || sample.error().code == ErrorCode::kTimeout;
+       sample = source.next())
+    while (const auto event = source.take_event())
+      if (event->kind == VehicleEvent::Kind::kDataStopped) ++stops;
+  EXPECT_GT(stops, 5U);
+  source.end();
+  EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("no log data for a second")));
+}
+
+TEST(LinkSampleSource, PassesOnWhyAVehicleCannotBeUsed) {
+  auto link = std::make_unique<ScriptedLink>();
+  link->vehicle.protocol = 2;
+  LinkInput input;
+  input.link = std::move(link);
+  input.starts_logging = true;
+  LinkSampleSource source(std::move(input));
+  Result<RangeSample> sample = source.next();
+  while (sample.error().code == ErrorCode::kTimeout) sample = source.next();
+  EXPECT_THAT(sample.error().message, HasSubstr("CRTP protocol 2"));
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/laser_log/carmen_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "tests/firmware_link/laser_lines.hpp"
+#include "tests/support/temporary_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::microseconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+HostTime at_us(std::int64_t us) { return HostTime(microseconds(us)); }
+
+TEST(PickBeams, FollowsThePapersRule) {
+  EXPECT_THAT(pick_beams(180, 11), ElementsAre(0, 18, 36, 54, 72, 90, 108, 126, 144, 162, 179));
+  EXPECT_THAT(pick_beams(180, 4), ElementsAre(0, 60, 120, 179));
+  EXPECT_THAT(pick_beams(181, 2), ElementsAre(0, 180));
+  EXPECT_EQ(pick_beams(180, 64)[62], 124U);
+  EXPECT_EQ(pick_beams(180, 64)[63], 179U);
+}
+
+TEST(CarmenLog, ReadsScansAndOdometry) {
+  const TemporaryFile file("a.clf", "# a comment\nPARAM robot_length 1\n" +
+                                        odometry_line(0.5, 0.25, 1.0, "10.100000") +
+                                        flaser_line(180, 0.5, "10.150000"));
+  const auto log = read_carmen_log(file.path(), 4);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_EQ(log->lines, 4U);
+  ASSERT_EQ(log->scans.size(), 1U);
+  EXPECT_EQ(log->scans[0].stamp, at_us(10'150'000));
+  EXPECT_DOUBLE_EQ(log->scans[0].position.x_m, 0.5);
+  EXPECT_DOUBLE_EQ(log->scans[0].position.y_m, 0.2);
+  EXPECT_DOUBLE_EQ(log->scans[0].yaw_rad, 0.3);
+  EXPECT_THAT(log->distances_of(0), ElementsAre(1.00F, 1.60F, 2.20F, 2.79F));
+  ASSERT_EQ(log->odometry.size(), 1U);
+  EXPECT_EQ(log->odometry[0].stamp, at_us(10'100'000));
+  EXPECT_DOUBLE_EQ(log->odometry[0].yaw_rad, 1.0);
+  EXPECT_TRUE(log->problems.empty());
+}
+
+TEST(CarmenLog, BearingsFollowFromTheCount) {
+  const auto bearings = [](int readings) {
+    const TemporaryFile file("a.clf", flaser_line(readings, 0.0, "1"));
+    return read_carmen_log(file.path(), 3)->beams;
+  };
+  EXPECT_NEAR(bearings(180).bearing_rad[0], radians(-90.0), 1e-12);
+  EXPECT_NEAR(bearings(180).bearing_rad[1], radians(0.0), 1e-12);
+  EXPECT_NEAR(bearings(180).bearing_rad[2], radians(89.0), 1e-12);
+  EXPECT_NEAR(bearings(181).bearing_rad[2], radians(90.0), 1e-12);
+  EXPECT_NEAR(bearings(360).bearing_rad[2], radians(89.5), 1e-12);
+  EXPECT_NEAR(bearings(361).bearing_rad[1], radians(0.0), 1e-12);
+  EXPECT_EQ(bearings(361).count, 3);
+}
+
+TEST(CarmenLog, SortsByTimeAndDropsScansThatRepeat) {
+  const TemporaryFile file("a.clf", flaser_line(180, 3.0, "3.0") + flaser_line(180, 1.0, "1.0") +
+                                        flaser_line(180, 1.0, "1.0") + flaser_line(180, 2.0, "1.0", 5.0) +
+                                        odometry_line(0, 0, 0, "2") + odometry_line(0, 0, 0, "1"));
+  const auto log = read_carmen_log(file.path(), 2);
+  ASSERT_TRUE(log.ok());
+  ASSERT_EQ(log->scans.size(), 3U);
+  EXPECT_DOUBLE_EQ(log->scans[0].position.x_m, 1.0);
+  EXPECT_DOUBLE_EQ(log->scans[1].position.x_m, 2.0);  // the same stamp, but another scan
+  EXPECT_FLOAT_EQ(log->distances_of(1)[0], 5.0F);
+  EXPECT_DOUBLE_EQ(log->scans[2].position.x_m, 3.0);
+  EXPECT_EQ(log->duplicate_scans, 1U);
+  EXPECT_EQ(log->scan_reversals, 1U);
+  EXPECT_EQ(log->odometry_reversals, 1U);
+  EXPECT_LT(log->odometry[0].stamp, log->odometry[1].stamp);
+}
+
+TEST(CarmenLog, NamesMalformedLinesAndReadsOn) {
+  const std::string good = flaser_line(180, 0.0, "5");
+  const std::string cut = good.substr(0, good.size() / 2) + "\n";
+  std::string text = good + cut + "ODOM 1 2 x 0 0 0 5\n" + flaser_line(361, 0.0, "6") + "FLASER\n" +
+                     flaser_line(180, 0.0, "nan") + flaser_line(180, 0.0, "7");
+  for (int i = 0; i < 20; ++i) text += "ODOM broken\n";
+  const TemporaryFile file("a.clf", text);
+  const auto log = read_carmen_log(file.path(), 11);
+  ASSERT_TRUE(log.ok());
+  EXPECT_EQ(log->scans.size(), 2U);
+  ASSERT_EQ(log->problems.size(), 11U);
+  EXPECT_THAT(log->problems[0], HasSubstr(file.path() + ":2: FLASER line cut off"));
+  EXPECT_THAT(log->problems[1], HasSubstr(":3: ODOM line"));
+  EXPECT_THAT(log->problems[2], HasSubstr(":4: FLASER with another number of readings"));
+  EXPECT_THAT(log->problems[3], HasSubstr(":6: FLASER line"));
+  EXPECT_THAT(log->problems.back(), HasSubstr("14 more malformed lines"));
+}
+
+TEST(CarmenLog, SaysWhyThereIsNothingToRead) {
+  const TemporaryFile other("a.clf", "hello\n");
+  EXPECT_THAT(read_carmen_log(other.path(), 4).error().message,
+              HasSubstr("neither a capture (pcap) nor a CARMEN laser log"));
+  const TemporaryFile odd("b.clf", flaser_line(90, 0.0, "1"));
+  EXPECT_THAT(read_carmen_log(odd.path(), 4).error().message, HasSubstr(":1: FLASER with another number"));
+  EXPECT_EQ(read_carmen_log("/nonexistent/a.clf", 4).error().code, ErrorCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/laser_log/carmen_sample_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/geometry/angle.hpp"
+#include "tests/firmware_link/laser_lines.hpp"
+#include "tests/support/reference_data.hpp"
+#include "tests/support/temporary_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<RangeSample> read_all(SampleSource& source) {
+  std::vector<RangeSample> samples;
+  for (;;) {
+    const Result<RangeSample> sample = source.next();
+    if (!sample) {
+      EXPECT_EQ(sample.error().code, ErrorCode::kEndOfRecording);
+      return samples;
+    }
+    samples.push_back(*sample);
+  }
+}
+
+TEST(CarmenSampleSource, TakesOdometryLinesAtTheTimeOfTheRangesWhenTheirStampsAreGood) {
+  const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + flaser_line(180, 7, "10.15") +
+                                        odometry_line(0.1, 0, 0.2, "10.1") + flaser_line(180, 7, "10.2") +
+                                        odometry_line(0.2, 0, 0.4, "10.2"));
+  const auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  const std::vector<RangeSample> samples = read_all(**source);
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_NEAR(samples[0].T_odom_body.x_m(), 0.05, 1e-9);
+  EXPECT_NEAR(samples[0].T_odom_body.yaw_rad(), 0.1, 1e-9);
+  EXPECT_NEAR(samples[1].T_odom_body.x_m(), 0.1, 1e-9);
+  EXPECT_EQ(samples[0].stamp, HostTime(std::chrono::milliseconds(10'150)));
+  EXPECT_EQ((*source)->sensor().range_age, std::chrono::milliseconds(100));
+  EXPECT_THAT((*source)->report().notes, ElementsAre(HasSubstr("from the ODOM lines, 100 ms before")));
+  EXPECT_EQ((*source)->progress(), 1.0);
+}
+
+TEST(CarmenSampleSource, TakesThePoseInTheScanWhenOdometryStampsGoBack) {
+  const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + flaser_line(180, 7, "10.15") +
+                                        odometry_line(0.1, 0, 0.2, "10.3") +
+                                        odometry_line(0.2, 0, 0.4, "10.2"));
+  const auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  const std::vector<RangeSample> samples = read_all(**source);
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_DOUBLE_EQ(samples[0].T_odom_body.x_m(), 7.0);
+  EXPECT_EQ((*source)->sensor().range_age, Duration::zero());
+  EXPECT_THAT((*source)->report().notes, ElementsAre(HasSubstr("go back 1 times")));
+}
+
+TEST(CarmenSampleSource, TakesThePoseInTheScanWhenThereIsNoOdometryOrTooLittle) {
+  const TemporaryFile none("a.clf", flaser_line(180, 7, "10.15"));
+  EXPECT_THAT((*CarmenSampleSource::open(none.path(), {}))->report().notes,
+              ElementsAre(HasSubstr("no ODOM lines")));
+  const TemporaryFile few("b.clf", odometry_line(0, 0, 0, "10") + odometry_line(0, 0, 0, "11") +
+                                       flaser_line(180, 7, "10.15") + flaser_line(180, 7, "90"));
+  EXPECT_THAT((*CarmenSampleSource::open(few.path(), {}))->report().notes,
+              ElementsAre(HasSubstr("do not span")));
+}
+
+TEST(CarmenSampleSource, TakesRangesForOlderByALineWhereTheScansTurnWithThePosesOfTheLineBefore) {
+  // A scanner that turns to and fro before a wall of slanting steps; each line has the pose of the next one.
+  std::string text;
+  const auto reading_at = [](int line) { return static_cast<int>(std::lround(12.0 * std::sin(0.8 * line))); };
+  for (int line = 0; line < 300; ++line) {
+    text += "FLASER 180";
+    for (int i = 0; i < 180; ++i) text += (i + reading_at(line)) / 9 % 2 == 0 ? " 2.0" : " 3.5";
+    const double yaw_rad = radians(reading_at(line + 1));
+    const std::string stamp = std::to_string(100.0 + 0.25 * line);
+    text += " 9 9 9 0 0 " + std::to_string(yaw_rad) + " " + stamp + " host " + stamp + "\n";
+  }
+  const TemporaryFile file("a.clf", text);
+  const auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  EXPECT_EQ((*source)->sensor().range_age, std::chrono::milliseconds(250));
+  EXPECT_THAT((*source)->report().notes,
+              ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("ranges taken for 250 ms older")));
+  SampleSourceOptions options;
+  options.range_age = Duration::zero();
+  EXPECT_EQ((*CarmenSampleSource::open(file.path(), options))->sensor().range_age, Duration::zero());
+}
+
+TEST(CarmenSampleSource, CapsRangesAndPicksBeams) {
+  const TemporaryFile file("a.clf", flaser_line(180, 0, "1", 4.0));
+  SampleSourceOptions options;
+  options.beam_count = 4;
+  auto source = CarmenSampleSource::open(file.path(), options);
+  ASSERT_TRUE(source.ok());
+  EXPECT_EQ((*source)->beams().count, 4);
+  const RangeSample sample = read_all(**source).at(0);
+  EXPECT_EQ(sample.beam_count, 4);
+  EXPECT_EQ(sample.status[1], RangeStatus::kHit);  // 4.6 m
+  EXPECT_EQ(sample.status[2], RangeStatus::kNoReturn);
+  options.max_range_m = 4.5;
+  source = CarmenSampleSource::open(file.path(), options);
+  EXPECT_EQ(read_all(**source).at(0).status[1], RangeStatus::kNoReturn);
+}
+
+TEST(CarmenSampleSource, ARobotStandingStillAndScansOfOneStampAreFine) {
+  const TemporaryFile file("a.clf", flaser_line(180, 0, "1", 1.0) + flaser_line(180, 0, "1", 2.0) +
+                                        flaser_line(180, 0, "1", 2.0) + flaser_line(180, 0, "1.00001", 2.0));
+  auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  const std::vector<RangeSample> samples = read_all(**source);
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_EQ(samples[0].stamp, samples[1].stamp);
+  EXPECT_LT(samples[0].measured_at, samples[1].measured_at);
+  EXPECT_EQ((*source)->report().duplicates, 1U);
+  EXPECT_EQ((*source)->report().segments, 1U);
+}
+
+struct ReferenceLog {
+  const char* name;
+  std::size_t scans;
+  const char* note;
+};
+
+class ReferenceLaserLog : public testing::TestWithParam<ReferenceLog> {};
+
+TEST_P(ReferenceLaserLog, DeliversEveryScanStampedAsTheRelationsStampIt) {
+  const std::string log = reference_file("radish/" + std::string(GetParam().name) + ".clf.gz");
+  const std::string relations = reference_file("radish/" + std::string(GetParam().name) + ".relations");
+  SWIFTLET_REQUIRE_REFERENCE(log);
+  SWIFTLET_REQUIRE_REFERENCE(relations);
+  const auto start = std::chrono::steady_clock::now();
+  const auto source = CarmenSampleSource::open(log, {});
+  ASSERT_TRUE(source.ok());
+  const std::vector<RangeSample> samples = read_all(**source);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_EQ(samples.size(), GetParam().scans);
+  EXPECT_EQ((*source)->report().segments, 1U);
+  EXPECT_THAT((*source)->report().notes, testing::Contains(HasSubstr(GetParam().note)));
+  EXPECT_TRUE((*source)->report().problems.empty());
+
+  std::set<std::int64_t> stamps_us;
+  for (const RangeSample& sample : samples)
+    stamps_us.insert(std::chrono::floor<std::chrono::microseconds>(sample.stamp.time_since_epoch()).count());
+  std::ifstream file(relations);
+  std::string line;
+  std::size_t matched = 0;
+  std::size_t total = 0;
+  while (std::getline(file, line)) {
+    double t1 = 0.0;
+    double t2 = 0.0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf %lf", &t1, &t2), 2);
+    for (const double t : {t1, t2}) {
+      const std::int64_t us = std::llround(t * 1e6);
+      const auto near = stamps_us.lower_bound(us - 10);
+      ++total;
+      if (near != stamps_us.end() && *near <= us + 10) ++matched;
+    }
+  }
+  EXPECT_GT(total, 0U);
+  EXPECT_EQ(matched, total);
+}
+
+INSTANTIATE_TEST_SUITE_P(Radish, ReferenceLaserLog,
+                         testing::Values(ReferenceLog{"aces", 7374, "from the ODOM lines"},
+                                         ReferenceLog{"intel", 13631, "go back 602 times"},
+                                         ReferenceLog{"mit-killian", 17478, "440 ms older"}),
+                         [](const auto& log) {
+                           std::string name = log.param.name;
+                           for (char& c : name)
+                             if (c == '-') c = '_';
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace swiftlet

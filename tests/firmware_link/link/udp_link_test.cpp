@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/link/udp_link.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/manual_link_clock.hpp"
+#include "tests/firmware_link/udp_peer.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/thread_cpu_time.hpp"
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int kPatienceMs = 5000;
+const Bytes kRegistration = hex("f3");
+const Bytes kNull = hex("ff");
+
+std::unique_ptr<UdpLink> open_link(std::uint16_t port, LinkClock& clock) {
+  Result<std::unique_ptr<UdpLink>> link = UdpLink::open("127.0.0.1", port, clock);
+  SWIFTLET_CHECK(link.ok(), "a loopback address needs no looking up");
+  return std::move(link).value();
+}
+
+/// A link in stopped time, which therefore must never wait, and its peer.
+struct Pair {
+  UdpPeer peer;
+  ManualLinkClock clock;
+  std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
+
+  /// What the link hands back now.
+  [[nodiscard]] std::optional<LinkFrame> look() const {
+    const Result<LinkFrame> frame = link->receive(Duration::zero());
+    if (frame) return *frame;
+    EXPECT_EQ(frame.error().code, ErrorCode::kTimeout);
+    return std::nullopt;
+  }
+  /// As many datagrams as are expected, and whatever else is there then.
+  std::vector<Bytes> received(std::size_t expected) {
+    std::vector<Bytes> all;
+    while (const std::optional<Bytes> one = peer.on_frame(all.size() < expected ? kPatienceMs : 0))
+      all.push_back(*one);
+    return all;
+  }
+  void connect() {
+    EXPECT_FALSE(look().has_value());
+    EXPECT_THAT(received(2), ElementsAre(kRegistration, kNull));
+    peer.say(hex("f3"));
+    EXPECT_FALSE(look().has_value());
+    EXPECT_EQ(link->statistics().condition, LinkCondition::kConnected);
+  }
+};
+
+Bytes bytes_of(const LinkFrame& frame) { return {frame.packet().begin(), frame.packet().end()}; }
+
+TEST(UdpLink, GreetsEvery200MillisecondsWhileNothingIsHeard) {
+  Pair pair;
+  EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kSilent);
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_THAT(pair.received(2), ElementsAre(kRegistration, kNull));
+  pair.clock.sleep_for(milliseconds(199));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_THAT(pair.received(0), ElementsAre());
+  pair.clock.sleep_for(milliseconds(1));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_THAT(pair.received(2), ElementsAre(kRegistration, kNull));
+  EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kSilent);
+  EXPECT_EQ(pair.link->statistics().packets_sent, 4U);
+  EXPECT_EQ(pair.link->statistics().packets_acked, 0U);
+}
+
+TEST(UdpLink, SendsANullPacketAfter100MillisecondsOfSendingNothing) {
+  Pair pair;
+  pair.connect();
+  pair.clock.sleep_for(milliseconds(60));
+  ASSERT_TRUE(pair.link->send(hex("5c 03")).ok());
+  EXPECT_TRUE(pair.look().has_value());
+  EXPECT_THAT(pair.received(1), ElementsAre(hex("5c 03")));
+  pair.clock.sleep_for(milliseconds(99));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_THAT(pair.received(0), ElementsAre());
+  pair.clock.sleep_for(milliseconds(1));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_THAT(pair.received(1), ElementsAre(kNull));
+}
+
+TEST(UdpLink, HandsBackWhatItSentBeforeTheAnswer) {
+  Pair pair;
+  pair.connect();
+  ASSERT_TRUE(pair.link->send(hex("5d 05")).ok());
+  ASSERT_TRUE(pair.link->send(hex("5c 03")).ok());
+  EXPECT_THAT(pair.received(0), ElementsAre()) << "only receive() sends";
+  pair.peer.say(hex("5d 05 00 00"));
+  std::vector<LinkFrame> frames;
+  while (const std::optional<LinkFrame> frame = pair.look()) {
+    frames.push_back(*frame);
+    pair.clock.sleep_for(milliseconds(1));
+  }
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(bytes_of(frames[0]), hex("5d 05"));
+  EXPECT_EQ(bytes_of(frames[1]), hex("5c 03"));
+  EXPECT_EQ(bytes_of(frames[2]), hex("5d 05 00 00"));
+  EXPECT_EQ(frames[0].direction, LinkDirection::kToVehicle);
+  EXPECT_EQ(frames[1].direction, LinkDirection::kToVehicle);
+  EXPECT_EQ(frames[2].direction, LinkDirection::kFromVehicle);
+  EXPECT_EQ(frames[1].at - frames[0].at, milliseconds(1));
+  EXPECT_EQ(frames[2].at - frames[1].at, milliseconds(1));
+  EXPECT_THAT(pair.received(2), ElementsAre(hex("5d 05"), hex("5c 03")));
+}
+
+TEST(UdpLink, RefusesWhatIsNoRequest) {
+  Pair pair;
+  pair.connect();
+  for (const Bytes& packet : {Bytes{}, Bytes(32, 0x5C), hex("ff fe 01")}) {
+    const Status sent = pair.link->send(packet);
+    ASSERT_FALSE(sent.ok());
+    EXPECT_EQ(sent.error().code, ErrorCode::kInvalidInput);
+  }
+}
+
+TEST(UdpLink, DropsWhatItHasNoRoomFor) {
+  Pair pair;
+  pair.connect();
+  for (std::uint8_t i = 0; i < 9; ++i) EXPECT_TRUE(pair.link->send(Bytes{0x5C, i}).ok());
+  for (std::uint8_t i = 0; i < 8; ++i) {
+    const std::optional<LinkFrame> frame = pair.look();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(bytes_of(*frame), (Bytes{0x5C, i}));
+  }
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_EQ(pair.received(8).size(), 8U);
+}
+
+TEST(UdpLink, KeepsNullPacketsAndWrongSizesToItself) {
+  Pair pair;
+  pair.connect();
+  pair.peer.say({});
+  pair.peer.say(hex("f7"));
+  pair.peer.say(hex("f3 01 2d"));
+  pair.peer.say(Bytes(32, 0x52));
+  pair.peer.say(Bytes(1500, 0x52));
+  pair.peer.say(Bytes(31, 0x52));
+  const std::optional<LinkFrame> frame = pair.look();
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_EQ(bytes_of(*frame), Bytes(31, 0x52));
+  EXPECT_EQ(frame->direction, LinkDirection::kFromVehicle);
+  EXPECT_EQ(frame->at, pair.clock.now());
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_EQ(pair.link->statistics().packets_received, 1U);
+}
+
+TEST(UdpLink, StampsAFrameWithTheTimeItCameHoweverLateItIsRead) {
+  SystemLinkClock clock;
+  UdpPeer peer;
+  const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
+  EXPECT_FALSE(link->receive(Duration::zero()).ok());
+  EXPECT_TRUE(peer.on_frame(kPatienceMs).has_value());
+  std::this_thread::sleep_for(milliseconds(60));  // the kernel may take a while until it stamps what comes
+  peer.say(hex("52 01 00 00 00"));
+  const HostTime said_at = clock.now();
+  std::this_thread::sleep_for(milliseconds(60));
+  const Result<LinkFrame> frame = link->receive(milliseconds(kPatienceMs));
+  ASSERT_TRUE(frame.ok());
+  EXPECT_GE(clock.now() - frame->at, milliseconds(50));
+  EXPECT_LT(frame->at - said_at, milliseconds(10));
+}
+
+TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndComesBack) {
+  Pair pair;
+  pair.connect();
+  pair.clock.sleep_for(milliseconds(999));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kConnected);
+  EXPECT_THAT(pair.received(1), ElementsAre(kNull));
+  pair.clock.sleep_for(milliseconds(1));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kSilent);
+  EXPECT_THAT(pair.received(2), ElementsAre(kRegistration, kNull));
+  pair.clock.sleep_for(std::chrono::minutes(5));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_EQ(pair.link->statistics().silences, 1U);
+
+  pair.peer.say(hex("52 01 00 00 00"));
+  EXPECT_TRUE(pair.look().has_value());
+  EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kConnected);
+  pair.clock.sleep_for(std::chrono::seconds(1));
+  EXPECT_FALSE(pair.look().has_value());
+  EXPECT_EQ(pair.link->statistics().silences, 2U);
+}
+
+TEST(UdpLink, WaitsPatientlyWhereNobodyListensUntilSomebodyDoes) {
+  SystemLinkClock clock;
+  auto peer = std::make_unique<UdpPeer>();
+  const std::uint16_t port = peer->port();
+  const std::unique_ptr<UdpLink> link = open_link(port, clock);
+  peer.reset();
+  const HostTime start = clock.now();
+  const Duration cpu_start = thread_cpu_time();
+  for (int i = 1; i <= 3; ++i) {
+    const Result<LinkFrame> frame = link->receive(milliseconds(250));
+    ASSERT_FALSE(frame.ok());
+    EXPECT_EQ(frame.error().code, ErrorCode::kTimeout);
+    EXPECT_GE(clock.now() - start, milliseconds(250) * i);
+  }
+  EXPECT_LT(thread_cpu_time() - cpu_start, milliseconds(100));
+  EXPECT_EQ(link->statistics().condition, LinkCondition::kSilent);
+  EXPECT_EQ(link->statistics().silences, 0U);
+
+  peer = std::make_unique<UdpPeer>(port);
+  EXPECT_FALSE(link->receive(milliseconds(250)).ok());
+  EXPECT_EQ(peer->on_frame(kPatienceMs), kRegistration);
+  peer->say(hex("52 01 00 00 00"));
+  EXPECT_TRUE(link->receive(milliseconds(kPatienceMs)).ok());
+}
+
+TEST(UdpLink, LosesNoRequestToARefusalOfWhatItSentBefore) {
+  ManualLinkClock clock;
+  auto peer = std::make_unique<UdpPeer>();
+  const std::uint16_t port = peer->port();
+  const std::unique_ptr<UdpLink> link = open_link(port, clock);
+  peer.reset();
+  EXPECT_FALSE(link->receive(Duration::zero()).ok());  // greets nobody
+  peer = std::make_unique<UdpPeer>(port);
+  ASSERT_TRUE(link->send(hex("5c 03")).ok());
+  EXPECT_TRUE(link->receive(Duration::zero()).ok());
+  EXPECT_EQ(peer->on_frame(kPatienceMs), hex("5c 03"));
+}
+
+TEST(UdpLink, WakesWhenADatagramComes) {
+  SystemLinkClock clock;
+  UdpPeer peer;
+  const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
+  EXPECT_FALSE(link->receive(Duration::zero()).ok());
+  EXPECT_TRUE(peer.on_frame(kPatienceMs).has_value());
+  std::thread speaker([&peer] {
+    std::this_thread::sleep_for(milliseconds(30));
+    peer.say(hex("f3"));
+    peer.say(hex("52 01 00 00 00"));
+  });
+  const HostTime start = clock.now();
+  const Result<LinkFrame> frame = link->receive(std::chrono::minutes(1));
+  speaker.join();
+  ASSERT_TRUE(frame.ok());
+  EXPECT_EQ(bytes_of(*frame), hex("52 01 00 00 00"));
+  EXPECT_LT(frame->at - start, std::chrono::seconds(30));
+}
+
+TEST(UdpLink, KeepsTheVehicleAwakeWithinOneLongReceive) {
+  SystemLinkClock clock;
+  UdpPeer peer;
+  const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
+  EXPECT_FALSE(link->receive(Duration::zero()).ok());
+  EXPECT_EQ(peer.on_frame(kPatienceMs), kRegistration);
+  EXPECT_EQ(peer.on_frame(kPatienceMs), kNull);
+  peer.say(hex("f3"));
+  EXPECT_FALSE(link->receive(milliseconds(350)).ok());
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(peer.on_frame(kPatienceMs), kNull);
+}
+
+TEST(UdpLink, TakesTheIpv4AddressOfANameWithBoth) {
+  UdpPeer peer;
+  ManualLinkClock clock;
+  const auto link = UdpLink::open("localhost", peer.port(), clock);
+  ASSERT_TRUE(link.ok()) << link.error().message;
+  EXPECT_FALSE((*link)->receive(Duration::zero()).ok());
+  EXPECT_EQ(peer.on_frame(kPatienceMs), kRegistration);
+}
+
+TEST(UdpLink, SaysThatThereIsNoSuchHost) {
+  ManualLinkClock clock;
+  const std::string name(64, 'x');  // longer than a name may be: refused without asking anybody
+  const auto link = UdpLink::open(name, 19850, clock);
+  ASSERT_FALSE(link.ok());
+  EXPECT_EQ(link.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(link.error().message, HasSubstr("udp://" + name + ": no such host"));
+}
+
+TEST(UdpLink, AllocatesNothingOnceOpen) {
+  if (!test::counts_allocations()) GTEST_SKIP() << "sanitizers bring a malloc of their own";
+  Pair pair;
+  const Bytes request = hex("5c 03");
+  const Bytes answer = hex("52 01 00 00 00");
+  pair.connect();
+  std::size_t frames = 0;
+  const test::AllocationCounter counter;
+  for (int i = 0; i < 20; ++i) {
+    pair.clock.sleep_for(milliseconds(i < 10 ? 100 : 2000));
+    static_cast<void>(pair.link->send(request));
+    pair.peer.say(answer);
+    for (int look = 0; look < 3; ++look) frames += pair.link->receive(Duration::zero()).ok() ? 1U : 0U;
+  }
+  EXPECT_EQ(counter.count(), 0U);
+  EXPECT_EQ(frames, 40U);
+}
+
+}  // namespace
+}  // namespace swiftlet

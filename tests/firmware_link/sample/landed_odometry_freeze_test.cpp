@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample/landed_odometry_freeze.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+Reading reading_of(const Pose2& T_vehicle_body, std::optional<bool> is_flying) {
+  Reading reading;
+  reading.position_odom = T_vehicle_body.position();
+  reading.yaw_odom_rad = T_vehicle_body.yaw_rad();
+  reading.is_flying = is_flying;
+  for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+  return reading;
+}
+Pose2 pose_of(const Reading& reading) {
+  return {reading.position_odom->x_m, reading.position_odom->y_m, *reading.yaw_odom_rad};
+}
+void expect_pose(const Reading& reading, const Pose2& expected) {
+  const Pose2 pose = pose_of(reading);
+  EXPECT_NEAR(pose.x_m(), expected.x_m(), 1e-9);
+  EXPECT_NEAR(pose.y_m(), expected.y_m(), 1e-9);
+  EXPECT_NEAR(wrap_angle(pose.yaw_rad() - expected.yaw_rad()), 0.0, 1e-9);
+}
+
+TEST(LandedOdometryFreeze, LeavesAFlightAsItIs) {
+  LandedOdometryFreeze ground;
+  expect_pose(ground.hold(reading_of({0.0, 0.0, 0.0}, false)), {0.0, 0.0, 0.0});
+  const Reading flown = ground.hold(reading_of({3.0, 1.0, 2.0}, true));
+  expect_pose(flown, {3.0, 1.0, 2.0});
+  EXPECT_EQ(flown.distance_m[0], 1.F);
+  EXPECT_FALSE(flown.begins_anew);
+}
+
+TEST(LandedOdometryFreeze, StandsStillAfterLandingWhileTheYawIsPulledBackAndSeesNothing) {
+  LandedOdometryFreeze ground;
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 2.0}, true)));
+  for (double yaw_rad = 2.0; yaw_rad > 0.1; yaw_rad *= 0.9) {
+    const Reading held = ground.hold(reading_of({3.05, 1.02, yaw_rad}, false));
+    expect_pose(held, {3.05, 1.02, 2.0});
+    EXPECT_TRUE(std::isnan(held.distance_m[0]));
+  }
+}
+
+TEST(LandedOdometryFreeze, TheNextTakeOffGoesOnFromWhereItStood) {
+  LandedOdometryFreeze ground;
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, kPi / 2.0}, true)));
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, kPi / 2.0}, false)));
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 0.0}, false)));
+  // It believes to fly along x; its nose has pointed along y all the time.
+  const Reading flown = ground.hold(reading_of({3.7, 1.0, 0.0}, true));
+  expect_pose(flown, {3.0, 1.7, kPi / 2.0});
+  EXPECT_EQ(flown.distance_m[0], 1.F);
+  EXPECT_FALSE(flown.begins_anew);
+}
+
+TEST(LandedOdometryFreeze, CarriedElsewhereItBeginsAnew) {
+  LandedOdometryFreeze ground;
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, true)));
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, false)));
+  EXPECT_FALSE(ground.hold(reading_of({3.3, 1.0, 0.9}, false)).begins_anew);
+  const Reading carried = ground.hold(reading_of({3.6, 1.0, 0.8}, false));
+  EXPECT_TRUE(carried.begins_anew);
+  EXPECT_EQ(carried.distance_m[0], 1.F);
+  EXPECT_FALSE(ground.hold(reading_of({3.7, 1.0, 0.8}, false)).begins_anew);
+}
+
+TEST(LandedOdometryFreeze, LeavesAloneWhatHasNotFlownOrDoesNotTell) {
+  LandedOdometryFreeze ground;
+  expect_pose(ground.hold(reading_of({2.0, 0.0, 0.5}, false)), {2.0, 0.0, 0.5});
+  EXPECT_EQ(ground.hold(reading_of({2.0, 0.0, 0.5}, false)).distance_m[0], 1.F);
+  expect_pose(ground.hold(reading_of({2.0, 0.0, 0.1}, std::nullopt)), {2.0, 0.0, 0.1});
+}
+
+TEST(LandedOdometryFreeze, ARebootForgetsTheLanding) {
+  LandedOdometryFreeze ground;
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 2.0}, true)));
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, false)));
+  Reading rebooted = reading_of({0.0, 0.0, 0.0}, false);
+  rebooted.boot = 1;
+  const Reading held = ground.hold(rebooted);
+  expect_pose(held, {0.0, 0.0, 0.0});
+  EXPECT_EQ(held.distance_m[0], 1.F);
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample/reading_extractor.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/firmware_link/frames.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::ElementsAre;
+
+class ReadingExtractorTest : public testing::Test {
+ protected:
+  using Variables = std::vector<BlockDescription::Variable>;
+
+  void describe(std::uint8_t block, const Variables& variables) {
+    description_.blocks[block].variables = variables;
+    description_.blocks[block].period = std::chrono::milliseconds(10 * block);
+  }
+  std::optional<Reading> extract(const LogPacket& packet) {
+    if (!described_) session_.describe(description_);
+    described_ = true;
+    frame_ = received(packet.bytes(), host_ms(5));
+    const std::optional<LogRecord> record = session_.on_frame(frame_);
+    return record ? extractor_.extract(*record) : std::nullopt;
+  }
+
+  BlockDescription description_;
+  bool described_ = false;
+  LogSession session_;
+  ReadingExtractor extractor_{session_};
+  LinkFrame frame_;
+};
+
+TEST_F(ReadingExtractorTest, TakesPositionYawAndRangesOfOneBlock) {
+  describe(1, {{"stateEstimate.x", LogType::kFloat},
+               {"stateEstimate.y", LogType::kFloat},
+               {"stateEstimate.yaw", LogType::kFloat},
+               {"range.front", LogType::kUint16},
+               {"range.back", LogType::kUint16},
+               {"range.left", LogType::kUint16},
+               {"range.right", LogType::kUint16}});
+  const auto reading =
+      extract(LogPacket(1, 1234).f32(1.5F).f32(-2.F).f32(90.F).u16(1000).u16(2000).u16(3000).u16(4000));
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->at, device_ms(1234));
+  EXPECT_EQ(reading->received, host_ms(5));
+  EXPECT_DOUBLE_EQ(reading->position_odom->x_m, 1.5);
+  EXPECT_DOUBLE_EQ(reading->position_odom->y_m, -2.0);
+  EXPECT_NEAR(*reading->yaw_odom_rad, kPi / 2.0, 1e-12);
+  EXPECT_THAT(reading->distance_m, ElementsAre(1.F, 3.F, 2.F, 4.F));  // front, left, back, right
+  EXPECT_EQ(extractor_.range_period(), std::chrono::milliseconds(10));
+  EXPECT_TRUE(extractor_.missing_ranges().empty());
+}
+
+TEST_F(ReadingExtractorTest, TakesThemFromDifferentBlocks) {
+  describe(1, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});
+  describe(2, {{"stateEstimate.qw", LogType::kFloat},
+               {"stateEstimate.qx", LogType::kFloat},
+               {"stateEstimate.qy", LogType::kFloat},
+               {"stateEstimate.qz", LogType::kFloat},
+               {"range.front", LogType::kUint16}});
+  const auto position = extract(LogPacket(1, 10).i16(1500).i16(-250));
+  ASSERT_TRUE(position.has_value());
+  EXPECT_NEAR(position->position_odom->x_m, 1.5, 1e-12);
+  EXPECT_NEAR(position->position_odom->y_m, -0.25, 1e-12);
+  EXPECT_FALSE(position->yaw_odom_rad.has_value());
+  EXPECT_TRUE(position->distance_m.empty());
+  const auto s = static_cast<float>(std::sqrt(0.5));
+  const auto attitude = extract(LogPacket(2, 14).f32(s).f32(0.F).f32(0.F).f32(s).u16(700));
+  ASSERT_TRUE(attitude.has_value());
+  EXPECT_FALSE(attitude->position_odom.has_value());
+  EXPECT_NEAR(*attitude->yaw_odom_rad, kPi / 2.0, 1e-6);
+  ASSERT_EQ(attitude->distance_m.size(), 4U);
+  EXPECT_FLOAT_EQ(attitude->distance_m[0], 0.7F);
+  EXPECT_TRUE(std::isnan(attitude->distance_m[1]));
+  EXPECT_THAT(extractor_.missing_ranges(), ElementsAre("range.left", "range.back", "range.right"));
+  EXPECT_EQ(extractor_.range_period(), std::chrono::milliseconds(20));
+  EXPECT_EQ(extractor_.odometry_period(), std::chrono::milliseconds(20));
+}
+
+TEST_F(ReadingExtractorTest, KnowsTheOtherNamesOfPositionAndYaw) {
+  describe(1, {{"kalman.stateX", LogType::kFloat}, {"kalman.stateY", LogType::kFloat}});
+  describe(2, {{"stateEstimateZ.quat", LogType::kUint32}});
+  EXPECT_DOUBLE_EQ(extract(LogPacket(1, 10).f32(0.5F).f32(0.25F))->position_odom->x_m, 0.5);
+  EXPECT_DOUBLE_EQ(*extract(LogPacket(2, 10).u32(0xC0000000U))->yaw_odom_rad, 0.0);
+}
+
+TEST_F(ReadingExtractorTest, TellsWhetherItFlies) {
+  describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"supervisor.info", LogType::kUint16}});
+  EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u16(0x0018))->is_flying, true);
+  EXPECT_EQ(extract(LogPacket(1, 20).f32(0.F).u16(0x000F))->is_flying, false);
+}
+
+TEST_F(ReadingExtractorTest, TellsWhetherItFliesOnOlderFirmware) {
+  describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"sys.isFlying", LogType::kUint8}});
+  EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u8(1))->is_flying, true);
+  EXPECT_EQ(extract(LogPacket(1, 20).f32(0.F).u8(0))->is_flying, false);
+}
+
+TEST_F(ReadingExtractorTest, APackedQuaternionInATypeThatCannotHoldItIsNoYaw) {
+  describe(1, {{"stateEstimateZ.quat", LogType::kInt32}});
+  const std::optional<Reading> reading = extract(LogPacket(1, 10).u32(0xC0000000U));
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_TRUE(std::isnan(*reading->yaw_odom_rad));
+}
+
+TEST_F(ReadingExtractorTest, KeepsToTheFirstBlockThatOffersAPosition) {
+  describe(1, {{"stateEstimate.x", LogType::kFloat}, {"stateEstimate.y", LogType::kFloat}});
+  describe(2, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});
+  EXPECT_TRUE(extract(LogPacket(1, 10).f32(0.5F).f32(0.F)).has_value());
+  EXPECT_FALSE(extract(LogPacket(2, 12).i16(500).i16(0)).has_value());
+  EXPECT_TRUE(extract(LogPacket(1, 20).f32(0.5F).f32(0.F)).has_value());
+}
+
+TEST_F(ReadingExtractorTest, MillimetresRunOnBeyondSixteenBits) {
+  describe(1, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});
+  EXPECT_NEAR(extract(LogPacket(1, 10).i16(32'700).i16(-32'700))->position_odom->x_m, 32.7, 1e-12);
+  const auto wrapped = extract(LogPacket(1, 20).i16(-32'736).i16(32'736));
+  EXPECT_NEAR(wrapped->position_odom->x_m, 32.8, 1e-12);
+  EXPECT_NEAR(wrapped->position_odom->y_m, -32.8, 1e-12);
+}
+
+TEST_F(ReadingExtractorTest, HasNothingToSayAboutOtherVariables) {
+  describe(1, {{"pm.vbatMV", LogType::kUint16}, {"stateEstimate.x", LogType::kHalf}});
+  EXPECT_FALSE(extract(LogPacket(1, 10).u16(4000).u16(0)).has_value());
+  EXPECT_FALSE(extractor_.finds_position());
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample/sample_assembler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/firmware_link/frames.hpp"
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::milliseconds;
+
+AssemblyConfig config() {
+  AssemblyConfig config;
+  config.beams = BeamLayout::multiranger();
+  config.sensor = SensorModel::crazyflie();
+  config.range_period = milliseconds(100);
+  config.continuity.longest_interpolation = milliseconds(150);
+  config.continuity.longest_silence = std::chrono::seconds(1);
+  return config;
+}
+
+/// Feeds position as stream 1, yaw and ranges as stream 2, as the reference flights do.
+class SampleAssemblerTest : public testing::Test {
+ protected:
+  void position(std::int64_t ms, double x_m, double y_m = 0.0) {
+    Reading reading;
+    reading.stream = 1;
+    reading.at = device_ms(ms);
+    reading.position_odom = Point2{x_m, y_m};
+    feed(reading);
+  }
+  void ranges(std::int64_t ms, double yaw_rad = 0.0,
+              const std::vector<float>& distances = {1.F, 1.F, 1.F, 1.F}, std::uint8_t stream = 2) {
+    Reading reading;
+    reading.stream = stream;
+    reading.at = device_ms(ms);
+    reading.received = host_ms(1'000'000 + ms);
+    reading.yaw_odom_rad = yaw_rad;
+    for (const float distance : distances) EXPECT_TRUE(reading.distance_m.try_push_back(distance));
+    feed(reading);
+  }
+  void feed(const Reading& reading) {
+    assembler_.add(reading);
+    drain();
+  }
+  void drain() {
+    while (const auto sample = assembler_.take()) samples_.push_back(*sample);
+  }
+  void end() {
+    assembler_.end();
+    drain();
+  }
+
+  InputReport report_;
+  SampleAssembler assembler_{config(), report_};
+  std::vector<RangeSample> samples_;
+};
+
+TEST_F(SampleAssemblerTest, PairsRangesWithTheDeadReckoningOfTheTimeTheyWereMeasured) {
+  position(0, 0.0);
+  ranges(4, 0.0);
+  position(100, 0.1);
+  ranges(104, 0.2);
+  position(200, 0.2);
+  ranges(204, 0.4);
+  end();
+  ASSERT_EQ(samples_.size(), 2U);  // the first ranges are older than all dead reckoning
+  EXPECT_EQ(samples_[0].measured_at, device_ms(4));
+  EXPECT_EQ(samples_[0].stamp, host_ms(1'000'104));
+  EXPECT_NEAR(samples_[0].T_odom_body.x_m(), 0.004, 1e-12);
+  EXPECT_NEAR(samples_[0].T_odom_body.yaw_rad(), 0.0, 1e-12);
+  EXPECT_NEAR(samples_[1].T_odom_body.x_m(), 0.104, 1e-12);
+  EXPECT_NEAR(samples_[1].T_odom_body.yaw_rad(), 0.2, 1e-12);
+  EXPECT_TRUE(samples_[0].starts_segment);
+  EXPECT_FALSE(samples_[1].starts_segment);
+  EXPECT_EQ(samples_[1].sequence, 1U);
+  EXPECT_EQ(report_.samples, 2U);
+  EXPECT_EQ(report_.unpaired, 1U);
+  EXPECT_EQ(report_.range_packets, 3U);
+  EXPECT_EQ(report_.odometry_packets, 6U);
+  EXPECT_EQ(report_.segments, 1U);
+}
+
+TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
+  AssemblyConfig ageless = config();
+  ageless.sensor.range_age = Duration::zero();
+  SampleAssembler assembler(ageless, report_);
+  const auto add = [&assembler](std::uint8_t stream, std::int64_t ms) {
+    Reading reading;
+    reading.stream = stream;
+    reading.at = device_ms(ms);
+    if (stream == 1) {
+      reading.position_odom = Point2{0.001 * static_cast<double>(ms), 0.0};
+      reading.yaw_odom_rad = 0.0;
+    } else {
+      for (int i = 0; i < 4; ++i) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    }
+    assembler.add(reading);
+  };
+  add(1, 0);
+  add(2, 20);
+  add(2, 60);
+  EXPECT_FALSE(assembler.take().has_value());
+  add(1, 100);
+  EXPECT_NEAR(assembler.take()->T_odom_body.x_m(), 0.02, 1e-12);
+  EXPECT_NEAR(assembler.take()->T_odom_body.x_m(), 0.06, 1e-12);
+  EXPECT_FALSE(assembler.take().has_value());
+}
+
+TEST_F(SampleAssemblerTest, DoesNotWaitForEver) {
+  position(0, 0.0);
+  for (int i = 1; i <= 20; ++i) ranges(100L * i);
+  EXPECT_GE(report_.unpaired, 15U);  // the position is lost: 0.3 s of ranges may still hope
+  EXPECT_EQ(samples_.size(), 0U + (report_.samples));
+  end();
+  EXPECT_EQ(report_.unpaired + report_.samples, 20U);
+}
+
+TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndGoesOnBehindIt) {
+  for (int i = 0; i < 10; ++i) {
+    if (i != 4) position(100L * i, 0.1 * i);
+    ranges(100L * i + 4);
+  }
+  end();
+  // Ranges are measured at 100 (i - 1) + 4: the lost position at 400 spoils those of 304 and 404.
+  EXPECT_EQ(report_.unpaired, 3U);
+  ASSERT_EQ(samples_.size(), 7U);
+  for (std::size_t i = 1; i < samples_.size(); ++i) EXPECT_FALSE(samples_[i].starts_segment);
+  EXPECT_EQ(report_.gaps, 0U);
+}
+
+TEST_F(SampleAssemblerTest, CountsGapsAndThePacketsTheyStandFor) {
+  for (const int i : {0, 1, 2, 4, 5, 9, 10}) ranges(100L * i);
+  EXPECT_EQ(report_.gaps, 2U);
+  EXPECT_EQ(report_.missing_packets, 4U);
+}
+
+TEST_F(SampleAssemblerTest, DropsAndCountsDuplicatesAndLatePackets) {
+  for (int i = 0; i < 5; ++i) {
+    position(100L * i, 0.1 * i);
+    ranges(100L * i + 4);
+  }
+  position(400, 0.4);
+  ranges(404);
+  ranges(304);
+  EXPECT_EQ(report_.duplicates, 2U);
+  EXPECT_EQ(report_.out_of_order, 1U);
+  EXPECT_EQ(report_.range_packets, 5U);
+}
+
+TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
+  for (int i = 0; i < 5; ++i) {
+    position(60'000 + 100L * i, 3.0 + 0.01 * i);
+    ranges(60'004 + 100L * i);
+  }
+  const std::size_t before = samples_.size();
+  ASSERT_GT(before, 0U);
+  for (int i = 0; i < 5; ++i) {
+    position(2'000 + 100L * i, 0.01 * i);
+    ranges(2'004 + 100L * i);
+  }
+  ASSERT_GT(samples_.size(), before + 1);
+  EXPECT_TRUE(samples_[before].starts_segment);
+  EXPECT_EQ(samples_[before].measured_at, device_ms(2'004));
+  EXPECT_NEAR(samples_[before].T_odom_body.x_m(), 0.0004, 1e-9);
+  EXPECT_FALSE(samples_[before + 1].starts_segment);
+  EXPECT_EQ(report_.segments, 2U);
+  EXPECT_EQ(report_.gaps, 0U);
+  EXPECT_EQ(report_.out_of_order, 0U);
+}
+
+TEST_F(SampleAssemblerTest, TimeGoesOnWhenTheRangesChangeTheirBlock) {
+  const std::vector<float> distances{1.F, 1.F, 1.F, 1.F};
+  for (int ms = 0; ms <= 500; ms += 100) position(ms, 0.0);
+  for (int ms = 200; ms <= 500; ms += 100) ranges(ms);
+  for (const int late_ms : {350, 500}) ranges(late_ms, 0.0, distances, 3);
+  position(600, 0.0);
+  ranges(600, 0.0, distances, 3);
+  end();
+  EXPECT_EQ(report_.out_of_order, 2U);
+  ASSERT_GE(samples_.size(), 2U);
+  for (std::size_t i = 1; i < samples_.size(); ++i)
+    EXPECT_GT(samples_[i].measured_at, samples_[i - 1].measured_at);
+}
+
+TEST_F(SampleAssemblerTest, AfterARebootIntoOtherBlocksTheDeadReckoningBeginsAnew) {
+  const std::vector<float> distances{1.F, 1.F, 1.F, 1.F};
+  for (int ms = 60'000; ms <= 60'500; ms += 100) {
+    position(ms, 0.0);
+    ranges(ms);
+  }
+  const std::size_t before = samples_.size();
+  for (int ms = 2'000; ms <= 2'500; ms += 100) {
+    ranges(ms, 0.0, distances, 3);
+    position(ms, 5.0);
+  }
+  end();
+  ASSERT_GT(samples_.size(), before);
+  EXPECT_TRUE(samples_[before].starts_segment);
+  EXPECT_EQ(report_.out_of_order, 0U);
+}
+
+TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) {
+  std::int64_t ms = 0;
+  const auto fly = [&](double from_x_m) {
+    for (int i = 0; i < 5; ++i, ms += 100) {
+      position(ms, from_x_m + 0.01 * i);
+      ranges(ms + 4);
+    }
+  };
+  fly(0.0);
+  fly(20.0);
+  ms += 5000;
+  fly(20.1);
+  end();
+  EXPECT_EQ(report_.segments, 3U);
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    if (samples_[i].starts_segment) starts.push_back(i);
+  ASSERT_EQ(starts.size(), 3U);
+  EXPECT_NEAR(samples_[starts[1]].T_odom_body.x_m(), 20.0, 0.05);
+}
+
+TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningOutlivesBeginsASegmentWithAGuess) {
+  AssemblyConfig watched = config();
+  watched.continuity.longest_silence = std::chrono::seconds(30);
+  watched.unwatched_after = std::chrono::seconds(1);
+  SampleAssembler assembler(watched, report_);
+  const auto fly = [&](std::int64_t ms, double x_m) {
+    Reading reading;
+    reading.at = device_ms(ms);
+    reading.received = host_ms(ms);
+    reading.position_odom = Point2{x_m, 0.0};
+    reading.yaw_odom_rad = 0.0;
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    while (const auto sample = assembler.take()) samples_.push_back(*sample);
+  };
+  std::int64_t ms = 0;
+  const auto fly_for = [&](int packets) {
+    for (int i = 0; i < packets; ++i, ms += 100) fly(ms, 0.0005 * static_cast<double>(ms));
+  };
+  fly_for(10);
+  ms += 700;  // shorter: motion
+  fly_for(10);
+  ms += 3000;
+  fly_for(10);
+  ms += 40'000;
+  fly_for(10);
+  std::vector<std::pair<bool, bool>> starts;
+  for (const RangeSample& sample : samples_)
+    if (sample.starts_segment) starts.emplace_back(sample.starts_segment, sample.odometry_ran_on);
+  EXPECT_EQ(starts, (std::vector<std::pair<bool, bool>>{{true, false}, {true, true}, {true, false}}));
+  EXPECT_EQ(report_.gaps, 3U);
+  EXPECT_EQ(report_.segments, 3U);
+}
+
+TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByOurClock) {
+  Reading reading;
+  reading.stream = 2;
+  for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+  const auto on_frame = [&](std::uint32_t boot, std::int64_t device, std::int64_t host) {
+    reading.boot = boot;
+    reading.at = device_ms(device);
+    reading.received = host_ms(host);
+    feed(reading);
+  };
+  on_frame(0, 10'000'000, 0);
+  on_frame(0, 10'000'100, 100);
+  on_frame(1, 4000, 5100);  // forward or back: another boot's time says nothing
+  on_frame(1, 4100, 5200);
+  EXPECT_EQ(report_.gaps, 1U);
+  EXPECT_EQ(report_.missing_packets, 49U);
+}
+
+TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
+  for (int i = 0; i < 3; ++i) {
+    position(100L * i, 0.0);
+    ranges(100L * i + 4, 0.0, {2.999F, 32.766F, 0.0F, std::numeric_limits<float>::quiet_NaN()});
+  }
+  ASSERT_EQ(samples_.size(), 2U);
+  const RangeSample& sample = samples_[0];
+  EXPECT_EQ(sample.beam_count, 4);
+  EXPECT_EQ(sample.status[0], RangeStatus::kHit);
+  EXPECT_FLOAT_EQ(sample.distance_m[0], 2.999F);
+  EXPECT_EQ(sample.status[1], RangeStatus::kNoReturn);
+  EXPECT_EQ(sample.distance_m[1], 0.0F);
+  EXPECT_EQ(sample.status[2], RangeStatus::kInvalid);
+  EXPECT_EQ(sample.status[3], RangeStatus::kInvalid);
+  EXPECT_EQ(report_.hits, 2U);
+  EXPECT_EQ(report_.no_returns, 2U);
+  EXPECT_EQ(report_.invalid, 4U);
+}
+
+TEST_F(SampleAssemblerTest, IgnoresDeadReckoningThatIsNoNumber) {
+  position(0, 0.0);
+  position(50, std::numeric_limits<double>::quiet_NaN());
+  ranges(4);
+  position(100, 0.1);
+  ranges(104, std::numeric_limits<double>::infinity());
+  position(200, 0.2);
+  ranges(204);
+  end();
+  for (const RangeSample& sample : samples_) {
+    EXPECT_TRUE(std::isfinite(sample.T_odom_body.x_m()));
+    EXPECT_TRUE(std::isfinite(sample.T_odom_body.yaw_rad()));
+  }
+}
+
+TEST(ClassifyDistance, FollowsTheSensorsLimits) {
+  SensorModel sensor;
+  sensor.min_range_m = 0.05;
+  sensor.max_range_m = 3.0;
+  EXPECT_EQ(classify_distance(0.0, sensor), RangeStatus::kInvalid);
+  EXPECT_EQ(classify_distance(0.049, sensor), RangeStatus::kInvalid);
+  EXPECT_EQ(classify_distance(-1.0, sensor), RangeStatus::kInvalid);
+  EXPECT_EQ(classify_distance(0.05, sensor), RangeStatus::kHit);
+  EXPECT_EQ(classify_distance(2.999, sensor), RangeStatus::kHit);
+  EXPECT_EQ(classify_distance(3.0, sensor), RangeStatus::kNoReturn);
+  EXPECT_EQ(classify_distance(HUGE_VAL, sensor), RangeStatus::kNoReturn);
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/session/log_session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "firmware_link/capture/replay_link.hpp"
+#include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/reference_data.hpp"
+
+namespace swiftlet {
+namespace {
+
+void feed_all(LogSession& session, const std::vector<LinkFrame>& frames) {
+  for (const LinkFrame& frame : frames) EXPECT_FALSE(session.on_frame(frame).has_value());
+}
+
+TEST(LogSession, DecodesTheMeasuredPacketByWhatTheBlockHolds) {
+  LogSession session;
+  const std::vector<const char*> names{"x", "y", "z", "yaw"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    static_cast<void>(session.on_frame(received(
+        toc_item_reply(static_cast<std::uint16_t>(0x3E + i), LogType::kFloat, "stateEstimate", names[i]))));
+  feed_all(session,
+           {sent(hex("5d 06 01 07 3e 00 07 3f 00 07 40 00 07 41 00")), received(hex("5d 06 01 00"))});
+  const LinkFrame frame =
+      received(hex("52 01 9e 12 00 | 00 00 80 3f | f2 90 4a af | 05 00 00 3f | 5f 72 24 35"), host_ms(7));
+  const std::optional<LogRecord> record = session.on_frame(frame);
+  ASSERT_TRUE(record.has_value());
+  EXPECT_EQ(record->block_id, 1);
+  EXPECT_EQ(record->at, device_ms(4766));
+  EXPECT_EQ(record->received, host_ms(7));
+  ASSERT_EQ(record->entry_count, 4U);
+  EXPECT_EQ(session.name_of(*record, 3), "stateEstimate.yaw");
+  EXPECT_EQ(record->value(0), 1.0);
+  EXPECT_NEAR(record->value(1), 0.0, 1e-9);
+  EXPECT_NEAR(record->value(2), 0.5, 1e-6);
+  EXPECT_NEAR(record->value(3), 0.0, 1e-5);
+}
+
+TEST(LogSession, HeedsOnlyTheDirectionThatMayTell) {
+  LogSession session;
+  const SyntheticCapture capture;
+  std::vector<LinkFrame> reversed = capture.handshake();
+  for (LinkFrame& frame : reversed)
+    frame.direction = frame.direction == LinkDirection::kToVehicle ? LinkDirection::kFromVehicle
+                                                                   : LinkDirection::kToVehicle;
+  feed_all(session, reversed);
+  EXPECT_EQ(session.toc().size(), 0U);
+  EXPECT_FALSE(session.blocks()[1].exists);
+  feed_all(session, capture.handshake());
+  EXPECT_TRUE(session.on_frame(capture.data(0)).has_value());
+}
+
+TEST(LogSession, HearingARequestTwiceIsHarmless) {
+  LogSession session;
+  for (const LinkFrame& frame : SyntheticCapture{}.handshake()) {
+    if (frame.direction == LinkDirection::kToVehicle) session.on_request(frame.packet());
+    static_cast<void>(session.on_frame(frame));
+  }
+  const auto record = session.on_frame(SyntheticCapture{}.data(3));
+  ASSERT_TRUE(record.has_value());
+  EXPECT_EQ(record->entry_count, 7U);
+}
+
+TEST(LogSession, CountsWhatItCannotRead) {
+  LogSession session;
+  feed_all(session, SyntheticCapture{}.handshake());
+  feed_all(session, {received(hex("52 01 00 00 00 01 02")), received(hex("52 01 00"))});
+  EXPECT_EQ(session.unreadable().misfit, 2U);
+  feed_all(session, {received(hex("52 09 00 00 00 01 02"))});
+  EXPECT_EQ(session.unreadable().unknown_block, 1U);
+}
+
+TEST(LogSession, TakesTheDescriptionOnlyForBlocksWithoutNames) {
+  BlockDescription description;
+  description.blocks[1].variables = {{"described.a", LogType::kFloat}};
+  description.blocks[2].variables = {{"described.b", LogType::kUint16}};
+  LogSession session;
+  session.describe(description);
+  feed_all(session, SyntheticCapture{}.handshake());
+  const auto own = session.on_frame(SyntheticCapture{}.data(0));
+  ASSERT_TRUE(own.has_value());
+  EXPECT_FALSE(own->described);
+  EXPECT_FALSE(session.used_description());
+  const LinkFrame frame = received(LogPacket(2, 5).u16(77).bytes());
+  const auto described = session.on_frame(frame);
+  ASSERT_TRUE(described.has_value());
+  EXPECT_TRUE(session.used_description());
+  EXPECT_EQ(session.name_of(*described, 0), "described.b");
+  EXPECT_EQ(described->value(0), 77.0);
+  feed_all(session, {received(LogPacket(2, 5).u32(1).bytes())});
+  EXPECT_EQ(session.unreadable().misfit, 1U);
+}
+
+TEST(LogSession, NamesComingAfterTheBlocksAreGoodEnough) {
+  const std::vector<LinkFrame> frames = SyntheticCapture{}.handshake();
+  LogSession session;
+  for (std::size_t i = frames.size() - 4; i < frames.size(); ++i)
+    static_cast<void>(session.on_frame(frames[i]));
+  EXPECT_FALSE(session.on_frame(SyntheticCapture{}.data(0)).has_value());
+  feed_all(session, {frames.begin(), frames.end() - 4});
+  // The capture begins with a reset, which came later here: make the block again.
+  for (std::size_t i = frames.size() - 4; i < frames.size(); ++i)
+    static_cast<void>(session.on_frame(frames[i]));
+  EXPECT_TRUE(session.on_frame(SyntheticCapture{}.data(1)).has_value());
+}
+
+TEST(LogSession, PacketsThatWaitedThroughASilenceDoNotMakeARebootOfIt) {
+  const SyntheticCapture capture;
+  LogSession session;
+  feed_all(session, capture.handshake());
+  // Its time by the vehicle's clock; received that many milliseconds later.
+  const auto boot_of = [&](int i, std::int64_t later_ms) {
+    LinkFrame frame = capture.data(i);
+    frame.at += std::chrono::milliseconds(later_ms);
+    const std::optional<LogRecord> record = session.on_frame(frame);
+    EXPECT_TRUE(record.has_value());
+    return record ? record->boot : 99U;
+  };
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(boot_of(i, 1), 0U);
+  for (int i = 5; i < 13; ++i) EXPECT_EQ(boot_of(i, 6000 - 100L * i), 0U);
+  feed_all(session, capture.handshake());
+  EXPECT_EQ(boot_of(60, 1), 0U);
+  feed_all(session, capture.handshake());
+  EXPECT_EQ(boot_of(10, 20'000), 1U);
+}
+
+TEST(LogSession, NoTrafficKeepsItFromLearningAnew) {
+  std::mt19937 random(11);
+  LogSession session;
+  const std::vector<std::uint8_t> headers{0x50, 0x5C, 0x51, 0x5D, 0x52, 0x5E};
+  const auto on_nonsense = [&] {
+    Bytes packet(1 + random() % 31);
+    for (std::uint8_t& byte : packet) byte = static_cast<std::uint8_t>(random() & 0xFF);
+    packet[0] = headers[random() % headers.size()];
+    if (packet.size() > 1 && random() % 2 == 0) packet[1] = static_cast<std::uint8_t>(2 + random() % 7);
+    if (packet.size() > 2 && random() % 2 == 0) packet[2] = 1;
+    const LinkFrame frame = random() % 2 == 0 ? sent(packet) : received(packet);
+    const auto record = session.on_frame(frame);
+    for (std::size_t i = 0; record && i < record->entry_count; ++i)
+      EXPECT_FALSE(session.name_of(*record, i).empty());
+  };
+  for (int round = 0; round < 1000; ++round) {
+    for (int i = 0; i < 100; ++i) on_nonsense();
+    feed_all(session, SyntheticCapture{}.handshake());
+    const LinkFrame data = SyntheticCapture{}.data(round % 8);
+    const auto record = session.on_frame(data);
+    ASSERT_TRUE(record.has_value()) << "round " << round;
+    ASSERT_EQ(record->entry_count, 7U);
+    ASSERT_EQ(record->value(4), 700.0);
+  }
+}
+
+/// The published values of a flight beside what each packet of its capture decodes to.
+class RealFlight : public testing::TestWithParam<const char*> {};
+
+struct PublishedRow {
+  double host_time_s = 0.0;
+  std::int64_t device_ms = 0;
+  std::vector<double> values;
+};
+
+std::map<int, std::vector<PublishedRow>> read_published(const std::string& path) {
+  std::map<int, std::vector<PublishedRow>> rows;
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.starts_with('#')) continue;
+    std::vector<double> numbers;
+    std::stringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
+    rows[static_cast<int>(numbers[0])].push_back(
+        {numbers[1], static_cast<std::int64_t>(numbers[2]), {numbers.begin() + 3, numbers.end()}});
+  }
+  return rows;
+}
+
+TEST_P(RealFlight, EachValueOfEachPacketIsThePublishedOne) {
+  const std::string capture = reference_file("flights/" + std::string(GetParam()) + ".pcap");
+  const std::string published = reference_file("flights/" + std::string(GetParam()) + ".csv");
+  SWIFTLET_REQUIRE_REFERENCE(capture);
+  SWIFTLET_REQUIRE_REFERENCE(published);
+  auto rows = read_published(published);
+  struct Column {
+    const char* name;
+    double scale;
+    double tolerance;
+  };
+  const std::map<int, std::vector<Column>> columns{{1,
+                                                    {{"stateEstimateZ.x", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.y", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.z", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.vx", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.vy", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.vz", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.rateRoll", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.ratePitch", 1e-3, 1e-9},
+                                                     {"stateEstimateZ.rateYaw", 1e-3, 1e-9},
+                                                     {"pm.vbatMV", 1e-3, 1e-9},
+                                                     {"radio.rssi", 1.0, 1e-9}}},
+                                                   {2,
+                                                    {{"stateEstimate.qw", 1.0, 1e-8},
+                                                     {"stateEstimate.qx", 1.0, 1e-8},
+                                                     {"stateEstimate.qy", 1.0, 1e-8},
+                                                     {"stateEstimate.qz", 1.0, 1e-8},
+                                                     {"range.front", 1e-3, 1e-9},
+                                                     {"range.back", 1e-3, 1e-9},
+                                                     {"range.left", 1e-3, 1e-9},
+                                                     {"range.right", 1e-3, 1e-9},
+                                                     {"range.up", 1e-3, 1e-9}}}};
+
+  Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(capture);
+  ASSERT_TRUE(link.ok());
+  LogSession session;
+  std::map<int, std::size_t> next;
+  for (;;) {
+    const Result<LinkFrame> frame = (*link)->receive(Duration::zero());
+    if (!frame) break;
+    const std::optional<LogRecord> record = session.on_frame(*frame);
+    if (!record) continue;
+    const int block = record->block_id;
+    ASSERT_LT(next[block], rows[block].size());
+    const PublishedRow& row = rows[block][next[block]++];
+    ASSERT_EQ(record->at, device_ms(row.device_ms));
+    ASSERT_NEAR(to_seconds(record->received.time_since_epoch()), row.host_time_s, 2e-6);
+    ASSERT_EQ(record->entry_count, columns.at(block).size());
+    for (std::size_t i = 0; i < record->entry_count; ++i) {
+      const Column& column = columns.at(block)[i];
+      ASSERT_EQ(session.name_of(*record, i), column.name);
+      ASSERT_NEAR(record->value(i) * column.scale, row.values[i], column.tolerance)
+          << column.name << " at " << row.device_ms << " ms";
+    }
+  }
+  EXPECT_EQ(next[1], rows[1].size());
+  EXPECT_EQ(next[2], rows[2].size());
+  EXPECT_EQ(session.unreadable().misfit + session.unreadable().unknown_block, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Flights, RealFlight, testing::Values("olsson", "rice"),
+                         [](const auto& flight) { return std::string(flight.param); });
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/session/vehicle_event.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swiftlet {
+namespace {
+
+using testing::HasSubstr;
+using Kind = VehicleEvent::Kind;
+
+TEST(VehicleEvent, SaysWhatAndWhatToDo) {
+  EXPECT_THAT(describe({Kind::kConnected, 12}), HasSubstr("protocol 12"));
+  EXPECT_THAT(describe({Kind::kNoMultiranger, 0}), HasSubstr("deck.bcMultiranger is 0"));
+  EXPECT_THAT(describe({Kind::kBatteryLow, 3150}), HasSubstr("3150 mV"));
+  for (int kind = 0; kind <= static_cast<int>(Kind::kRangesFrozen); ++kind)
+    EXPECT_FALSE(describe({static_cast<Kind>(kind), 0}).empty());
+}
+
+TEST(VehicleEvent, ABeginningIsNoWarning) {
+  EXPECT_FALSE(is_warning({Kind::kConnected, 12}));
+  EXPECT_TRUE(is_warning({Kind::kYawTrap, 0}));
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/simulation/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace swiftlet {
+namespace {
+
+TEST(CastRay, MeetsAWallSquarely) {
+  const WallSegment wall{{2.0, -1.0}, {2.0, 1.0}};
+  const auto hit = cast_ray({&wall, 1}, {0.5, 0.0}, 0.0, 10.0);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->distance_m, 1.5, 1e-12);
+  EXPECT_NEAR(hit->cos_incidence, 1.0, 1e-12);
+}
+
+TEST(CastRay, MeetsAnObliqueWallAtItsAngle) {
+  // The wall x + y = 2, met from the origin along x: at (2, 0), 45 degrees off its normal.
+  const WallSegment wall{{0.0, 2.0}, {4.0, -2.0}};
+  const auto hit = cast_ray({&wall, 1}, {0.0, 0.0}, 0.0, 10.0);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->distance_m, 2.0, 1e-12);
+  EXPECT_NEAR(hit->cos_incidence, std::sqrt(0.5), 1e-12);
+}
+
+TEST(CastRay, PassesByTheEndsOfAWall) {
+  const WallSegment wall{{2.0, 0.1}, {2.0, 1.0}};
+  EXPECT_FALSE(cast_ray({&wall, 1}, {0.0, 0.0}, 0.0, 10.0));
+  EXPECT_TRUE(cast_ray({&wall, 1}, {0.0, 0.0}, std::atan2(0.5, 2.0), 10.0));
+}
+
+TEST(CastRay, SeesNothingBehindItNorAlongAWallNorTooFarAway) {
+  const WallSegment wall{{2.0, -1.0}, {2.0, 1.0}};
+  EXPECT_FALSE(cast_ray({&wall, 1}, {0.0, 0.0}, kPi, 10.0));
+  EXPECT_FALSE(cast_ray({&wall, 1}, {0.0, 0.0}, kPi / 2.0, 10.0));
+  EXPECT_FALSE(cast_ray({&wall, 1}, {0.0, 0.0}, 0.0, 1.9));
+}
+
+TEST(CastRay, TakesTheNearestWallInWhateverOrder) {
+  const WallSegment walls[] = {
+      {{3.0, -1.0}, {3.0, 1.0}}, {{1.0, 1.0}, {1.0, -1.0}}, {{2.0, -1.0}, {2.0, 1.0}}};
+  const auto hit = cast_ray(walls, {0.0, 0.0}, 0.0, 10.0);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->distance_m, 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace swiftlet
