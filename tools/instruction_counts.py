@@ -13,7 +13,7 @@ STAGES = {
     "frontend": ["Frontend::process("],
     "backend": ["Backend::add("],
     "final pass": ["Backend::finish()"],
-    "map": ["MapBuilder::update(", "MapBuilder::settle("],
+    "map": ["MapBuilder::settle("],
 }
 PARTS = {  # of backend and final pass
     "submaps": ["build_submap("],

@@ -33,7 +33,7 @@ void BackendWorker::add_step() {
   }
   if (!step_.has_keyframe) return;
   hand_on_correction();
-  draw([&] { return map_.update(backend_, changed.poses_changed, changed.refined); });
+  if (feed_) draw([&] { return map_.update(backend_, changed.poses_changed, changed.refined); });
   prune();
 }
 
@@ -42,8 +42,10 @@ void BackendWorker::prune() {
   const Pruning pruning = backend_.next_pruning();
   if (pruning.empty()) return;
   if (pruned_ != nullptr) pruned_->take(backend_, pruning);
-  map_.prune(backend_, pruning);
-  if (feed_) feed_->prune(backend_, pruning);
+  if (feed_) {
+    map_.prune(backend_, pruning);
+    feed_->prune(backend_, pruning);
+  }
   backend_.prune(pruning);
 }
 

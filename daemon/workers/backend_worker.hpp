@@ -15,12 +15,12 @@
 
 namespace swiftlet {
 
-/// Takes each frontend step through the backend, draws the map at keyframes, and hands corrections to the
-/// frontend and changes to the publisher. After the last step comes the final pass. One thread at a time; may
-/// allocate and may be slow.
+/// Adds each frontend step to the backend, draws the map at keyframes, and passes corrections to the frontend
+/// and changes to the publisher. Without a publisher the map is drawn once, at the end. After the last step
+/// comes the final pass. One thread at a time; may allocate and may be slow.
 class BackendWorker {
  public:
-  /// References must outlive the worker. Without `publisher` nobody is told of changes.
+  /// References must outlive the worker.
   BackendWorker(Backend& backend, MapBuilder& map, const Clock& clock, StepQueue::Consumer steps,
                 CorrectionValue& correction, const std::optional<BackendOutlet>& publisher,
                 StageTimes& times);

@@ -91,7 +91,7 @@ struct StageTimes {
   StageHistogram frontend;    ///< Frontend::process()
   StageHistogram backend;     ///< Backend::add()
   StageHistogram final_pass;  ///< Backend::finish()
-  StageHistogram map;         ///< MapBuilder::update()
+  StageHistogram map;         ///< MapBuilder::settle(); before it, with a publisher, each update()
   StageHistogram pruning;     ///< choosing and forgetting redundant scans
 
   [[nodiscard]] std::vector<StageSummary> summaries(const PoseLatency& latency) const;

@@ -63,9 +63,9 @@ class InstructionCounts(unittest.TestCase):
     def test_the_total_has_every_stage_once_and_no_part(self):
         counted = instructions.counts_of(self.profile_of("Backend::add(int)::{lambda()#1}::operator()"))
         self.assertEqual(counted["decoding"], 10)
-        self.assertEqual(counted["map"], 10**5 + 10**6)
-        self.assertEqual(counted["live refinement"], 10**10)
-        self.assertEqual(counted[instructions.TOTAL], sum(10**i for i in range(1, 7)))
+        self.assertEqual(counted["map"], 10**5)
+        self.assertEqual(counted["live refinement"], 10**9)
+        self.assertEqual(counted[instructions.TOTAL], sum(10**i for i in range(1, 6)))
 
     def test_a_function_that_is_gone_or_has_a_namesake_is_named(self):
         for profile in (self.profile_of()[:-3], self.profile_of("OnlineRefinement::step(char)")):

@@ -72,15 +72,27 @@ TEST(BackendWorker, RunsTheFinalPassOnceAndFinishesWhenAllIsHandedOn) {
     EXPECT_EQ(tile.occupancy_percent, bench.map.tile(index).occupancy_percent);
 }
 
-TEST(BackendWorker, WithoutAPublisherFinishesAllTheSame) {
-  Bench bench;
-  BackendWorker alone(bench.backend, bench.map, bench.clock, bench.queues->steps.consumer(),
-                      bench.queues->correction, std::nullopt, bench.times);
-  bench.push(flight_in_square_room(1, 2.0, 1.0).front());
-  bench.queues->steps.producer().close();
-  EXPECT_EQ(alone.step(), StepResult::kProgress);
+TEST(BackendWorker, WithoutAPublisherDrawsTheSameMapOnceAtTheEnd) {
+  Bench published;
+  Bench unpublished;
+  BackendWorker alone(unpublished.backend, unpublished.map, unpublished.clock,
+                      unpublished.queues->steps.consumer(), unpublished.queues->correction, std::nullopt,
+                      unpublished.times);
+  for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) {
+    published.push(sample);
+    unpublished.push(sample);
+    ASSERT_EQ(published.worker.step(), StepResult::kProgress);
+    ASSERT_EQ(alone.step(), StepResult::kProgress);
+    EXPECT_TRUE(unpublished.map.tiles().empty());
+  }
+  published.queues->steps.producer().close();
+  unpublished.queues->steps.producer().close();
+  EXPECT_EQ(published.worker.step(), StepResult::kFinished);
   EXPECT_EQ(alone.step(), StepResult::kFinished);
-  EXPECT_FALSE(bench.map.tiles().empty());
+  EXPECT_EQ(unpublished.times.map.summary("map").count, 1U);
+  ASSERT_EQ(unpublished.map.tiles(), published.map.tiles());
+  for (const TileIndex index : published.map.tiles())
+    EXPECT_EQ(unpublished.map.tile(index).occupancy_percent, published.map.tile(index).occupancy_percent);
 }
 
 }  // namespace
