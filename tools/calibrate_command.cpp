@@ -28,10 +28,10 @@ Result<PairedRun> read_input(const CalibrateCommand& command, std::optional<Dura
   SampleSource& source = **opened;
   PairedRun run{{}, source.beams(), source.sensor()};
   while (!stop.stop_requested()) {
-    Result<RangeSample> sample = source.next();
-    if (sample) run.samples.push_back(*sample);
-    if (!sample && sample.error().code == ErrorCode::kEndOfRecording) break;
-    if (!sample && sample.error().code != ErrorCode::kTimeout) return sample.error();
+    const Result<ReceivedSample> received = source.next();
+    if (received) run.samples.push_back(received->sample);
+    if (!received && received.error().code == ErrorCode::kEndOfRecording) break;
+    if (!received && received.error().code != ErrorCode::kTimeout) return received.error();
   }
   if (!range_age) report = source.report();
   return run;

@@ -94,15 +94,15 @@ class Listener {
   template <typename Condition>
   Status listen(Condition may_go_on) {
     while (may_go_on(std::as_const(received_))) {
-      const Result<RangeSample> sample = source_.next();
+      const Result<ReceivedSample> next = source_.next();
       tell_news();
-      if (!sample && sample.error().code == ErrorCode::kEndOfRecording) return {};
-      if (!sample && sample.error().code != ErrorCode::kTimeout) return sample.error();
-      if (!sample) continue;
-      if (received_.samples == 0) received_.first = sample->stamp;
-      received_.latest = sample->stamp;
+      if (!next && next.error().code == ErrorCode::kEndOfRecording) return {};
+      if (!next && next.error().code != ErrorCode::kTimeout) return next.error();
+      if (!next) continue;
+      received_.latest = next->sample.stamp;
+      if (received_.samples == 0) received_.first = received_.latest;
       ++received_.samples;
-      received_.gaps = source_.report().gaps;
+      received_.gaps = source_.report().counters.gaps;
       newest_.store(received_);
     }
     return {};

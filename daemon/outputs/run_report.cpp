@@ -15,18 +15,20 @@ using Json = nlohmann::ordered_json;
 
 Json input_json(const RunView& run) {
   const InputReport& input = run.input;
+  const InputCounters& counters = input.counters;
   return {{"uri", run.input_uri},
-          {"frames", input.frames},
-          {"samples", input.samples},
-          {"range_packets", input.range_packets},
-          {"odometry_packets", input.odometry_packets},
-          {"duplicates", input.duplicates},
-          {"out_of_order", input.out_of_order},
-          {"gaps", input.gaps},
-          {"missing_packets", input.missing_packets},
-          {"unpaired", input.unpaired},
-          {"segments", input.segments},
-          {"beams", {{"hits", input.hits}, {"no_returns", input.no_returns}, {"invalid", input.invalid}}},
+          {"frames", counters.frames},
+          {"samples", counters.samples},
+          {"range_packets", counters.range_packets},
+          {"odometry_packets", counters.odometry_packets},
+          {"duplicates", counters.duplicates},
+          {"out_of_order", counters.out_of_order},
+          {"gaps", counters.gaps},
+          {"missing_packets", counters.missing_packets},
+          {"unpaired", counters.unpaired},
+          {"segments", counters.segments},
+          {"beams",
+           {{"hits", counters.hits}, {"no_returns", counters.no_returns}, {"invalid", counters.invalid}}},
           {"notes", input.notes},
           {"problems", input.problems}};
 }

@@ -57,15 +57,16 @@ pose2d_t pose2d_message(std::int64_t utime, const Pose2& pose) {
 }
 
 void fill_input(const InputStatus& input, status_t& message) {
+  const InputCounters& counters = input.counters;
   message.progress = input.progress;
-  message.frames = i64(input.frames);
-  message.samples = i64(input.samples);
-  message.gaps = i64(input.gaps);
-  message.missing_packets = i64(input.missing_packets);
-  message.duplicates = i64(input.duplicates);
-  message.out_of_order = i64(input.out_of_order);
-  message.unpaired = i64(input.unpaired);
-  message.segments = i64(input.segments);
+  message.frames = i64(counters.frames);
+  message.samples = i64(counters.samples);
+  message.gaps = i64(counters.gaps);
+  message.missing_packets = i64(counters.missing_packets);
+  message.duplicates = i64(counters.duplicates);
+  message.out_of_order = i64(counters.out_of_order);
+  message.unpaired = i64(counters.unpaired);
+  message.segments = i64(counters.segments);
   message.input_problems = i64(input.problems);
 }
 

@@ -38,18 +38,20 @@ std::string link_text(const DaemonStatus& status) {
 
 std::string status_text(const DaemonStatus& status) {
   return fmt::format("{} samples ({:.1f} Hz), {} keyframes, {} submaps, {} closures, {} tiles{}",
-                     status.input.samples, status.sample_rate_hz, status.frontend.keyframes,
+                     status.input.counters.samples, status.sample_rate_hz, status.frontend.keyframes,
                      status.backend.submaps, status.backend.closures_accepted, status.map.tiles,
                      link_text(status));
 }
 
 void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   log_link(before.input.live.link, now.input.live.link);
-  warn_if_grown("input: holes in the ranges", before.input.gaps, now.input.gaps);
+  const InputCounters& counters = now.input.counters;
+  const InputCounters& counters_before = before.input.counters;
+  warn_if_grown("input: holes in the ranges", counters_before.gaps, counters.gaps);
   warn_if_grown("input: problems", before.input.problems, now.input.problems);
-  if (before.input.segments > 0)
-    warn_if_grown("input: new segments (silence, restart or reset)", before.input.segments,
-                  now.input.segments);
+  if (counters_before.segments > 0)
+    warn_if_grown("input: new segments (silence, restart or reset)", counters_before.segments,
+                  counters.segments);
   warn_if_grown("frontend: batches rolled back", before.frontend.batches_rolled_back,
                 now.frontend.batches_rolled_back);
   warn_if_grown("frontend: no room", before.frontend.refused_full, now.frontend.refused_full);

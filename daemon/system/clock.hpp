@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <thread>
 
+#include "core/base/monotonic_time.hpp"
 #include "daemon/system/event_count.hpp"
 
 namespace swiftlet {
-
-/// The machine's monotonic time: for pacing, periods and stage times, never for data.
-using MonotonicTime = std::chrono::steady_clock::time_point;
 
 /// The only way workers ask for the time, so that tests can stop it. Any thread.
 class Clock {

@@ -34,7 +34,7 @@ class FrontendWorker {
   CorrectionValue& correction_;
   std::optional<FrontendOutlet> publisher_;
   StageHistogram& times_;
-  HeardSample received_;
+  ReceivedSample received_;
   MapCorrection applied_;  // the newest correction
   std::uint32_t segment_ = 0;
 

@@ -9,17 +9,11 @@
 #include "core/base/ids.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/sensing/range_sample.hpp"
 #include "daemon/system/clock.hpp"
+#include "firmware_link/sample/input_counters.hpp"
 #include "firmware_link/session/live_status.hpp"
 
 namespace swiftlet {
-
-/// A sample on its way to the frontend.
-struct HeardSample {
-  RangeSample sample;
-  MonotonicTime arrived_at{};  ///< the radio frame that completed it; of a recording, when it was handed over
-};
 
 /// Where the vehicle is, in all three frames; one for each sample.
 struct PoseUpdate {
@@ -31,23 +25,16 @@ struct PoseUpdate {
   Pose2 T_map_body{};
   Pose2 T_local_body{};
   Pose2 T_odom_body{};
-  MonotonicTime arrived_at{};  ///< HeardSample::arrived_at
+  MonotonicTime arrived_at{};  ///< ReceivedSample::arrived_at; of a recording, when the sample was due
 };
 
-/// The numbers of an InputReport, without its texts.
+/// How the input stands.
 struct InputStatus {
-  std::uint64_t frames = 0;
-  std::uint64_t samples = 0;
-  std::uint64_t gaps = 0;
-  std::uint64_t missing_packets = 0;
-  std::uint64_t duplicates = 0;
-  std::uint64_t out_of_order = 0;
-  std::uint64_t unpaired = 0;
-  std::uint64_t segments = 0;
-  std::uint64_t problems = 0;
-  double progress = -1.0;  ///< 0 to 1 through a recording; negative when the end is unknown
-  bool ended = false;      ///< no further sample will come
-  LiveStatus live{};       ///< condition kNone without a live link
+  InputCounters counters;
+  std::uint64_t problems = 0;  ///< how many InputReport holds
+  double progress = -1.0;      ///< 0 to 1 through a recording; negative when the end is unknown
+  bool ended = false;          ///< no further sample will come
+  LiveStatus live{};           ///< condition kNone without a live link
 };
 
 /// A wall at its present place in the map.
@@ -65,8 +52,7 @@ struct ClosureUpdate {
   Point2 to_map{};
 };
 
-static_assert(std::is_trivially_copyable_v<HeardSample> && std::is_trivially_copyable_v<PoseUpdate> &&
-              std::is_trivially_copyable_v<InputStatus> && std::is_trivially_copyable_v<WallInMap> &&
-              std::is_trivially_copyable_v<ClosureUpdate>);
+static_assert(std::is_trivially_copyable_v<PoseUpdate> && std::is_trivially_copyable_v<InputStatus> &&
+              std::is_trivially_copyable_v<WallInMap> && std::is_trivially_copyable_v<ClosureUpdate>);
 
 }  // namespace swiftlet

@@ -17,6 +17,7 @@
 #include "daemon/workers/run_timing.hpp"
 #include "daemon/workers/stage_queue.hpp"
 #include "firmware_link/link/link.hpp"
+#include "firmware_link/sample/received_sample.hpp"
 #include "firmware_link/session/vehicle_event.hpp"
 
 namespace swiftlet {
@@ -25,7 +26,7 @@ namespace swiftlet {
 
 /// radio -> frontend: 25 s at 10 Hz. Full: a recording waits; from a live link the newest sample is refused
 /// and counted. The only place where anything on the way into the map can be lost.
-using SampleQueue = StageQueue<HeardSample, 256>;
+using SampleQueue = StageQueue<ReceivedSample, 256>;
 /// frontend -> backend: 25 s at 10 Hz, many times its longest step. Full: the frontend waits, so no keyframe
 /// is ever missing from the graph; the samples wait (or are refused) in the queue before it.
 using StepQueue = StageQueue<FrontendStep, 256>;

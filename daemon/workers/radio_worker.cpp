@@ -38,10 +38,10 @@ void RadioWorker::end_input() {
 
 bool RadioWorker::fetch() {
   const StageTimer timer(clock_, times_);
-  Result<RangeSample> next = source_.next();
+  const Result<ReceivedSample> next = source_.next();
   if (next) {
     held_ = *next;
-    if (pacer_) due_ = pacer_->due(held_->stamp, clock_.now());
+    if (pacer_) due_ = pacer_->due(held_->sample.stamp, clock_.now());
     return true;
   }
   if (next.error().code == ErrorCode::kTimeout) {
@@ -53,9 +53,9 @@ bool RadioWorker::fetch() {
   return false;
 }
 
-void RadioWorker::hand_on(const RangeSample& sample) {
-  HeardSample received{.sample = sample, .arrived_at = clock_.now() - source_.since_received()};
-  received.sample.starts_segment = sample.starts_segment || break_pending_;
+void RadioWorker::hand_on(ReceivedSample& received) {
+  if (!source_.is_live()) received.arrived_at = clock_.now();
+  received.sample.starts_segment = received.sample.starts_segment || break_pending_;
   break_pending_ = !samples_.try_push(received) && received.sample.starts_segment;
   report_input();
 }
@@ -66,14 +66,7 @@ void RadioWorker::report_input() {
     if (outlet_) static_cast<void>(outlet_->events.try_push(*event));
   if (!outlet_) return;
   const InputReport& report = source_.report();
-  outlet_->status.store({.frames = report.frames,
-                         .samples = report.samples,
-                         .gaps = report.gaps,
-                         .missing_packets = report.missing_packets,
-                         .duplicates = report.duplicates,
-                         .out_of_order = report.out_of_order,
-                         .unpaired = report.unpaired,
-                         .segments = report.segments,
+  outlet_->status.store({.counters = report.counters,
                          .problems = report.problems.size(),
                          .progress = source_.progress().value_or(-1.0),
                          .ended = ended_,

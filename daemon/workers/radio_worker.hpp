@@ -52,7 +52,7 @@ class RadioWorker {
   std::optional<InputOutlet> outlet_;
   StageHistogram& times_;
   std::optional<Pacer> pacer_;
-  std::optional<RangeSample> held_;  // read, not yet due
+  std::optional<ReceivedSample> held_;  // read, not yet due
   MonotonicTime due_{};
   bool break_pending_ = false;  // a refused sample began a segment: the next one handed on must say so
   bool ended_ = false;
@@ -60,7 +60,7 @@ class RadioWorker {
   Status outcome_;
 
   bool fetch();
-  void hand_on(const RangeSample& sample);
+  void hand_on(ReceivedSample& received);
   void report_input();
 };
 

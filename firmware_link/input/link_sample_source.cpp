@@ -37,7 +37,7 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
     : input_(std::move(input)),
       cache_(input_.cache_directory),
       extractor_(session_),
-      assembler_(assembly_config(input_.sensor), report_) {
+      assembler_(assembly_config(input_.sensor), report_.counters) {
   report_.notes = input_.notes;
   if (input_.description) session_.describe(*input_.description);
   if (input_.starts_logging) live_.emplace(session_, cache_);
@@ -45,30 +45,33 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
 }
 
 Status LinkSampleSource::find_first_sample() {
-  Result<RangeSample> sample = read_sample();
-  while (!sample && sample.error().code == ErrorCode::kTimeout) sample = read_sample();
-  if (sample) {
-    first_sample_ = *sample;
+  Result<ReceivedSample> received = read_sample();
+  while (!received && received.error().code == ErrorCode::kTimeout) received = read_sample();
+  if (received) {
+    first_sample_ = *received;
     return {};
   }
-  if (sample.error().code != ErrorCode::kEndOfRecording) return sample.error();
+  if (received.error().code != ErrorCode::kEndOfRecording) return received.error();
   if (!report_.problems.empty())
     return Error{ErrorCode::kDamaged, report_.problems.front() + "; it holds no sample"};
   return Error{ErrorCode::kInvalidInput, explain_no_samples()};
 }
 
-Result<RangeSample> LinkSampleSource::next() {
-  Result<RangeSample> sample = first_sample_ ? Result<RangeSample>(*first_sample_) : read_sample();
+Result<ReceivedSample> LinkSampleSource::next() {
+  Result<ReceivedSample> received = first_sample_ ? Result<ReceivedSample>(*first_sample_) : read_sample();
   first_sample_.reset();
-  if (sample && live_) live_->see(sample->T_odom_body);
-  if (sample && input_.truth)
-    input_.truth->kept.push_back({sample->stamp, input_.truth->T_world_body_at(sample->measured_at)});
-  return sample;
+  if (!received) return received;
+  const RangeSample& sample = received->sample;
+  if (live_) live_->see(sample.T_odom_body);
+  if (input_.truth)
+    input_.truth->kept.push_back({sample.stamp, input_.truth->T_world_body_at(sample.measured_at)});
+  return received;
 }
 
-Result<RangeSample> LinkSampleSource::read_sample() {
+Result<ReceivedSample> LinkSampleSource::read_sample() {
   for (int frames = 0; !is_live() || frames < kMaxFramesAtOnce; ++frames) {
-    if (const std::optional<RangeSample> sample = assembler_.take()) return *sample;
+    if (const std::optional<RangeSample> sample = assembler_.take())
+      return ReceivedSample{.sample = *sample, .arrived_at = arrived_at()};
     if (end_) return *end_;
     const Status stepped = step();
     if (!stepped) return stepped.error();
@@ -95,7 +98,7 @@ Status LinkSampleSource::send_request() {
 }
 
 void LinkSampleSource::on_frame(const LinkFrame& frame) {
-  ++report_.frames;
+  ++report_.counters.frames;
   if (frame.direction == LinkDirection::kFromVehicle) received_at_ = frame.at;
   if (input_.recording != nullptr) input_.recording->take(frame);
   const std::optional<LogRecord> record = session_.on_frame(frame);
@@ -183,11 +186,12 @@ std::string LinkSampleSource::explain_no_samples() const {
     return input_.name + ": no position in its log packets; log stateEstimate.x and stateEstimate.y";
   if (!extractor_.finds_yaw()) return input_.name + ": no yaw in its log packets; log stateEstimate.yaw";
   return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +
-         std::to_string(report_.unpaired) + " range packets)";
+         std::to_string(report_.counters.unpaired) + " range packets)";
 }
 
-Duration LinkSampleSource::since_received() const {
-  return input_.clock ? input_.clock->now() - received_at_ : Duration();
+/// The last frame from the vehicle is the one that completes a sample.
+MonotonicTime LinkSampleSource::arrived_at() const {
+  return input_.clock ? input_.clock->monotonic_time_of(received_at_) : MonotonicTime{};
 }
 
 std::optional<LiveStatus> LinkSampleSource::live_status() const {

@@ -61,13 +61,12 @@ class LinkSampleSource final : public SampleSource {
   /// is none; the message says why. kDamaged: damaged before the first sample.
   [[nodiscard]] Status find_first_sample();
 
-  [[nodiscard]] Result<RangeSample> next() override;
+  [[nodiscard]] Result<ReceivedSample> next() override;
   [[nodiscard]] const BeamLayout& beams() const override { return beams_; }
   [[nodiscard]] const SensorModel& sensor() const override { return input_.sensor; }
   [[nodiscard]] const InputReport& report() const override { return report_; }
   [[nodiscard]] std::optional<double> progress() const override;
   [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
-  [[nodiscard]] Duration since_received() const override;
   [[nodiscard]] std::optional<LiveStatus> live_status() const override;
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
   /// Warnings that were taken as events become notes, the first of each kind.
@@ -75,7 +74,8 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
  private:
-  Result<RangeSample> read_sample();
+  Result<ReceivedSample> read_sample();
+  [[nodiscard]] MonotonicTime arrived_at() const;
   /// One frame's worth of work.
   Status step();
   Status send_request();
@@ -101,7 +101,7 @@ class LinkSampleSource final : public SampleSource {
   HostTime now_{};
   HostTime received_at_{};  // the last frame from the vehicle
   std::optional<Error> end_;
-  std::optional<RangeSample> first_sample_;
+  std::optional<ReceivedSample> first_sample_;
 };
 
 }  // namespace swiftlet

@@ -101,9 +101,9 @@ CarmenSampleSource::CarmenSampleSource(CarmenLog log, const SampleSourceOptions&
     : log_(std::move(log)),
       uses_odometry_lines_(trusts_odometry_lines(log_)),
       sensor_(sensor_model(log_, uses_odometry_lines_, options)),
-      assembler_(assembly_config(log_, sensor_), report_) {
-  report_.frames = log_.lines;
-  report_.duplicates = log_.duplicate_scans;
+      assembler_(assembly_config(log_, sensor_), report_.counters) {
+  report_.counters.frames = log_.lines;
+  report_.counters.duplicates = log_.duplicate_scans;
   report_.problems = log_.problems;
   report_.notes.push_back(describe_odometry(log_, uses_odometry_lines_, sensor_.range_age));
   if (!uses_odometry_lines_ && !options.range_age && log_.pose_scan_lag.runs_a_line_ahead())
@@ -113,12 +113,12 @@ CarmenSampleSource::CarmenSampleSource(CarmenLog log, const SampleSourceOptions&
                             " steps back)");
 }
 
-Result<RangeSample> CarmenSampleSource::next() {
+Result<ReceivedSample> CarmenSampleSource::next() {
   for (;;) {
-    if (const std::optional<RangeSample> sample = assembler_.take()) return *sample;
+    if (const std::optional<RangeSample> sample = assembler_.take()) return ReceivedSample{.sample = *sample};
     if (feed()) continue;
     assembler_.end();
-    if (const std::optional<RangeSample> sample = assembler_.take()) return *sample;
+    if (const std::optional<RangeSample> sample = assembler_.take()) return ReceivedSample{.sample = *sample};
     return Error{ErrorCode::kEndOfRecording, "end of the laser log"};
   }
 }

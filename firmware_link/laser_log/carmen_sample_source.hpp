@@ -23,7 +23,7 @@ class CarmenSampleSource final : public SampleSource {
   [[nodiscard]] static Result<std::unique_ptr<SampleSource>> open(const std::string& path,
                                                                   const SampleSourceOptions& options);
 
-  [[nodiscard]] Result<RangeSample> next() override;
+  [[nodiscard]] Result<ReceivedSample> next() override;
   [[nodiscard]] const BeamLayout& beams() const override { return log_.beams; }
   [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
   [[nodiscard]] const InputReport& report() const override { return report_; }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "core/base/monotonic_time.hpp"
 #include "core/base/time.hpp"
 
 namespace swiftlet {
@@ -22,6 +23,11 @@ class LinkClock {
   [[nodiscard]] virtual HostTime now() = 0;
   /// What it was so long ago by the machine's clock. Simulated time stands still meanwhile.
   [[nodiscard]] virtual HostTime ago(Duration /*past*/) { return now(); }
+  /// What the machine's monotonic clock showed at `at`, a time that now() has passed. Simulated time: shows
+  /// now.
+  [[nodiscard]] virtual MonotonicTime monotonic_time_of(HostTime /*at*/) {
+    return std::chrono::steady_clock::now();
+  }
   virtual void sleep_for(Duration duration) = 0;
 };
 
@@ -36,10 +42,13 @@ class SystemLinkClock final : public LinkClock {
   [[nodiscard]] HostTime ago(Duration past) override {
     return std::chrono::floor<std::chrono::microseconds>(now() - past);
   }
+  [[nodiscard]] MonotonicTime monotonic_time_of(HostTime at) override {
+    return steady_start_ + (at.time_since_epoch() - unix_start_);
+  }
   void sleep_for(Duration duration) override { std::this_thread::sleep_for(duration); }
 
  private:
-  std::chrono::steady_clock::time_point steady_start_ = std::chrono::steady_clock::now();
+  MonotonicTime steady_start_ = std::chrono::steady_clock::now();
   Duration unix_start_ = std::chrono::system_clock::now().time_since_epoch();
 };
 

@@ -22,8 +22,8 @@ RangeStatus classify_distance(double distance_m, const SensorModel& sensor) {
   return distance_m >= sensor.max_range_m ? RangeStatus::kNoReturn : RangeStatus::kHit;
 }
 
-SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputReport& report)
-    : config_(config), report_(report), positions_(config.continuity), yaws_(config.continuity) {}
+SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputCounters& counters)
+    : config_(config), counters_(counters), positions_(config.continuity), yaws_(config.continuity) {}
 
 void SampleAssembler::set_periods(Duration range_period, Duration odometry_period) {
   config_.range_period = range_period;
@@ -41,7 +41,7 @@ void SampleAssembler::add(const Reading& reading) {
     positions_.restart();
     yaws_.restart();
   }
-  if (reading.position_odom || reading.yaw_odom_rad) ++report_.odometry_packets;
+  if (reading.position_odom || reading.yaw_odom_rad) ++counters_.odometry_packets;
   if (reading.position_odom && std::isfinite(reading.position_odom->x_m) &&
       std::isfinite(reading.position_odom->y_m))
     positions_.add(reading.at, *reading.position_odom);
@@ -58,11 +58,11 @@ bool SampleAssembler::accept_time(const Reading& reading) {
   }
   std::optional<DeviceTime>& last = last_by_stream_[reading.stream];
   if (last && reading.at == *last) {
-    ++report_.duplicates;
+    ++counters_.duplicates;
     return false;
   }
   if (last && reading.at < *last && *last - reading.at <= kReboot) {
-    ++report_.out_of_order;
+    ++counters_.out_of_order;
     return false;
   }
   if (latest_ - reading.at > kReboot) {
@@ -84,10 +84,10 @@ void SampleAssembler::restart() {
 void SampleAssembler::hold_ranges(const Reading& reading) {
   // The block that ranges come in can change: then they may come crosswise.
   if (last_ranges_at_ && reading.at <= *last_ranges_at_) {
-    ++report_.out_of_order;
+    ++counters_.out_of_order;
     return;
   }
-  ++report_.range_packets;
+  ++counters_.range_packets;
   count_gap(reading);
   if (pending_.full()) drop_oldest();
   static_cast<void>(
@@ -101,8 +101,8 @@ void SampleAssembler::count_gap(const Reading& reading) {
         last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.received - *last_ranges_received_;
     const double periods = to_seconds(since) / to_seconds(config_.range_period);
     if (periods > kMaxHoleInPeriods) {
-      ++report_.gaps;
-      report_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
+      ++counters_.gaps;
+      counters_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
     }
   }
   last_ranges_at_ = reading.at;
@@ -152,17 +152,17 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
     const RangeStatus status = classify_distance(static_cast<double>(ranges.distance_m[i]), config_.sensor);
     sample.status[i] = status;
     if (status == RangeStatus::kHit) sample.distance_m[i] = ranges.distance_m[i];
-    if (status == RangeStatus::kHit) ++report_.hits;
-    if (status == RangeStatus::kNoReturn) ++report_.no_returns;
-    if (status == RangeStatus::kInvalid) ++report_.invalid;
+    if (status == RangeStatus::kHit) ++counters_.hits;
+    if (status == RangeStatus::kNoReturn) ++counters_.no_returns;
+    if (status == RangeStatus::kInvalid) ++counters_.invalid;
   }
-  ++report_.samples;
-  if (sample.starts_segment) ++report_.segments;
+  ++counters_.samples;
+  if (sample.starts_segment) ++counters_.segments;
   return sample;
 }
 
 void SampleAssembler::drop_oldest() {
-  ++report_.unpaired;
+  ++counters_.unpaired;
   pending_.erase(0);
 }
 

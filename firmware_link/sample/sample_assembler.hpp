@@ -11,8 +11,8 @@
 #include "core/base/time.hpp"
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
+#include "firmware_link/sample/input_counters.hpp"
 #include "firmware_link/sample/odometry_timeline.hpp"
-#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 
@@ -46,8 +46,8 @@ struct AssemblyConfig {
 /// counts what it drops. Fixed storage, no allocation, one thread at a time.
 class SampleAssembler {
  public:
-  /// Counts into `report`, which must outlive the assembler.
-  SampleAssembler(const AssemblyConfig& config, InputReport& report);
+  /// Counts into `counters`, which must outlive the assembler.
+  SampleAssembler(const AssemblyConfig& config, InputCounters& counters);
 
   /// Once the traffic has told them: how often ranges and dead reckoning come. Dead reckoning is then
   /// interpolated across at most 1.5 periods.
@@ -82,7 +82,7 @@ class SampleAssembler {
   void drop_oldest();
 
   AssemblyConfig config_;
-  InputReport& report_;
+  InputCounters& counters_;
   OdometryTimeline<Point2> positions_;
   OdometryTimeline<YawReading> yaws_;
   FixedVector<PendingRanges, 16> pending_;

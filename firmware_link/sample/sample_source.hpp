@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +9,10 @@
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/stamped_pose.hpp"
-#include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
 #include "firmware_link/link/frame_sink.hpp"
+#include "firmware_link/sample/input_counters.hpp"
+#include "firmware_link/sample/received_sample.hpp"
 #include "firmware_link/session/live_status.hpp"
 #include "firmware_link/session/vehicle_event.hpp"
 
@@ -20,19 +20,7 @@ namespace swiftlet {
 
 /// What an input had to say about itself, good and bad; copied into report.json and the status message.
 struct InputReport {
-  std::uint64_t frames = 0;   ///< radio frames (laser logs: lines) read
-  std::uint64_t samples = 0;  ///< samples delivered
-  std::uint64_t range_packets = 0;
-  std::uint64_t odometry_packets = 0;
-  std::uint64_t duplicates = 0;       ///< same block, same device time: dropped
-  std::uint64_t out_of_order = 0;     ///< device time went back: dropped
-  std::uint64_t gaps = 0;             ///< holes of more than 1.5 periods between range packets
-  std::uint64_t missing_packets = 0;  ///< range packets those holes stand for
-  std::uint64_t unpaired = 0;         ///< range packets without dead reckoning around them: dropped
-  std::uint64_t segments = 0;         ///< times the dead reckoning began anew (1 for an undisturbed run)
-  std::uint64_t hits = 0;             ///< beams by status
-  std::uint64_t no_returns = 0;
-  std::uint64_t invalid = 0;
+  InputCounters counters;
   std::vector<std::string> notes;     ///< what to know (e.g. layout taken from a side file)
   std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
 };
@@ -48,7 +36,7 @@ class SampleSource {
 
   /// The next sample. Errors: kEndOfRecording at the end, also where damage ended it early (then
   /// report().problems says so); kTimeout: nothing now, call again; anything else is final.
-  [[nodiscard]] virtual Result<RangeSample> next() = 0;
+  [[nodiscard]] virtual Result<ReceivedSample> next() = 0;
   [[nodiscard]] virtual const BeamLayout& beams() const = 0;
   /// The sensor model this input is taken with, unless the configuration says otherwise.
   [[nodiscard]] virtual const SensorModel& sensor() const = 0;
@@ -57,9 +45,6 @@ class SampleSource {
   [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
   /// A vehicle that cannot be asked to wait: samples come when they come, and there is no end.
   [[nodiscard]] virtual bool is_live() const { return false; }
-  /// How long ago the frame came that completed the last sample, by the link's own clock; zero for recordings
-  /// and laser logs.
-  [[nodiscard]] virtual Duration since_received() const { return {}; }
   /// How the link and the vehicle stand; nullopt for recordings and laser logs.
   [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
   /// What happened to the vehicle or its link since the last call, in order.

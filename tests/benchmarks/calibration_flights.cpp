@@ -69,14 +69,14 @@ Result<PairedRun> fly(const Flight& flight, std::optional<Duration> range_age, c
   LinkSampleSource source(std::move(input));
   PairedRun run{{}, source.beams(), source.sensor()};
   for (;;) {
-    const Result<RangeSample> sample = source.next();
-    if (sample) {
-      run.samples.push_back(*sample);
-      witness(*sample, flown);
-    } else if (sample.error().code == ErrorCode::kEndOfRecording) {
+    const Result<ReceivedSample> received = source.next();
+    if (received) {
+      run.samples.push_back(received->sample);
+      witness(received->sample, flown);
+    } else if (received.error().code == ErrorCode::kEndOfRecording) {
       return run;
-    } else if (sample.error().code != ErrorCode::kTimeout) {
-      return sample.error();
+    } else if (received.error().code != ErrorCode::kTimeout) {
+      return received.error();
     }
   }
 }

@@ -68,7 +68,7 @@ void frame_to_queued_sample(benchmark::State& state) {
   const SteadyClock clock;
   RadioWorker worker(source, clock, {.refuses_when_full = true}, queue->producer(),
                      InputOutlet{status, events->producer()}, stage_times);
-  HeardSample sample;
+  ReceivedSample sample;
   while (!consumer.try_pop(sample)) static_cast<void>(worker.step());  // the handshake
 
   link.pause = std::chrono::microseconds(state.range(0));

@@ -34,14 +34,14 @@ inline void check_sample(const RangeSample& sample, const std::optional<RangeSam
 inline void drain(SampleSource& source) {
   std::optional<RangeSample> before;
   for (;;) {
-    const Result<RangeSample> sample = source.next();
-    if (!sample && sample.error().code == ErrorCode::kTimeout) continue;
-    if (!sample) break;
-    check_sample(*sample, before);
-    before = *sample;
+    const Result<ReceivedSample> received = source.next();
+    if (!received && received.error().code == ErrorCode::kTimeout) continue;
+    if (!received) break;
+    check_sample(received->sample, before);
+    before = received->sample;
   }
-  const InputReport& report = source.report();
-  SWIFTLET_CHECK(report.samples == (before ? before->sequence + 1 : 0), "the report counts the samples");
+  SWIFTLET_CHECK(source.report().counters.samples == (before ? before->sequence + 1 : 0),
+                 "the report counts the samples");
 }
 
 }  // namespace swiftlet

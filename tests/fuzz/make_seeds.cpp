@@ -43,8 +43,8 @@ std::vector<LinkFrame> session(std::string_view left_out) {
   input.link = std::move(link);
   LinkSampleSource source(std::move(input));
   for (;;) {
-    const Result<RangeSample> sample = source.next();
-    if (!sample && sample.error().code != ErrorCode::kTimeout) return keeper.frames;
+    const Result<ReceivedSample> received = source.next();
+    if (!received && received.error().code != ErrorCode::kTimeout) return keeper.frames;
   }
 }
 

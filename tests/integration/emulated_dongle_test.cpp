@@ -78,11 +78,11 @@ class EmulatedDongleTest : public testing::Test {
     std::vector<RangeSample> samples;
     const auto end = Clock::now() + duration;
     while (Clock::now() < end && !(done && done())) {
-      const Result<RangeSample> sample = source_->next();
-      if (sample) {
-        samples.push_back(*sample);
+      const Result<ReceivedSample> received = source_->next();
+      if (received) {
+        samples.push_back(received->sample);
       } else {
-        EXPECT_EQ(sample.error().code, ErrorCode::kTimeout) << sample.error().message;
+        EXPECT_EQ(received.error().code, ErrorCode::kTimeout) << received.error().message;
       }
     }
     return samples;
@@ -137,9 +137,9 @@ TEST_F(EmulatedDongleTest, BringsSixtySecondsOfFlightWithoutASampleLostOrDoubled
     EXPECT_GE(step, milliseconds(90)) << "sample " << i;
     EXPECT_LE(step, milliseconds(110)) << "sample " << i;
   }
-  EXPECT_EQ(source_->report().gaps, 0U);
-  EXPECT_EQ(source_->report().duplicates, 0U);
-  EXPECT_EQ(source_->report().segments, 1U);
+  EXPECT_EQ(source_->report().counters.gaps, 0U);
+  EXPECT_EQ(source_->report().counters.duplicates, 0U);
+  EXPECT_EQ(source_->report().counters.segments, 1U);
   std::vector<SentPacket> queued;
   mock_up_->with([&](EmulatedCrazyradio&) { queued = receiver_->queued_log(); });
   ASSERT_LE(keeper_.received.size(), queued.size());
@@ -208,8 +208,8 @@ TEST_F(EmulatedDongleTest, AnAnswerThatComesLateIsNotTakenForTheNext) {
   });
   static_cast<void>(listen(seconds(2)));
   EXPECT_GE(statistics().usb_timeouts, 1U);
-  EXPECT_EQ(source_->report().missing_packets, 0U);
-  EXPECT_EQ(source_->report().duplicates, 0U);
+  EXPECT_EQ(source_->report().counters.missing_packets, 0U);
+  EXPECT_EQ(source_->report().counters.duplicates, 0U);
 }
 
 TEST_F(EmulatedDongleTest, ReplugedWithoutPermissionItSaysSoUntilThereIs) {

@@ -44,12 +44,12 @@ class EmulatedSamples {
   void listen(Duration duration, const std::function<bool()>& done = {}) {
     const HostTime end = flight.clock.now() + duration;
     while (flight.clock.now() < end && !(done && done())) {
-      const Result<RangeSample> sample = source->next();
-      if (sample) {
-        samples.push_back(*sample);
+      const Result<ReceivedSample> received = source->next();
+      if (received) {
+        samples.push_back(received->sample);
         sample_at = flight.clock.now();
       } else {
-        ASSERT_EQ(sample.error().code, ErrorCode::kTimeout) << sample.error().message;
+        ASSERT_EQ(received.error().code, ErrorCode::kTimeout) << received.error().message;
       }
     }
   }
@@ -104,9 +104,9 @@ TEST(EmulatedSamplesTest, TenMinutesBringSixThousandWithoutAGap) {
   flown.listen(minutes(10));
   EXPECT_NEAR(static_cast<double>(flown.samples.size()), 6000.0, 5.0);
   flown.expect_steady();
-  EXPECT_EQ(flown.report().gaps, 0U);
-  EXPECT_EQ(flown.report().duplicates, 0U);
-  EXPECT_EQ(flown.report().segments, 1U);
+  EXPECT_EQ(flown.report().counters.gaps, 0U);
+  EXPECT_EQ(flown.report().counters.duplicates, 0U);
+  EXPECT_EQ(flown.report().counters.segments, 1U);
 }
 
 class LossySamplesTest : public testing::TestWithParam<std::uint64_t> {};
@@ -118,9 +118,9 @@ TEST_P(LossySamplesTest, NoneIsLostOrDoubledWithAFifthOfPacketsAndAcksLost) {
   flown.listen(minutes(10));
   EXPECT_NEAR(static_cast<double>(flown.samples.size()), 6000.0, 5.0);
   flown.expect_steady();
-  EXPECT_EQ(flown.report().missing_packets, 0U);
-  EXPECT_EQ(flown.report().duplicates, 0U);
-  EXPECT_EQ(flown.report().segments, 1U);
+  EXPECT_EQ(flown.report().counters.missing_packets, 0U);
+  EXPECT_EQ(flown.report().counters.duplicates, 0U);
+  EXPECT_EQ(flown.report().counters.segments, 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LossySamplesTest, testing::Values(1, 2, 3));
@@ -136,7 +136,7 @@ TEST(EmulatedSamplesTest, ComeAgainWithinTwoSecondsOfThreeSecondsOfSilence) {
   const std::size_t first = flown.samples.size() - 1;
   flown.listen(seconds(10));
   flown.expect_steady(first);
-  EXPECT_EQ(flown.report().gaps, 1U);
+  EXPECT_EQ(flown.report().counters.gaps, 1U);
   ASSERT_EQ(flown.segments().size(), 2U);
   EXPECT_TRUE(flown.segments()[1].odometry_ran_on);
   EXPECT_EQ(flown.statistics().silences, 1U);
@@ -153,7 +153,7 @@ TEST(EmulatedSamplesTest, ComeAgainWithinTwoSecondsOfAReboot) {
     const std::size_t first = flown.samples.size() - 1;
     flown.listen(seconds(10));
     flown.expect_steady(first);
-    EXPECT_EQ(flown.report().gaps, 1U);
+    EXPECT_EQ(flown.report().counters.gaps, 1U);
     ASSERT_EQ(flown.segments().size(), 2U);
     EXPECT_FALSE(flown.segments()[1].odometry_ran_on);
     EXPECT_EQ(flown.statistics().silences, 1U);
@@ -173,7 +173,7 @@ TEST(EmulatedSamplesTest, ComeAgainWithinTwoSecondsOfReplugging) {
     EXPECT_EQ(flown.statistics().device_losses, 1U);
     EXPECT_EQ(flown.statistics().condition, LinkCondition::kConnected);
     // What the vehicle sent within a second of absence waits in its queue.
-    EXPECT_EQ(flown.report().gaps, absence > seconds(1) ? 1U : 0U);
+    EXPECT_EQ(flown.report().counters.gaps, absence > seconds(1) ? 1U : 0U);
   }
 }
 
@@ -185,8 +185,8 @@ TEST(EmulatedSamplesTest, GoOnAcrossTheWrapOfTheVehiclesClock) {
   flown.listen(minutes(1));
   EXPECT_NEAR(static_cast<double>(flown.samples.size()), 600.0, 5.0);
   flown.expect_steady();
-  EXPECT_EQ(flown.report().gaps, 0U);
-  EXPECT_EQ(flown.report().segments, 1U);
+  EXPECT_EQ(flown.report().counters.gaps, 0U);
+  EXPECT_EQ(flown.report().counters.segments, 1U);
 }
 
 }  // namespace

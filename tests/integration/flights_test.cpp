@@ -116,8 +116,8 @@ TEST_P(Flight, IsAsSharpWithASilenceInTheMiddle) {
     copy_without(flight_path(GetParam().name), holed.path(), std::chrono::seconds(120),
                  std::chrono::seconds(120 + seconds));
     const CorrectedRun run = corrected_run(holed.path());
-    EXPECT_EQ(run.input.segments, 2U);
-    EXPECT_GE(run.input.gaps, 1U);
+    EXPECT_EQ(run.input.counters.segments, 2U);
+    EXPECT_GE(run.input.counters.gaps, 1U);
     EXPECT_LT(cells_hit(run, run.T_map_body), 1950U) << seconds << " s";
   }
 }

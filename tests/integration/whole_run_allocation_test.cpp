@@ -152,7 +152,7 @@ TEST_F(WholeRun, OfALiveFlightOverUdpTakesNothingFromTheHeapOnRadioAndFrontend) 
   input.link = std::make_unique<SimulatedUdpFlight>(clock, radio);
   LinkSampleSource source(std::move(input));
   expect_no_heap_calls(source, radio, kAsked, 1000);
-  EXPECT_EQ(source.report().segments, 1U);
+  EXPECT_EQ(source.report().counters.segments, 1U);
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ CorrectedRun corrected_run(const std::string& uri) {
   if (!source.ok()) return run;
   Frontend frontend({}, (*source)->sensor(), (*source)->beams());
   Backend backend({}, (*source)->sensor(), (*source)->beams());
-  Result<RangeSample> sample = (*source)->next();
-  for (; sample || sample.error().code == ErrorCode::kTimeout; sample = (*source)->next()) {
-    if (!sample) continue;
-    run.samples.push_back(*sample);
-    backend.add(frontend.process(*sample));
+  Result<ReceivedSample> received = (*source)->next();
+  for (; received || received.error().code == ErrorCode::kTimeout; received = (*source)->next()) {
+    if (!received) continue;
+    run.samples.push_back(received->sample);
+    backend.add(frontend.process(received->sample));
   }
-  EXPECT_EQ(sample.error().code, ErrorCode::kEndOfRecording) << sample.error().message;
+  EXPECT_EQ(received.error().code, ErrorCode::kEndOfRecording) << received.error().message;
   backend.finish();
   for (ScanIndex i = 0; i < backend.scans().size(); ++i) run.T_map_body.push_back(backend.T_map_body(i));
   run.counters = backend.counters();

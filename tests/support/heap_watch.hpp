@@ -70,11 +70,11 @@ class WatchedSource final : public SampleSource {
  public:
   WatchedSource(SampleSource& source, HeapSpan& span, std::size_t from)
       : source_(source), span_(span), from_(from) {}
-  [[nodiscard]] Result<RangeSample> next() override {
+  [[nodiscard]] Result<ReceivedSample> next() override {
     if (samples_ >= from_) span_.extend();
-    Result<RangeSample> sample = source_.next();
-    if (sample && ++samples_ == from_) span_.extend();
-    return sample;
+    Result<ReceivedSample> received = source_.next();
+    if (received && ++samples_ == from_) span_.extend();
+    return received;
   }
   [[nodiscard]] const BeamLayout& beams() const override { return source_.beams(); }
   [[nodiscard]] const SensorModel& sensor() const override { return source_.sensor(); }

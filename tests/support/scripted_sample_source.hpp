@@ -18,10 +18,10 @@ class ScriptedSampleSource final : public SampleSource {
                                 Error end = {ErrorCode::kEndOfRecording, "end of the script"})
       : samples_(std::move(samples)), end_(std::move(end)) {}
 
-  [[nodiscard]] Result<RangeSample> next() override {
+  [[nodiscard]] Result<ReceivedSample> next() override {
     if (next_ == samples_.size()) return end_;
-    ++report_.samples;
-    return samples_[next_++];
+    ++report_.counters.samples;
+    return ReceivedSample{.sample = samples_[next_++], .arrived_at = arrived_at.value_or(MonotonicTime{})};
   }
   [[nodiscard]] const BeamLayout& beams() const override { return beams_; }
   [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
@@ -34,9 +34,9 @@ class ScriptedSampleSource final : public SampleSource {
     return static_cast<double>(next_) / static_cast<double>(samples_.size());
   }
 
-  [[nodiscard]] Duration since_received() const override { return since_received_ago; }
+  [[nodiscard]] bool is_live() const override { return arrived_at.has_value(); }
 
-  Duration since_received_ago{};
+  std::optional<MonotonicTime> arrived_at;  // of every sample; makes it live
   LiveStatus live;
   std::optional<VehicleEvent> event;
 

@@ -24,10 +24,10 @@ TEST(RunRecordCommand, EndsWhenItsTimeIsUpByTheLinksOwnClock) {
     EXPECT_TRUE(run_record_command({.input = "sim://office?seed=7", .file = file, .seconds = wanted}).ok());
     const Result<std::unique_ptr<SampleSource>> source = open_sample_source(file, {});
     EXPECT_TRUE(source.ok());
-    const HostTime first = (*source)->next()->stamp;
+    const HostTime first = (*source)->next()->sample.stamp;
     HostTime last = first;
-    for (Result<RangeSample> sample = (*source)->next(); sample; sample = (*source)->next())
-      last = sample->stamp;
+    for (Result<ReceivedSample> received = (*source)->next(); received; received = (*source)->next())
+      last = received->sample.stamp;
     return to_seconds(last - first);
   };
   EXPECT_NEAR(seconds_recorded(30.0), 30.0, 0.5);

@@ -79,8 +79,9 @@ std::string text_of(const std::string& file, const FlightResult& flight) {
   if (!sharpness.outside.empty())
     text += fmt::format("  samples outside the trajectory's time: {}, at {}\n", sharpness.outside.size(),
                         named(sharpness.outside));
-  if (flight.input.unpaired > 0)
-    text += fmt::format("  range packets without dead reckoning, not drawn: {}\n", flight.input.unpaired);
+  if (flight.input.counters.unpaired > 0)
+    text += fmt::format("  range packets without dead reckoning, not drawn: {}\n",
+                        flight.input.counters.unpaired);
   return text;
 }
 
@@ -138,7 +139,7 @@ Json json_of(const FlightResult& flight) {
           {"interpolated", sharpness.interpolated},
           {"outside", sharpness.outside.size()},
           {"outside_s", json_of(sharpness.outside)},
-          {"unpaired", flight.input.unpaired},
+          {"unpaired", flight.input.counters.unpaired},
           {"returns", sharpness.map.returns},
           {"cells_10_cm", sharpness.map.cells_10_cm},
           {"cells_20_cm", sharpness.map.cells_20_cm},

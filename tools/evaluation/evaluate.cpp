@@ -57,10 +57,10 @@ Result<ReferenceResult> against_flight(const StampedPath& trajectory, const std:
   const Result<std::unique_ptr<SampleSource>> source = open_sample_source(file, {});
   if (!source) return source.error();
   std::vector<RangeSample> samples;
-  Result<RangeSample> sample = (*source)->next();
-  for (; sample || sample.error().code == ErrorCode::kTimeout; sample = (*source)->next())
-    if (sample) samples.push_back(*sample);
-  if (sample.error().code != ErrorCode::kEndOfRecording) return sample.error();
+  Result<ReceivedSample> received = (*source)->next();
+  for (; received || received.error().code == ErrorCode::kTimeout; received = (*source)->next())
+    if (received) samples.push_back(received->sample);
+  if (received.error().code != ErrorCode::kEndOfRecording) return received.error();
   FlightSharpness sharpness = flight_sharpness(samples, trajectory, (*source)->beams());
   if (sharpness.drawn > 0)
     return ReferenceResult{file, FlightResult{std::move(sharpness), (*source)->report()}};

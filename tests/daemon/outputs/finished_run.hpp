@@ -18,7 +18,7 @@ struct FinishedRun {
       map.update(backend, false);
       truth.push_back({step.sample.stamp, Pose2(1.1 * step.sample.T_odom_body.x_m(), 0.0, 0.0)});
     }
-    input.samples = static_cast<std::uint64_t>(samples);
+    input.counters.samples = static_cast<std::uint64_t>(samples);
     input.notes = {"a note"};
     input.problems = {"damaged at byte 123"};
     frontend.keyframes = 17;

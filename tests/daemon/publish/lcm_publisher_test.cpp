@@ -165,7 +165,7 @@ TEST_F(LcmPublisherTest, AClosureCarriesItsUncertaintyAndItsEnds) {
 TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   DaemonStatus status;
   status.state = DaemonState::kFinished;
-  status.input.gaps = 4;
+  status.input.counters.gaps = 4;
   status.input.progress = 0.5;
   status.input.live.link.condition = LinkCondition::kDeviceBusy;
   status.input.live.link.silences = 2;

@@ -110,7 +110,7 @@ TEST(PublisherWorker, SaysHowItIsGoingOnceAPeriodWithMapAndWalls) {
   EXPECT_EQ(bench.published.walls[0].id, LandmarkId{1}) << "in the order of ids";
   const DaemonStatus& status = bench.published.statuses.back();
   EXPECT_EQ(status.state, DaemonState::kRunning);
-  EXPECT_EQ(status.input.samples, 17U);
+  EXPECT_EQ(status.input.counters.samples, 17U);
   EXPECT_EQ(status.queues[4].high_water, 2U);
   ASSERT_EQ(status.stages.size(), 1U);
   EXPECT_EQ(status.stages[0].count, 3U);

@@ -75,7 +75,7 @@ TEST_F(ServiceWatchTest, FeedsThroughTheFinalPassAndSaysOnceThatItStops) {
 
 TEST_F(ServiceWatchTest, TellsEachStatusInOneLine) {
   statuses_ = 1;
-  status_.input.samples = 17;
+  status_.input.counters.samples = 17;
   EXPECT_THAT(look_after(milliseconds(4)), ElementsAre(testing::StartsWith("STATUS=17 samples")));
   EXPECT_THAT(look_after(milliseconds(4)), IsEmpty());
   statuses_ = 2;
@@ -92,7 +92,7 @@ TEST(ServiceManager, IsSilentWhereThereIsNone) {
 /// Hangs in next(), as a broken driver would, while told so.
 class HangingSource final : public SampleSource {
  public:
-  [[nodiscard]] Result<RangeSample> next() override {
+  [[nodiscard]] Result<ReceivedSample> next() override {
     is_hanging.wait(true);
     std::this_thread::sleep_for(milliseconds(1));
     return Error{ErrorCode::kTimeout, "silent"};

@@ -33,8 +33,8 @@ class StatusLog : public testing::Test {
 
 TEST_F(StatusLog, IsSilentWhileAllGoesWell) {
   DaemonStatus now;
-  now.input.samples = 10;
-  now.input.segments = 1;  // the first beginning is none anew
+  now.input.counters.samples = 10;
+  now.input.counters.segments = 1;  // the first beginning is none anew
   log_changes(DaemonStatus{}, now);
   EXPECT_THAT(logged(), IsEmpty());
 }

@@ -40,10 +40,10 @@ std::vector<CaptureRecord> records_in(const fs::path& path) {
 
 std::vector<RangeSample> samples_of(SampleSource& source, Recorder* recorder = nullptr) {
   std::vector<RangeSample> samples;
-  for (Result<RangeSample> sample = source.next();; sample = source.next()) {
+  for (Result<ReceivedSample> received = source.next();; received = source.next()) {
     if (recorder != nullptr) static_cast<void>(recorder->step());
-    if (sample) samples.push_back(*sample);
-    if (!sample && sample.error().code != ErrorCode::kTimeout) break;
+    if (received) samples.push_back(received->sample);
+    if (!received && received.error().code != ErrorCode::kTimeout) break;
   }
   return samples;
 }

@@ -22,7 +22,7 @@ struct Bench {
         worker(source, clock, policy, queue->producer(), InputOutlet{status, events->producer()}, times) {}
 
   std::optional<RangeSample> pop() {
-    HeardSample received;
+    ReceivedSample received;
     if (!queue->consumer().try_pop(received)) return std::nullopt;
     arrived_at = received.arrived_at;
     return received.sample;
@@ -81,9 +81,9 @@ TEST(RadioWorker, ARecordedSampleArrivesWhenItIsDue) {
   EXPECT_EQ(bench.arrived_at, MonotonicTime(milliseconds(10)));
 }
 
-TEST(RadioWorker, ASampleHeardAliveArrivedWithItsFrame) {
+TEST(RadioWorker, ALiveSampleArrivesWithItsFrame) {
   Bench bench(resting_samples(1));
-  bench.source.since_received_ago = milliseconds(3);
+  bench.source.arrived_at = MonotonicTime(milliseconds(47));
   bench.clock.advance(milliseconds(50));
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   ASSERT_TRUE(bench.pop());

@@ -58,9 +58,9 @@ LinkInput input_of(std::vector<LinkFrame> frames, Error end = {ErrorCode::kEndOf
 std::vector<RangeSample> read_all(LinkSampleSource& source) {
   std::vector<RangeSample> samples;
   for (;;) {
-    const Result<RangeSample> sample = source.next();
-    if (sample) samples.push_back(*sample);
-    if (!sample && sample.error().code != ErrorCode::kTimeout) return samples;
+    const Result<ReceivedSample> received = source.next();
+    if (received) samples.push_back(received->sample);
+    if (!received && received.error().code != ErrorCode::kTimeout) return samples;
   }
 }
 
@@ -78,8 +78,8 @@ TEST(LinkSampleSource, TurnsFramesIntoSamples) {
     EXPECT_EQ(samples[i].status[2], RangeStatus::kNoReturn);
     EXPECT_EQ(samples[i].status[3], RangeStatus::kInvalid);
   }
-  EXPECT_EQ(source.report().frames, capture.frames().size());
-  EXPECT_EQ(source.report().unpaired, 1U);
+  EXPECT_EQ(source.report().counters.frames, capture.frames().size());
+  EXPECT_EQ(source.report().counters.unpaired, 1U);
   EXPECT_TRUE(source.report().problems.empty());
   EXPECT_EQ(source.beams().count, 4);
 }
@@ -90,8 +90,8 @@ TEST(LinkSampleSource, RunsOnWhenTheDeviceClockWraps) {
   capture.first_ms = 0xFFFFFF - 1950;
   LinkSampleSource source(input_of(capture.frames()));
   EXPECT_EQ(read_all(source).size(), 39U);
-  EXPECT_EQ(source.report().segments, 1U);
-  EXPECT_EQ(source.report().gaps, 0U);
+  EXPECT_EQ(source.report().counters.segments, 1U);
+  EXPECT_EQ(source.report().counters.gaps, 0U);
 }
 
 TEST(LinkSampleSource, CountsLostAndRepeatedPackets) {
@@ -100,11 +100,11 @@ TEST(LinkSampleSource, CountsLostAndRepeatedPackets) {
   for (const int i : {0, 1, 2, 2, 3, 6, 5, 7, 8, 9}) frames.push_back(capture.data(i));
   LinkSampleSource source(input_of(frames));
   EXPECT_EQ(read_all(source).size(), 6U);
-  EXPECT_EQ(source.report().duplicates, 1U);
-  EXPECT_EQ(source.report().out_of_order, 1U);
-  EXPECT_EQ(source.report().gaps, 1U);
-  EXPECT_EQ(source.report().missing_packets, 2U);
-  EXPECT_EQ(source.report().segments, 1U);
+  EXPECT_EQ(source.report().counters.duplicates, 1U);
+  EXPECT_EQ(source.report().counters.out_of_order, 1U);
+  EXPECT_EQ(source.report().counters.gaps, 1U);
+  EXPECT_EQ(source.report().counters.missing_packets, 2U);
+  EXPECT_EQ(source.report().counters.segments, 1U);
 }
 
 TEST(LinkSampleSource, DeliversWhatPrecedesDamageAndReportsIt) {
@@ -129,10 +129,29 @@ TEST(LinkSampleSource, ALiveLinkThatNeverYieldsASampleDoesNotHoldItsCaller) {
   LinkInput input = input_of(std::move(frames));
   input.clock = std::make_shared<ManualLinkClock>();
   LinkSampleSource source(std::move(input));
-  const Result<RangeSample> sample = source.next();
-  ASSERT_FALSE(sample.ok());
-  EXPECT_EQ(sample.error().code, ErrorCode::kTimeout);
-  EXPECT_LT(source.report().frames, 200U);
+  const Result<ReceivedSample> received = source.next();
+  ASSERT_FALSE(received.ok());
+  EXPECT_EQ(received.error().code, ErrorCode::kTimeout);
+  EXPECT_LT(source.report().counters.frames, 200U);
+}
+
+/// Shows the same time as the machine's monotonic clock.
+class MonotonicLinkClock final : public LinkClock {
+ public:
+  HostTime now() override { return host_ms(0); }
+  MonotonicTime monotonic_time_of(HostTime at) override { return MonotonicTime(at.time_since_epoch()); }
+  void sleep_for(Duration /*duration*/) override {}
+};
+
+TEST(LinkSampleSource, ALiveSampleArrivesWithTheFrameThatCompletesIt) {
+  SyntheticCapture capture;
+  LinkInput input = input_of(capture.frames());
+  input.clock = std::make_shared<MonotonicLinkClock>();
+  LinkSampleSource source(std::move(input));
+  Result<ReceivedSample> received = source.next();
+  while (!received && received.error().code == ErrorCode::kTimeout) received = source.next();
+  ASSERT_TRUE(received.ok());
+  EXPECT_EQ(received->arrived_at.time_since_epoch(), capture.data(1).at.time_since_epoch());
 }
 
 TEST(LinkSampleSource, DoesNotAllocateForASample) {
@@ -218,8 +237,8 @@ TEST(LinkSampleSource, NotesEachKindOfWarningOnceHoweverLongTheFlight) {
   input.starts_logging = true;
   LinkSampleSource source(std::move(input));
   std::size_t stops = 0;
-  for (Result<RangeSample> sample = source.next(); sample || sample.error().code == ErrorCode::kTimeout;
-       sample = source.next())
+  for (Result<ReceivedSample> received = source.next();
+       received || received.error().code == ErrorCode::kTimeout; received = source.next())
     while (const auto event = source.take_event())
       if (event->kind == VehicleEvent::Kind::kDataStopped) ++stops;
   EXPECT_GT(stops, 5U);
@@ -234,9 +253,9 @@ TEST(LinkSampleSource, PassesOnWhyAVehicleCannotBeUsed) {
   input.link = std::move(link);
   input.starts_logging = true;
   LinkSampleSource source(std::move(input));
-  Result<RangeSample> sample = source.next();
-  while (sample.error().code == ErrorCode::kTimeout) sample = source.next();
-  EXPECT_THAT(sample.error().message, HasSubstr("CRTP protocol 2"));
+  Result<ReceivedSample> received = source.next();
+  while (received.error().code == ErrorCode::kTimeout) received = source.next();
+  EXPECT_THAT(received.error().message, HasSubstr("CRTP protocol 2"));
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ using testing::HasSubstr;
 std::vector<RangeSample> read_all(SampleSource& source) {
   std::vector<RangeSample> samples;
   for (;;) {
-    const Result<RangeSample> sample = source.next();
-    if (!sample) return samples;
-    samples.push_back(*sample);
+    const Result<ReceivedSample> received = source.next();
+    if (!received) return samples;
+    samples.push_back(received->sample);
   }
 }
 
@@ -159,16 +159,16 @@ TEST(OpenSampleSource, FliesASimulatedVehicleWithItsTruth) {
   const auto source = open_sample_source("sim://office?seed=1", {});
   ASSERT_TRUE(source.ok()) << source.error().message;
   std::vector<RangeSample> samples;
-  Result<RangeSample> sample = (*source)->next();
-  for (; sample || sample.error().code == ErrorCode::kTimeout; sample = (*source)->next())
-    if (sample) samples.push_back(*sample);
-  EXPECT_EQ(sample.error().code, ErrorCode::kEndOfRecording) << sample.error().message;
+  Result<ReceivedSample> received = (*source)->next();
+  for (; received || received.error().code == ErrorCode::kTimeout; received = (*source)->next())
+    if (received) samples.push_back(received->sample);
+  EXPECT_EQ(received.error().code, ErrorCode::kEndOfRecording) << received.error().message;
   const InputReport& report = (*source)->report();
   ASSERT_GT(samples.size(), 1000U);
-  EXPECT_EQ(report.segments, 1U);
-  EXPECT_GT(report.gaps, 0U);  // one packet in a hundred is lost
-  EXPECT_GT(samples.size(), report.range_packets * 95 / 100);
-  EXPECT_EQ(report.range_packets, samples.size() + report.unpaired);
+  EXPECT_EQ(report.counters.segments, 1U);
+  EXPECT_GT(report.counters.gaps, 0U);  // one packet in a hundred is lost
+  EXPECT_GT(samples.size(), report.counters.range_packets * 95 / 100);
+  EXPECT_EQ(report.counters.range_packets, samples.size() + report.counters.unpaired);
   EXPECT_TRUE(report.problems.empty());
   EXPECT_EQ((*source)->progress(), 1.0);
   const std::vector<StampedPose> truth = (*source)->ground_truth();
@@ -188,8 +188,9 @@ TEST(OpenSampleSource, FliesTheSameFlightForTheSameSeedOnly) {
     const auto source = open_sample_source(uri, {});
     std::vector<float> distances;
     for (int calls = 0; source && calls < 5000 && distances.size() < 800; ++calls)
-      if (const auto sample = (*source)->next())
-        distances.insert(distances.end(), sample->distance_m.begin(), sample->distance_m.begin() + 4);
+      if (const auto received = (*source)->next())
+        distances.insert(distances.end(), received->sample.distance_m.begin(),
+                         received->sample.distance_m.begin() + 4);
     return distances;
   };
   EXPECT_EQ(first_distances("sim://loop?seed=3").size(), 800U);
@@ -212,12 +213,12 @@ TEST_P(RealFlight, IsOneUnbrokenRunOfSamples) {
   ASSERT_TRUE(source.ok()) << source.error().message;
   const std::vector<RangeSample> samples = read_all(**source);
   const InputReport& report = (*source)->report();
-  EXPECT_EQ(report.range_packets, GetParam().range_packets);
+  EXPECT_EQ(report.counters.range_packets, GetParam().range_packets);
   // At the start ranges are measured before there is any dead reckoning.
-  EXPECT_EQ(report.unpaired, GetParam().unpaired);
+  EXPECT_EQ(report.counters.unpaired, GetParam().unpaired);
   EXPECT_EQ(samples.size(), GetParam().range_packets - GetParam().unpaired);
-  EXPECT_EQ(report.segments, 1U);
-  EXPECT_EQ(report.gaps + report.duplicates + report.out_of_order, 0U);
+  EXPECT_EQ(report.counters.segments, 1U);
+  EXPECT_EQ(report.counters.gaps + report.counters.duplicates + report.counters.out_of_order, 0U);
   EXPECT_TRUE(report.problems.empty());
   for (std::size_t i = 1; i < samples.size(); ++i) {
     EXPECT_LT(samples[i - 1].measured_at, samples[i].measured_at);

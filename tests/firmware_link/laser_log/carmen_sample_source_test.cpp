@@ -26,12 +26,12 @@ using testing::HasSubstr;
 std::vector<RangeSample> read_all(SampleSource& source) {
   std::vector<RangeSample> samples;
   for (;;) {
-    const Result<RangeSample> sample = source.next();
-    if (!sample) {
-      EXPECT_EQ(sample.error().code, ErrorCode::kEndOfRecording);
+    const Result<ReceivedSample> received = source.next();
+    if (!received) {
+      EXPECT_EQ(received.error().code, ErrorCode::kEndOfRecording);
       return samples;
     }
-    samples.push_back(*sample);
+    samples.push_back(received->sample);
   }
 }
 
@@ -122,8 +122,8 @@ TEST(CarmenSampleSource, ARobotStandingStillAndScansOfOneStampAreFine) {
   ASSERT_EQ(samples.size(), 3U);
   EXPECT_EQ(samples[0].stamp, samples[1].stamp);
   EXPECT_LT(samples[0].measured_at, samples[1].measured_at);
-  EXPECT_EQ((*source)->report().duplicates, 1U);
-  EXPECT_EQ((*source)->report().segments, 1U);
+  EXPECT_EQ((*source)->report().counters.duplicates, 1U);
+  EXPECT_EQ((*source)->report().counters.segments, 1U);
 }
 
 struct ReferenceLog {
@@ -145,7 +145,7 @@ TEST_P(ReferenceLaserLog, DeliversEveryScanStampedAsTheRelationsStampIt) {
   const std::vector<RangeSample> samples = read_all(**source);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
   EXPECT_EQ(samples.size(), GetParam().scans);
-  EXPECT_EQ((*source)->report().segments, 1U);
+  EXPECT_EQ((*source)->report().counters.segments, 1U);
   EXPECT_THAT((*source)->report().notes, testing::Contains(HasSubstr(GetParam().note)));
   EXPECT_TRUE((*source)->report().problems.empty());
 

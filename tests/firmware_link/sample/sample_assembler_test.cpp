@@ -58,8 +58,8 @@ class SampleAssemblerTest : public testing::Test {
     drain();
   }
 
-  InputReport report_;
-  SampleAssembler assembler_{config(), report_};
+  InputCounters counters_;
+  SampleAssembler assembler_{config(), counters_};
   std::vector<RangeSample> samples_;
 };
 
@@ -81,17 +81,17 @@ TEST_F(SampleAssemblerTest, PairsRangesWithTheDeadReckoningOfTheTimeTheyWereMeas
   EXPECT_TRUE(samples_[0].starts_segment);
   EXPECT_FALSE(samples_[1].starts_segment);
   EXPECT_EQ(samples_[1].sequence, 1U);
-  EXPECT_EQ(report_.samples, 2U);
-  EXPECT_EQ(report_.unpaired, 1U);
-  EXPECT_EQ(report_.range_packets, 3U);
-  EXPECT_EQ(report_.odometry_packets, 6U);
-  EXPECT_EQ(report_.segments, 1U);
+  EXPECT_EQ(counters_.samples, 2U);
+  EXPECT_EQ(counters_.unpaired, 1U);
+  EXPECT_EQ(counters_.range_packets, 3U);
+  EXPECT_EQ(counters_.odometry_packets, 6U);
+  EXPECT_EQ(counters_.segments, 1U);
 }
 
 TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
   AssemblyConfig ageless = config();
   ageless.sensor.range_age = Duration::zero();
-  SampleAssembler assembler(ageless, report_);
+  SampleAssembler assembler(ageless, counters_);
   const auto add = [&assembler](std::uint8_t stream, std::int64_t ms) {
     Reading reading;
     reading.stream = stream;
@@ -117,10 +117,10 @@ TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
 TEST_F(SampleAssemblerTest, DoesNotWaitForEver) {
   position(0, 0.0);
   for (int i = 1; i <= 20; ++i) ranges(100L * i);
-  EXPECT_GE(report_.unpaired, 15U);  // the position is lost: 0.3 s of ranges may still hope
-  EXPECT_EQ(samples_.size(), 0U + (report_.samples));
+  EXPECT_GE(counters_.unpaired, 15U);  // the position is lost: 0.3 s of ranges may still hope
+  EXPECT_EQ(samples_.size(), 0U + (counters_.samples));
   end();
-  EXPECT_EQ(report_.unpaired + report_.samples, 20U);
+  EXPECT_EQ(counters_.unpaired + counters_.samples, 20U);
 }
 
 TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndGoesOnBehindIt) {
@@ -130,16 +130,16 @@ TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndGoesOnBehindI
   }
   end();
   // Ranges are measured at 100 (i - 1) + 4: the lost position at 400 spoils those of 304 and 404.
-  EXPECT_EQ(report_.unpaired, 3U);
+  EXPECT_EQ(counters_.unpaired, 3U);
   ASSERT_EQ(samples_.size(), 7U);
   for (std::size_t i = 1; i < samples_.size(); ++i) EXPECT_FALSE(samples_[i].starts_segment);
-  EXPECT_EQ(report_.gaps, 0U);
+  EXPECT_EQ(counters_.gaps, 0U);
 }
 
 TEST_F(SampleAssemblerTest, CountsGapsAndThePacketsTheyStandFor) {
   for (const int i : {0, 1, 2, 4, 5, 9, 10}) ranges(100L * i);
-  EXPECT_EQ(report_.gaps, 2U);
-  EXPECT_EQ(report_.missing_packets, 4U);
+  EXPECT_EQ(counters_.gaps, 2U);
+  EXPECT_EQ(counters_.missing_packets, 4U);
 }
 
 TEST_F(SampleAssemblerTest, DropsAndCountsDuplicatesAndLatePackets) {
@@ -150,9 +150,9 @@ TEST_F(SampleAssemblerTest, DropsAndCountsDuplicatesAndLatePackets) {
   position(400, 0.4);
   ranges(404);
   ranges(304);
-  EXPECT_EQ(report_.duplicates, 2U);
-  EXPECT_EQ(report_.out_of_order, 1U);
-  EXPECT_EQ(report_.range_packets, 5U);
+  EXPECT_EQ(counters_.duplicates, 2U);
+  EXPECT_EQ(counters_.out_of_order, 1U);
+  EXPECT_EQ(counters_.range_packets, 5U);
 }
 
 TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
@@ -171,9 +171,9 @@ TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
   EXPECT_EQ(samples_[before].measured_at, device_ms(2'004));
   EXPECT_NEAR(samples_[before].T_odom_body.x_m(), 0.0004, 1e-9);
   EXPECT_FALSE(samples_[before + 1].starts_segment);
-  EXPECT_EQ(report_.segments, 2U);
-  EXPECT_EQ(report_.gaps, 0U);
-  EXPECT_EQ(report_.out_of_order, 0U);
+  EXPECT_EQ(counters_.segments, 2U);
+  EXPECT_EQ(counters_.gaps, 0U);
+  EXPECT_EQ(counters_.out_of_order, 0U);
 }
 
 TEST_F(SampleAssemblerTest, TimeGoesOnWhenTheRangesChangeTheirBlock) {
@@ -184,7 +184,7 @@ TEST_F(SampleAssemblerTest, TimeGoesOnWhenTheRangesChangeTheirBlock) {
   position(600, 0.0);
   ranges(600, 0.0, distances, 3);
   end();
-  EXPECT_EQ(report_.out_of_order, 2U);
+  EXPECT_EQ(counters_.out_of_order, 2U);
   ASSERT_GE(samples_.size(), 2U);
   for (std::size_t i = 1; i < samples_.size(); ++i)
     EXPECT_GT(samples_[i].measured_at, samples_[i - 1].measured_at);
@@ -204,7 +204,7 @@ TEST_F(SampleAssemblerTest, AfterARebootIntoOtherBlocksTheDeadReckoningBeginsAne
   end();
   ASSERT_GT(samples_.size(), before);
   EXPECT_TRUE(samples_[before].starts_segment);
-  EXPECT_EQ(report_.out_of_order, 0U);
+  EXPECT_EQ(counters_.out_of_order, 0U);
 }
 
 TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) {
@@ -220,7 +220,7 @@ TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) 
   ms += 5000;
   fly(20.1);
   end();
-  EXPECT_EQ(report_.segments, 3U);
+  EXPECT_EQ(counters_.segments, 3U);
   std::vector<std::size_t> starts;
   for (std::size_t i = 0; i < samples_.size(); ++i)
     if (samples_[i].starts_segment) starts.push_back(i);
@@ -232,7 +232,7 @@ TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningOutlivesBeginsASegmentWi
   AssemblyConfig watched = config();
   watched.continuity.longest_silence = std::chrono::seconds(30);
   watched.unwatched_after = std::chrono::seconds(1);
-  SampleAssembler assembler(watched, report_);
+  SampleAssembler assembler(watched, counters_);
   const auto fly = [&](std::int64_t ms, double x_m) {
     Reading reading;
     reading.at = device_ms(ms);
@@ -258,8 +258,8 @@ TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningOutlivesBeginsASegmentWi
   for (const RangeSample& sample : samples_)
     if (sample.starts_segment) starts.emplace_back(sample.starts_segment, sample.odometry_ran_on);
   EXPECT_EQ(starts, (std::vector<std::pair<bool, bool>>{{true, false}, {true, true}, {true, false}}));
-  EXPECT_EQ(report_.gaps, 3U);
-  EXPECT_EQ(report_.segments, 3U);
+  EXPECT_EQ(counters_.gaps, 3U);
+  EXPECT_EQ(counters_.segments, 3U);
 }
 
 TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByOurClock) {
@@ -276,8 +276,8 @@ TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByOurClock) {
   on_frame(0, 10'000'100, 100);
   on_frame(1, 4000, 5100);  // forward or back: another boot's time says nothing
   on_frame(1, 4100, 5200);
-  EXPECT_EQ(report_.gaps, 1U);
-  EXPECT_EQ(report_.missing_packets, 49U);
+  EXPECT_EQ(counters_.gaps, 1U);
+  EXPECT_EQ(counters_.missing_packets, 49U);
 }
 
 TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
@@ -294,9 +294,9 @@ TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
   EXPECT_EQ(sample.distance_m[1], 0.0F);
   EXPECT_EQ(sample.status[2], RangeStatus::kInvalid);
   EXPECT_EQ(sample.status[3], RangeStatus::kInvalid);
-  EXPECT_EQ(report_.hits, 2U);
-  EXPECT_EQ(report_.no_returns, 2U);
-  EXPECT_EQ(report_.invalid, 4U);
+  EXPECT_EQ(counters_.hits, 2U);
+  EXPECT_EQ(counters_.no_returns, 2U);
+  EXPECT_EQ(counters_.invalid, 4U);
 }
 
 TEST_F(SampleAssemblerTest, IgnoresDeadReckoningThatIsNoNumber) {

@@ -41,9 +41,9 @@ Result<PairedRun> simulated_flight(std::optional<Duration> range_age) {
   if (!source) return source.error();
   PairedRun run{{}, (*source)->beams(), (*source)->sensor()};
   for (;;) {
-    const Result<RangeSample> sample = (*source)->next();
-    if (sample) run.samples.push_back(*sample);
-    if (!sample && sample.error().code != ErrorCode::kTimeout) return run;
+    const Result<ReceivedSample> received = (*source)->next();
+    if (received) run.samples.push_back(received->sample);
+    if (!received && received.error().code != ErrorCode::kTimeout) return run;
   }
 }
 

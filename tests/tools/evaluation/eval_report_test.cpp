@@ -50,7 +50,7 @@ Evaluation of_flight() {
                       .drawn = 3000,
                       .interpolated = 12,
                       .outside = {at(8'000'000)}};
-  flight.input.unpaired = 2;
+  flight.input.counters.unpaired = 2;
   flight.input.problems = {"damaged"};
   return evaluation_of({"flight.pcap", flight});
 }

@@ -43,7 +43,7 @@ TEST(Evaluate, CountsWhatACaptureLeavesUndrawn) {
   const auto& result = std::get<FlightResult>(flight->figures);
   EXPECT_EQ(result.sharpness.drawn, 3U);
   EXPECT_EQ(result.sharpness.outside.size(), 4U);
-  EXPECT_EQ(result.input.unpaired, 1U) << "the ranges are older than the first dead reckoning";
+  EXPECT_EQ(result.input.counters.unpaired, 1U) << "the ranges are older than the first dead reckoning";
 }
 
 TEST(Evaluate, RefusesAReferenceThatHasNothingInCommonAndNamesBothTimes) {
