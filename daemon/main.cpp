@@ -47,10 +47,8 @@ struct Options {
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys");
-  app.add_option(
-      "--input", options.input_uri,
-      "radio://0/80/2M/E7E7E7E7E7, usb://0, udp://HOST:PORT, replay:FILE.pcap, sim://WORLD?seed=N, or a "
-      ".pcap or .clf[.gz] file");
+  using enum InputNature;
+  app.add_option("--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile}));
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();

@@ -56,7 +56,7 @@ Result<CalibrationReport> calibrate(const CalibrateCommand& command, const std::
 Status check_request(const CalibrateCommand& command) {
   const Result<InputUri> input = parse_input_uri(command.input);
   if (!input) return input.error();
-  if (input->kind != InputUri::Kind::kFile && input->kind != InputUri::Kind::kSimulation)
+  if (input->is(InputNature::kVehicle))
     return Error{ErrorCode::kInvalidInput, command.input +
                                                ": a whole flight is needed at once; record it first with "
                                                "swiftlet record, then calibrate from the recording"};

@@ -15,7 +15,7 @@
 #include "daemon/recording/recording_files.hpp"
 #include "firmware_link/file/input_file.hpp"
 #include "firmware_link/input/input_uri.hpp"
-#include "firmware_link/input/live_link.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/link/libusb_bus.hpp"
 #include "firmware_link/link/radio_scan.hpp"
 #include "firmware_link/session/toc_cache.hpp"
@@ -44,8 +44,8 @@ std::vector<RadioAddress> scan(UsbBus& bus, const RadioAddress& wanted) {
 Result<bool> run_doctor_command(const DoctorCommand& command) {
   const Result<InputUri> uri = parse_input_uri(command.input);
   if (!uri) return uri.error();
-  if (uri->kind == InputUri::Kind::kFile)
-    if (const auto size = size_of_input_file(uri->path); !size) return size.error();
+  if (const auto* file = uri->as<InputFile>())
+    if (const auto size = size_of_input_file(file->path); !size) return size.error();
   const Result<LcmUrl> lcm_url = parse_lcm_url(command.lcm_url);
   if (!lcm_url) return lcm_url.error();
   if (isatty(STDERR_FILENO) == 1) std::fputs("swiftlet: looking, this takes some seconds\n", stderr);
@@ -54,13 +54,14 @@ Result<bool> run_doctor_command(const DoctorCommand& command) {
   const Result<std::unique_ptr<UsbBus>> bus = LibusbBus::open();
   const Result<std::filesystem::path> recordings = default_recordings_directory();
   TocCache cache(TocCache::default_directory());
-  const Surroundings around{.files = SystemFiles(),
-                            .network = network,
-                            .usb_bus = bus ? bus->get() : nullptr,
-                            .cache = cache,
-                            .recording_directory = recordings ? *recordings : std::filesystem::path(),
-                            .open_link = open_live_link,
-                            .scan = [&bus](const RadioAddress& radio) { return scan(**bus, radio); }};
+  const Surroundings around{
+      .files = SystemFiles(),
+      .network = network,
+      .usb_bus = bus ? bus->get() : nullptr,
+      .cache = cache,
+      .recording_directory = recordings ? *recordings : std::filesystem::path(),
+      .open_link = [](const InputUri& input) { return input.kind->open(input.address); },
+      .scan = [&bus](const RadioAddress& radio) { return scan(**bus, radio); }};
   const Findings findings = examine(*uri, *lcm_url, around);
   const std::string report =
       command.json ? report_json(command.input, findings) : report_text(findings, wants_colours());

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/sensing/range_sample.hpp"
+#include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/simulation/flight.hpp"
 #include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
@@ -21,6 +22,8 @@
 
 namespace {
 
+using swiftlet::InputNature;
+
 constexpr int kExitProblemFound = 1;
 constexpr int kExitBadInput = 2;
 
@@ -31,14 +34,13 @@ int refuse(std::string message) {
   return kExitBadInput;
 }
 
+/// What ends of itself.
+std::string finite_inputs() { return swiftlet::input_forms({InputNature::kSimulation, InputNature::kFile}); }
+
 CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
-  map->add_option("INPUT", command.input,
-                  "replay:FILE.pcap, sim://WORLD?seed=N&laps=N (office, maze, loop, corridors, wings, "
-                  "patrol), or a path: "
-                  ".pcap, .clf, .clf.gz")
-      ->required();
+  map->add_option("INPUT", command.input, finite_inputs())->required();
   map->add_option("-o,--output", command.output_directory, "Directory for the outputs, created where missing")
       ->required();
   map->add_option("--config", command.config_file, "TOML file with settings");
@@ -80,7 +82,10 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
 CLI::App* add_record_command(CLI::App& app, swiftlet::RecordCommand& command) {
   CLI::App* record =
       app.add_subcommand("record", "Record what a vehicle says, to be replayed or mapped later");
-  record->add_option("INPUT", command.input, "radio://, usb://, udp:// or sim://WORLD?seed=N")->required();
+  record
+      ->add_option("INPUT", command.input,
+                   swiftlet::input_forms({InputNature::kVehicle, InputNature::kSimulation}))
+      ->required();
   record->add_option("-o,--output", command.file, "The recording, a .pcap file that is not there yet")
       ->required();
   record->add_option("--seconds", command.seconds, "End after this long; without it, at Ctrl-C")
@@ -92,8 +97,7 @@ CLI::App* add_doctor_command(CLI::App& app, swiftlet::DoctorCommand& command) {
   CLI::App* doctor = app.add_subcommand(
       "doctor",
       "Check dongle, vehicle, LCM and this machine before a flight; exit code 1 when something stops it");
-  doctor
-      ->add_option("INPUT", command.input, "radio://DONGLE/CHANNEL/RATE/ADDRESS, usb://N or udp://HOST:PORT")
+  doctor->add_option("INPUT", command.input, swiftlet::input_forms({InputNature::kVehicle}))
       ->capture_default_str();
   doctor->add_option("--lcm-url", command.lcm_url, "Where swiftletd is to publish")
       ->envname("LCM_DEFAULT_URL")
@@ -121,10 +125,7 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
 CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& command) {
   CLI::App* calibrate = app.add_subcommand(
       "calibrate", "Tell from one run how old its ranges are and how its dead reckoning errs");
-  calibrate
-      ->add_option("LOG", command.input,
-                   "replay:FILE.pcap, sim://WORLD?seed=N&laps=N, or a path: .pcap, .clf, .clf.gz")
-      ->required();
+  calibrate->add_option("LOG", command.input, finite_inputs())->required();
   calibrate->add_option("-o,--output", command.toml_file,
                         "Write what matters to this TOML file, for --config; it must not be there yet");
   calibrate->add_option("--beams", command.beams, "Laser logs: how many beams to keep")

@@ -3,7 +3,6 @@
 #include "daemon/recording/recording_plan.hpp"
 
 #include "daemon/recording/recording_files.hpp"
-#include "firmware_link/input/recorded_vehicle.hpp"
 
 namespace swiftlet {
 namespace {
@@ -16,14 +15,14 @@ std::uint64_t bytes_of(int megabytes) { return static_cast<std::uint64_t>(megaby
 
 Result<std::optional<RecordingPlan>> plan_recording(const InputUri& input, const RecordingWish& wish,
                                                     const RecordConfig& config, HostTime now) {
-  const bool is_file = input.kind == InputUri::Kind::kFile;
-  const bool is_live = !is_file && input.kind != InputUri::Kind::kSimulation;
+  const bool is_live = input.is(InputNature::kVehicle);
   if (wish.refused || !(wish.asked || (config.enabled && is_live))) return std::optional<RecordingPlan>();
-  if (is_file)
+  if (const auto* file = input.as<InputFile>())
     return Error{ErrorCode::kInvalidInput,
-                 input.path + ": is no vehicle; record one (radio://, usb://, udp://) or sim://WORLD"};
+                 file->path + ": is no vehicle; record " +
+                     input_forms({InputNature::kVehicle, InputNature::kSimulation})};
   RecordingPlan plan;
-  plan.vehicle = capture_vehicle_of(input);
+  plan.vehicle = input.kind->recorded_vehicle(input.address);
   plan.file = wish.file;
   plan.began = now;
   plan.max_file_bytes = bytes_of(config.max_file_mb);

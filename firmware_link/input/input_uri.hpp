@@ -2,35 +2,71 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <any>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.hpp"
-#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/capture/capture_format.hpp"
 
 namespace swiftlet {
 
-/// Where the vendor's simulated vehicles listen, and swiftlet's.
-inline constexpr std::uint16_t kDefaultUdpPort = 19850;
+struct LinkInput;
+
+enum class InputNature : std::uint8_t {
+  kVehicle,     ///< live: runs in real time and has no end
+  kSimulation,  ///< flown in this process, as fast as it is read
+  kFile,        ///< a recording or a laser log
+};
+
+/// A kind of input: one row of the table in input_kinds.cpp, from which all else about it derives.
+struct InputKind {
+  InputNature nature{};
+  std::string_view scheme;   ///< "radio://"
+  std::string_view form;     ///< what follows the scheme, for help: "DONGLE/CHANNEL/RATE/ADDRESS"
+  std::string_view example;  ///< a whole URI
+  /// Makes `address` of what follows the scheme. Error: kInvalidInput: what is wrong with it.
+  Status (*parse)(std::string_view text, std::any& address) = nullptr;
+  /// Opens a link to what parse() made. A vehicle's device need not be there yet: the link waits for it.
+  /// Errors: kNotFound: a name that does not resolve. kInvalidInput: the machine offers no USB or no sockets.
+  /// nullptr for files.
+  Result<LinkInput> (*open)(const std::any& address) = nullptr;
+  /// The vehicle that a recording of this input is attributed to. nullptr for files.
+  CaptureVehicle (*recorded_vehicle)(const std::any& address) = nullptr;
+};
+
+/// In the order in which help lists them.
+[[nodiscard]] std::span<const InputKind> input_kinds();
+/// How inputs of these natures are written: "usb://N, udp://HOST:PORT or sim://WORLD".
+[[nodiscard]] std::string input_forms(std::initializer_list<InputNature> natures);
+
+/// A path, as a plain path or by replay:FILE.
+struct InputFile {
+  std::string path;
+};
+/// A vehicle on a USB cable.
+struct UsbCableAddress {
+  int index = 0;  ///< which of them, from 0
+};
 
 /// What an input's URI names.
 struct InputUri {
-  enum class Kind { kFile, kSimulation, kRadio, kUsbCable, kUdp };
-  Kind kind = Kind::kFile;
-  std::string path;                      ///< kFile
-  std::string world;                     ///< kSimulation
-  std::uint64_t seed = 1;                ///< kSimulation
-  int laps = 1;                          ///< kSimulation: how often the world's script is flown
-  RadioAddress radio;                    ///< kRadio
-  int usb_index = 0;                     ///< kUsbCable: which of the vehicles on cables, from 0
-  std::string host;                      ///< kUdp: name or address
-  std::uint16_t port = kDefaultUdpPort;  ///< kUdp
+  const InputKind* kind = nullptr;  ///< of input_kinds(); never null where parse_input_uri() succeeds
+  std::any address;                 ///< InputFile, RadioAddress, ...: what the kind's parse() makes
+
+  /// nullptr when the address is of another type.
+  template <typename Address>
+  [[nodiscard]] const Address* as() const {
+    return std::any_cast<Address>(&address);
+  }
+  [[nodiscard]] bool is(InputNature nature) const { return kind->nature == nature; }
 };
 
-/// `radio://DONGLE/CHANNEL/RATE/ADDRESS[?safelink=0|1&rate_limit=N]` (DONGLE: index, serial number or *;
-/// RATE: 250K, 1M or 2M; parts missing at the end are RadioAddress's; the address is filled up with zeros
-/// from the left), `usb://N`, `udp://HOST[:PORT]` (IPv6 in brackets), `sim://WORLD[?seed=N&laps=N]`,
-/// `replay:FILE` or a plain path. Errors: kInvalidInput, with a line for the user that shows how to write it.
+/// A URI of one of the kinds, or a plain path. Errors: kInvalidInput, with a line for the user that shows how
+/// to write it.
 [[nodiscard]] Result<InputUri> parse_input_uri(const std::string& uri);
 
 }  // namespace swiftlet

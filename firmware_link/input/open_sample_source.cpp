@@ -11,9 +11,7 @@
 #include "firmware_link/file/input_file.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
-#include "firmware_link/input/live_link.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
-#include "firmware_link/simulation/link.hpp"
 
 namespace swiftlet {
 namespace {
@@ -44,27 +42,23 @@ Status check_limits(const SampleSourceOptions& options, const SensorModel& usual
                                              std::to_string(max_m) + " m"};
 }
 
-/// What all links have in common.
-Result<LinkInput> link_input(const std::string& name, const SampleSourceOptions& options) {
-  LinkInput input;
-  input.name = name;
-  input.sensor = SensorModel::crazyflie();
-  const Status limits = check_limits(options, input.sensor);
-  if (!limits) return limits.error();
+/// What the options change about any link.
+Status apply(const SampleSourceOptions& options, LinkInput& input) {
+  if (Status limits = check_limits(options, input.sensor); !limits) return limits;
   if (options.range_age) input.sensor.range_age = *options.range_age;
   if (options.max_range_m) input.sensor.max_range_m = *options.max_range_m;
   if (options.min_range_m) input.sensor.min_range_m = *options.min_range_m;
   if (options.beam_count) input.notes.emplace_back(kBeamsIgnored);
-  return input;
+  return {};
 }
 
 Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
                                                    const SampleSourceOptions& options) {
   Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path);
   if (!link) return link.error();
-  Result<LinkInput> common = link_input(path, options);
-  if (!common) return common.error();
-  LinkInput input = std::move(common).value();
+  LinkInput input;
+  input.name = path;
+  if (const Status applied = apply(options, input); !applied) return applied.error();
   for (const std::string& note : (*link)->notes()) input.notes.push_back(note);
   input.progress = [replay = link->get()]() { return std::optional<double>(replay->progress()); };
   input.link = std::move(link).value();
@@ -89,38 +83,16 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   return CarmenSampleSource::open(path, options);
 }
 
-/// Whether the vehicle is there shows in time: a live link waits for it.
-Result<std::unique_ptr<SampleSource>> open_live(const std::string& uri, const InputUri& parsed,
+Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const InputUri& uri,
                                                 const SampleSourceOptions& options) {
-  Result<LinkInput> common = link_input(uri, options);
-  if (!common) return common.error();
-  LinkInput input = std::move(common).value();
+  Result<LinkInput> opened = uri.kind->open(uri.address);
+  if (!opened) return opened.error();
+  LinkInput input = std::move(opened).value();
+  input.name = name;
+  if (const Status applied = apply(options, input); !applied) return applied.error();
   input.recording = options.recording;
   input.starts_logging = true;
-  input.cache_directory = TocCache::default_directory();
-  Result<LiveLink> live = open_live_link(parsed);
-  if (!live) return live.error();
-  input.clock = live->clock;
-  input.usb_bus = live->usb_bus;
-  input.link = std::move(live->link);
-  return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
-}
-
-Result<std::unique_ptr<SampleSource>> open_simulation(const std::string& uri, const InputUri& parsed,
-                                                      const SampleSourceOptions& options) {
-  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(parsed.world, parsed.seed, parsed.laps);
-  if (!link) return link.error();
-  Result<LinkInput> common = link_input(uri, options);
-  if (!common) return common.error();
-  LinkInput input = std::move(common).value();
-  input.recording = options.recording;
-  input.starts_logging = true;
-  input.progress = [simulated = link->get()]() { return std::optional<double>(simulated->progress()); };
-  Result<PoseFile> truth = PoseFile::open();
-  if (!truth) return truth.error();
-  input.truth = KnownTruth{[simulated = link->get()](DeviceTime at) { return simulated->T_world_body(at); },
-                           std::move(truth).value()};
-  input.link = std::move(link).value();
+  if (uri.is(InputNature::kVehicle)) input.cache_directory = TocCache::default_directory();
   return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
 }
 
@@ -132,14 +104,8 @@ Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
   if (!checked) return checked.error();
   const Result<InputUri> parsed = parse_input_uri(uri);
   if (!parsed) return parsed.error();
-  switch (parsed->kind) {
-    case InputUri::Kind::kFile:
-      return open_file(parsed->path, options);
-    case InputUri::Kind::kSimulation:
-      return open_simulation(uri, *parsed, options);
-    default:
-      return open_live(uri, *parsed, options);
-  }
+  if (const auto* file = parsed->as<InputFile>()) return open_file(file->path, options);
+  return open_link(uri, *parsed, options);
 }
 
 }  // namespace swiftlet

@@ -3,13 +3,13 @@
 #include "firmware_link/link/crazyradio.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "firmware_link/link/uri_text.hpp"
 
 namespace swiftlet {
 namespace {
@@ -38,12 +38,6 @@ constexpr Duration kQuiet = std::chrono::milliseconds(10);
 // Longer than any packet takes, retransmissions at 250 kbit/s included.
 constexpr Duration kLongQuiet = std::chrono::milliseconds(25);
 constexpr int kMaxStaleAnswers = 16;
-
-std::string in_capitals(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 /// An index, where the name is one and not a serial number.
 std::optional<std::size_t> index_in(const std::string& name) {

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+
+#include "core/base/result.hpp"
 
 namespace swiftlet {
 
@@ -22,5 +25,10 @@ struct RadioAddress {
   bool safelink = true;
   std::optional<int> rate_limit_hz;  ///< packets a second at most
 };
+
+/// `DONGLE/CHANNEL/RATE/ADDRESS[?safelink=0|1&rate_limit=N]` (DONGLE: index, serial number or *; RATE: 250K,
+/// 1M or 2M; parts missing at the end are RadioAddress's; the address is filled up with zeros from the left).
+/// Error: kInvalidInput: what is wrong.
+[[nodiscard]] Result<RadioAddress> parse_radio_address(std::string_view text);
 
 }  // namespace swiftlet

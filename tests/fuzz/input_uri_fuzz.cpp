@@ -7,6 +7,9 @@
 
 #include "core/base/check.hpp"
 #include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/link/udp_address.hpp"
+#include "firmware_link/simulation/address.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -18,24 +21,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     SWIFTLET_CHECK(parsed.error().message.starts_with("input '" + uri + "': "), "the message names the URI");
     return 0;
   }
-  switch (parsed->kind) {
-    case InputUri::Kind::kFile:
-      SWIFTLET_CHECK(!parsed->path.empty(), "a file has a name");
-      break;
-    case InputUri::Kind::kSimulation:
-      SWIFTLET_CHECK(!parsed->world.empty(), "a world has a name");
-      break;
-    case InputUri::Kind::kRadio:
-      SWIFTLET_CHECK(!parsed->radio.dongle.empty() && parsed->radio.channel <= 125,
-                     "a radio can be set to it");
-      SWIFTLET_CHECK(parsed->radio.rate_limit_hz.value_or(1) > 0, "a rate limit lets something through");
-      break;
-    case InputUri::Kind::kUsbCable:
-      SWIFTLET_CHECK(parsed->usb_index >= 0, "vehicles are counted from 0");
-      break;
-    case InputUri::Kind::kUdp:
-      SWIFTLET_CHECK(!parsed->host.empty() && parsed->port > 0, "a host can be looked up");
-      break;
+  SWIFTLET_CHECK(parsed->kind != nullptr && parsed->address.has_value(), "a good URI names something");
+  if (const auto* file = parsed->as<swiftlet::InputFile>())
+    SWIFTLET_CHECK(!file->path.empty(), "a file has a name");
+  if (const auto* flight = parsed->as<swiftlet::SimulationAddress>())
+    SWIFTLET_CHECK(!flight->world.empty(), "a world has a name");
+  if (const auto* radio = parsed->as<swiftlet::RadioAddress>()) {
+    SWIFTLET_CHECK(!radio->dongle.empty() && radio->channel <= 125, "a radio can be set to it");
+    SWIFTLET_CHECK(radio->rate_limit_hz.value_or(1) > 0, "a rate limit lets something through");
   }
+  if (const auto* cable = parsed->as<swiftlet::UsbCableAddress>())
+    SWIFTLET_CHECK(cable->index >= 0, "vehicles are counted from 0");
+  if (const auto* udp = parsed->as<swiftlet::UdpAddress>())
+    SWIFTLET_CHECK(!udp->host.empty() && udp->port > 0, "a host can be looked up");
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "firmware_link/link/link_condition.hpp"
+#include "firmware_link/link/udp_address.hpp"
 #include "tools/doctor/lcm_checks.hpp"
 #include "tools/doctor/real_time_checks.hpp"
 #include "tools/doctor/storage_checks.hpp"
@@ -17,8 +18,6 @@
 
 namespace swiftlet {
 namespace {
-
-using Kind = InputUri::Kind;
 
 void append(Findings& findings, Findings more) {
   findings.insert(findings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -39,15 +38,15 @@ bool check_access(const Surroundings& around, const UsbIdentity& device, Finding
   return usable;
 }
 
-bool check_radio(const InputUri& uri, const Surroundings& around, Findings& findings) {
+bool check_radio(const RadioAddress& radio, const Surroundings& around, Findings& findings) {
   const PluggedIn plugged_in = around.usb_bus != nullptr ? look_at_bus(*around.usb_bus) : PluggedIn{};
   findings.push_back(plugged_in.vehicles.empty()
                          ? Finding{Mark::kSkipped, "cable", "radio:// needs none", ""}
                          : Finding{Mark::kOk, "cable",
                                    "a vehicle is on its cable too; a program that uses it silences its radio",
                                    ""});
-  findings.push_back(check_dongle(plugged_in, uri.radio, around.files));
-  const std::optional<UsbIdentity> dongle = named_dongle(plugged_in, uri.radio);
+  findings.push_back(check_dongle(plugged_in, radio, around.files));
+  const std::optional<UsbIdentity> dongle = named_dongle(plugged_in, radio);
   if (!dongle) {
     skip(findings, {"dongle firmware", "permission", "in use", "usb power"}, "no dongle");
     return false;
@@ -57,11 +56,11 @@ bool check_radio(const InputUri& uri, const Surroundings& around, Findings& find
   return check_access(around, *dongle, findings) && firmware.mark != Mark::kProblem;
 }
 
-bool check_usb_cable(const InputUri& uri, const Surroundings& around, Findings& findings) {
+bool check_usb_cable(const UsbCableAddress& cable, const Surroundings& around, Findings& findings) {
   const PluggedIn plugged_in = around.usb_bus != nullptr ? look_at_bus(*around.usb_bus) : PluggedIn{};
   skip(findings, {"dongle", "dongle firmware"}, "usb:// needs none");
-  findings.push_back(check_cable(plugged_in, uri.usb_index, around.files));
-  const std::optional<UsbIdentity> vehicle = named_vehicle(plugged_in, uri.usb_index);
+  findings.push_back(check_cable(plugged_in, cable.index, around.files));
+  const std::optional<UsbIdentity> vehicle = named_vehicle(plugged_in, cable.index);
   if (vehicle) return check_access(around, *vehicle, findings);
   skip(findings, {"permission", "in use", "usb power"}, "no cable");
   return false;
@@ -69,12 +68,12 @@ bool check_usb_cable(const InputUri& uri, const Surroundings& around, Findings& 
 
 /// True: the way to the vehicle is open.
 bool check_devices(const InputUri& uri, const Surroundings& around, Findings& findings) {
-  if (uri.kind == Kind::kRadio) return check_radio(uri, around, findings);
-  if (uri.kind == Kind::kUsbCable) return check_usb_cable(uri, around, findings);
-  const bool is_udp = uri.kind == Kind::kUdp;
+  if (const auto* radio = uri.as<RadioAddress>()) return check_radio(*radio, around, findings);
+  if (const auto* cable = uri.as<UsbCableAddress>()) return check_usb_cable(*cable, around, findings);
+  const bool is_vehicle = uri.is(InputNature::kVehicle);
   skip(findings, {"cable", "dongle", "dongle firmware", "permission", "in use", "usb power"},
-       is_udp ? "udp:// needs none" : "recordings and simulations need none");
-  return is_udp;
+       is_vehicle ? std::string(uri.kind->scheme) + " needs none" : "recordings and simulations need none");
+  return is_vehicle;
 }
 
 std::string uri_of(const RadioAddress& radio) {
@@ -106,18 +105,20 @@ bool has_failed(LinkCondition condition) {
 
 Finding nobody_answers(const InputUri& uri, LinkCondition condition, const Surroundings& around) {
   if (has_failed(condition)) return {Mark::kProblem, "vehicle", std::string(describe(condition)), ""};
-  if (uri.kind == Kind::kRadio) return nobody_on_radio(uri.radio, around);
-  if (uri.kind == Kind::kUsbCable)
+  if (const auto* radio = uri.as<RadioAddress>()) return nobody_on_radio(*radio, around);
+  if (uri.as<UsbCableAddress>() != nullptr)
     return {Mark::kProblem, "vehicle", "it does not answer by its cable", "switch it off and on again"};
-  const std::string place = uri.host + ':' + std::to_string(uri.port);
+  const auto* udp = uri.as<UdpAddress>();
+  if (udp == nullptr) return {Mark::kProblem, "vehicle", "it does not answer", "switch it on"};
+  const std::string place = udp->host + ':' + std::to_string(udp->port);
   return {Mark::kProblem, "vehicle", "nobody answers at " + place,
           "start the simulator: swiftlet sim --world office --udp " + place};
 }
 
 Result<VehicleFacts> ask_vehicle(const InputUri& uri, const Surroundings& around) {
-  const Result<LiveLink> live = around.open_link(uri);
-  if (!live) return live.error();
-  return interview_vehicle(*live->link, *live->clock, around.cache);
+  const Result<LinkInput> input = around.open_link(uri);
+  if (!input) return input.error();
+  return interview_vehicle(*input->link, *input->clock, around.cache);
 }
 
 void check_answers(const InputUri& uri, const Surroundings& around, Findings& findings) {
@@ -142,8 +143,7 @@ Findings examine(const InputUri& uri, const LcmUrl& lcm_url, const Surroundings&
   if (check_devices(uri, around, findings)) {
     check_answers(uri, around, findings);
   } else {
-    const bool is_live = uri.kind == Kind::kRadio || uri.kind == Kind::kUsbCable;
-    const std::string why = is_live ? "cannot be asked before that is solved" : "none here";
+    const char* why = uri.is(InputNature::kVehicle) ? "cannot be asked before that is solved" : "none here";
     skip(findings, {"vehicle"}, why);
     append(findings, skip_vehicle(why));
   }

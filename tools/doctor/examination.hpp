@@ -8,7 +8,8 @@
 
 #include "core/base/result.hpp"
 #include "firmware_link/input/input_uri.hpp"
-#include "firmware_link/input/live_link.hpp"
+#include "firmware_link/input/link_sample_source.hpp"
+#include "firmware_link/link/radio_address.hpp"
 #include "firmware_link/link/usb_device.hpp"
 #include "firmware_link/session/toc_cache.hpp"
 #include "tools/doctor/finding.hpp"
@@ -25,7 +26,7 @@ struct Surroundings {
   UsbBus* usb_bus = nullptr;  ///< nullptr: this machine offers none
   TocCache& cache;
   std::filesystem::path recording_directory;
-  std::function<Result<LiveLink>(const InputUri&)> open_link;
+  std::function<Result<LinkInput>(const InputUri&)> open_link;
   /// Where else that address answers; asked where it does not on its own channel, the link closed.
   std::function<std::vector<RadioAddress>(const RadioAddress&)> scan;
 };

@@ -10,6 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_link/link/radio_address.hpp"
+#include "firmware_link/link/udp_address.hpp"
+#include "firmware_link/simulation/address.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -18,22 +22,24 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(InputUri, TakesReplaysAndPlainPathsAsFiles) {
-  EXPECT_EQ(parse_input_uri("replay:a b/flight.pcap")->path, "a b/flight.pcap");
-  EXPECT_EQ(parse_input_uri("replay:what?.pcap")->path, "what?.pcap");
-  EXPECT_EQ(parse_input_uri("/data/intel.clf.gz")->path, "/data/intel.clf.gz");
-  EXPECT_EQ(parse_input_uri("odd:name.pcap")->path, "odd:name.pcap");
-  EXPECT_EQ(parse_input_uri("radio.pcap")->kind, InputUri::Kind::kFile);
+  EXPECT_EQ(parse_input_uri("replay:a b/flight.pcap")->as<InputFile>()->path, "a b/flight.pcap");
+  EXPECT_EQ(parse_input_uri("replay:what?.pcap")->as<InputFile>()->path, "what?.pcap");
+  EXPECT_EQ(parse_input_uri("/data/intel.clf.gz")->as<InputFile>()->path, "/data/intel.clf.gz");
+  EXPECT_EQ(parse_input_uri("odd:name.pcap")->as<InputFile>()->path, "odd:name.pcap");
+  EXPECT_TRUE(parse_input_uri("radio.pcap")->is(InputNature::kFile));
 }
 
 TEST(InputUri, TakesASimulationWithAndWithoutSeedAndLaps) {
-  const auto plain = parse_input_uri("sim://office");
-  ASSERT_TRUE(plain.ok());
-  EXPECT_EQ(plain->kind, InputUri::Kind::kSimulation);
+  const auto parsed = parse_input_uri("sim://office");
+  ASSERT_TRUE(parsed.ok());
+  const auto* plain = parsed->as<SimulationAddress>();
+  ASSERT_NE(plain, nullptr);
   EXPECT_EQ(plain->world, "office");
   EXPECT_EQ(plain->seed, 1U);
   EXPECT_EQ(plain->laps, 1);
-  EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=1000")->laps, 1000);
-  EXPECT_EQ(parse_input_uri("sim://maze?seed=18446744073709551615")->seed, 18446744073709551615U);
+  EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=1000")->as<SimulationAddress>()->laps, 1000);
+  EXPECT_EQ(parse_input_uri("sim://maze?seed=18446744073709551615")->as<SimulationAddress>()->seed,
+            18446744073709551615U);
 }
 
 struct RadioCase {
@@ -61,20 +67,20 @@ TEST(InputUri, TakesARadioAddressAndFillsInWhatIsMissing) {
   for (const auto& [uri, expected] : cases) {
     const auto parsed = parse_input_uri(uri);
     ASSERT_TRUE(parsed.ok()) << parsed.error().message;
-    EXPECT_EQ(parsed->kind, InputUri::Kind::kRadio) << uri;
-    EXPECT_EQ(parsed->radio.dongle, expected.dongle) << uri;
-    EXPECT_EQ(parsed->radio.channel, expected.channel) << uri;
-    EXPECT_EQ(parsed->radio.rate, expected.rate) << uri;
-    EXPECT_EQ(parsed->radio.address, expected.address) << uri;
-    EXPECT_EQ(parsed->radio.safelink, expected.safelink) << uri;
-    EXPECT_EQ(parsed->radio.rate_limit_hz, expected.rate_limit_hz) << uri;
+    const auto* radio = parsed->as<RadioAddress>();
+    ASSERT_NE(radio, nullptr) << uri;
+    EXPECT_EQ(radio->dongle, expected.dongle) << uri;
+    EXPECT_EQ(radio->channel, expected.channel) << uri;
+    EXPECT_EQ(radio->rate, expected.rate) << uri;
+    EXPECT_EQ(radio->address, expected.address) << uri;
+    EXPECT_EQ(radio->safelink, expected.safelink) << uri;
+    EXPECT_EQ(radio->rate_limit_hz, expected.rate_limit_hz) << uri;
   }
 }
 
 TEST(InputUri, TakesAVehicleOnACable) {
-  EXPECT_EQ(parse_input_uri("usb://0")->kind, InputUri::Kind::kUsbCable);
-  EXPECT_EQ(parse_input_uri("usb://0")->usb_index, 0);
-  EXPECT_EQ(parse_input_uri("usb://99")->usb_index, 99);
+  EXPECT_EQ(parse_input_uri("usb://0")->as<UsbCableAddress>()->index, 0);
+  EXPECT_EQ(parse_input_uri("usb://99")->as<UsbCableAddress>()->index, 99);
 }
 
 struct UdpCase {
@@ -94,9 +100,10 @@ TEST(InputUri, TakesAHostWithAndWithoutAPort) {
   for (const auto& [uri, host, port] : cases) {
     const auto parsed = parse_input_uri(uri);
     ASSERT_TRUE(parsed.ok()) << parsed.error().message;
-    EXPECT_EQ(parsed->kind, InputUri::Kind::kUdp) << uri;
-    EXPECT_EQ(parsed->host, host) << uri;
-    EXPECT_EQ(parsed->port, port) << uri;
+    const auto* udp = parsed->as<UdpAddress>();
+    ASSERT_NE(udp, nullptr) << uri;
+    EXPECT_EQ(udp->host, host) << uri;
+    EXPECT_EQ(udp->port, port) << uri;
   }
 }
 

@@ -17,7 +17,9 @@ namespace swiftlet {
 namespace {
 
 using testing::HasSubstr;
-using Kind = InputUri::Kind;
+
+constexpr const char* kRadio = "radio://0/80/2M/E7E7E7E7E7";
+constexpr const char* kUdp = "udp://127.0.0.1:19850";
 
 class WorkingNetwork final : public Network {
  public:
@@ -50,11 +52,8 @@ class Examination : public testing::Test {
     variables_ = ScriptedVehicle::modern_variables();
   }
 
-  Findings run(Kind kind) {
-    InputUri uri;
-    uri.kind = kind;
-    uri.host = "127.0.0.1";
-    uri.port = 19850;
+  Findings run(const char* input) {
+    const InputUri uri = parse_input_uri(input).value();
     const Surroundings around{.files = system_.files(),
                               .network = network_,
                               .usb_bus = &bus_,
@@ -92,16 +91,16 @@ class Examination : public testing::Test {
   int open_links_ = 0;
 
  private:
-  Result<LiveLink> open_link() {
+  Result<LinkInput> open_link() {
     ++links_;
     auto link = std::make_unique<CountedLink>(open_links_);
     link->scripted.vehicle.variables = variables_;
     link->condition = condition_;
     link->scripted.reaches = [this](std::int64_t) { return vehicle_answers_; };
-    LiveLink live;
-    live.clock = std::make_shared<ScriptedClock>(link->scripted);
-    live.link = std::move(link);
-    return live;
+    LinkInput input;
+    input.clock = std::make_shared<ScriptedClock>(link->scripted);
+    input.link = std::move(link);
+    return input;
   }
 
   WorkingNetwork network_;
@@ -109,7 +108,7 @@ class Examination : public testing::Test {
 };
 
 TEST_F(Examination, AGoodDongleAndVehicleHaveNoProblem) {
-  const Findings findings = run(Kind::kRadio);
+  const Findings findings = run(kRadio);
   for (const Finding& finding : findings) {
     if (finding.check == "battery") continue;  // the scripted vehicle's shows 1 V
     EXPECT_NE(finding.mark, Mark::kProblem) << finding.check << ": " << finding.found;
@@ -120,39 +119,39 @@ TEST_F(Examination, AGoodDongleAndVehicleHaveNoProblem) {
 }
 
 TEST_F(Examination, EveryCheckIsNamedOnceWhateverTheInput) {
-  const std::vector<std::string> by_radio = names(run(Kind::kRadio));
+  const std::vector<std::string> by_radio = names(run(kRadio));
   EXPECT_EQ(std::adjacent_find(by_radio.begin(), by_radio.end()), by_radio.end());
-  EXPECT_EQ(names(run(Kind::kUdp)), by_radio);
-  EXPECT_EQ(names(run(Kind::kSimulation)), by_radio);
-  EXPECT_EQ(names(run(Kind::kUsbCable)), by_radio);
+  EXPECT_EQ(names(run(kUdp)), by_radio);
+  EXPECT_EQ(names(run("sim://office")), by_radio);
+  EXPECT_EQ(names(run("usb://0")), by_radio);
   vehicle_answers_ = false;
-  EXPECT_EQ(names(run(Kind::kRadio)), by_radio);
+  EXPECT_EQ(names(run(kRadio)), by_radio);
   bus_.devices.clear();
-  EXPECT_EQ(names(run(Kind::kRadio)), by_radio);
+  EXPECT_EQ(names(run(kRadio)), by_radio);
 }
 
 TEST_F(Examination, TheVehicleIsNotAskedThroughADongleThatCannotBeUsed) {
   bus_.opening = UsbOutcome::kBusy;
-  const Findings findings = run(Kind::kRadio);
+  const Findings findings = run(kRadio);
   EXPECT_EQ(find(findings, "in use").mark, Mark::kProblem);
   EXPECT_EQ(find(findings, "vehicle").mark, Mark::kSkipped);
   bus_.opening = UsbOutcome::kDone;
   bus_.devices[0].access = UsbOutcome::kAccessDenied;
-  EXPECT_EQ(find(run(Kind::kRadio), "in use").mark, Mark::kSkipped);
+  EXPECT_EQ(find(run(kRadio), "in use").mark, Mark::kSkipped);
   bus_.devices[0] = crazyradio_pa();
   bus_.devices[0].release_bcd = 0x0030;
-  EXPECT_EQ(find(run(Kind::kRadio), "vehicle").mark, Mark::kSkipped);
+  EXPECT_EQ(find(run(kRadio), "vehicle").mark, Mark::kSkipped);
   EXPECT_EQ(links_, 0);
 }
 
 TEST_F(Examination, AVehicleThatDoesNotAnswerIsLookedForElsewhere) {
   vehicle_answers_ = false;
-  EXPECT_THAT(find(run(Kind::kRadio), "vehicle").found, HasSubstr("on any other channel"));
+  EXPECT_THAT(find(run(kRadio), "vehicle").found, HasSubstr("on any other channel"));
   RadioAddress elsewhere;
   elsewhere.channel = 90;
   elsewhere.rate = RadioRate::k250Kbps;
   scanned_ = {elsewhere};
-  const Findings findings = run(Kind::kRadio);
+  const Findings findings = run(kRadio);
   EXPECT_EQ(find(findings, "vehicle").mark, Mark::kProblem);
   EXPECT_THAT(find(findings, "vehicle").found, HasSubstr("radio://0/90/250K/E7E7E7E7E7"));
   EXPECT_EQ(find(findings, "battery").mark, Mark::kSkipped);
@@ -161,26 +160,26 @@ TEST_F(Examination, AVehicleThatDoesNotAnswerIsLookedForElsewhere) {
 TEST_F(Examination, ADongleThatFailsOnTheWayIsNotTheVehiclesFault) {
   vehicle_answers_ = false;
   condition_ = LinkCondition::kDeviceFault;
-  EXPECT_THAT(find(run(Kind::kRadio), "vehicle").found, HasSubstr("fails (I/O error)"));
+  EXPECT_THAT(find(run(kRadio), "vehicle").found, HasSubstr("fails (I/O error)"));
   EXPECT_EQ(scans_, 0);
 }
 
 TEST_F(Examination, UdpNeedsNoDongle) {
   bus_.devices.clear();
-  const Findings findings = run(Kind::kUdp);
+  const Findings findings = run(kUdp);
   EXPECT_THAT(find(findings, "dongle").found, HasSubstr("udp://"));
   EXPECT_EQ(find(findings, "vehicle").mark, Mark::kOk);
   vehicle_answers_ = false;
-  EXPECT_THAT(find(run(Kind::kUdp), "vehicle").remedy, HasSubstr("swiftlet sim"));
+  EXPECT_THAT(find(run(kUdp), "vehicle").remedy, HasSubstr("swiftlet sim"));
   EXPECT_EQ(scans_, 0);
 }
 
 TEST_F(Examination, TheCableTakesTheDonglesPlace) {
-  EXPECT_EQ(find(run(Kind::kUsbCable), "cable").mark, Mark::kProblem);
+  EXPECT_EQ(find(run("usb://0"), "cable").mark, Mark::kProblem);
   UsbIdentity vehicle = plugged_in_at(1, 9, 0x0483, 0x5740);
   vehicle.manufacturer = "Bitcraze AB";
   bus_.devices = {vehicle};
-  const Findings findings = run(Kind::kUsbCable);
+  const Findings findings = run("usb://0");
   EXPECT_EQ(find(findings, "dongle").mark, Mark::kSkipped);
   EXPECT_EQ(find(findings, "cable").mark, Mark::kOk);
   EXPECT_EQ(find(findings, "vehicle").mark, Mark::kOk);
@@ -188,7 +187,7 @@ TEST_F(Examination, TheCableTakesTheDonglesPlace) {
 
 TEST_F(Examination, RecordingsAndSimulationsNeedNeitherDongleNorVehicle) {
   bus_.devices.clear();
-  const Findings findings = run(Kind::kSimulation);
+  const Findings findings = run("sim://office");
   EXPECT_EQ(find(findings, "dongle").mark, Mark::kSkipped);
   EXPECT_EQ(find(findings, "vehicle").mark, Mark::kSkipped);
   EXPECT_EQ(find(findings, "lcm self-test").mark, Mark::kOk);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/simulation/address.hpp"
+
+#include <limits>
+
+#include "firmware_link/link/uri_text.hpp"
+#include "firmware_link/simulation/flight.hpp"
+
+namespace swiftlet {
+namespace {
+
+Status apply(const UriParameter& parameter, SimulationAddress& address) {
+  if (parameter.key == "seed") {
+    constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+    const auto seed = whole_number(parameter.value, std::uint64_t{0}, kMax);
+    if (!seed) return bad_address("the seed must be a whole number from 0 to 18446744073709551615");
+    address.seed = *seed;
+    return {};
+  }
+  if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps");
+  const auto laps = whole_number(parameter.value, 1, kMaxLaps);
+  if (!laps) return bad_address("the laps must be a whole number from 1 to " + std::to_string(kMaxLaps));
+  address.laps = *laps;
+  return {};
+}
+
+}  // namespace
+
+Result<SimulationAddress> parse_simulation_address(std::string_view text) {
+  const Result<std::vector<UriParameter>> parameters = take_parameters(text);
+  if (!parameters) return parameters.error();
+  SimulationAddress address{.world = std::string(text)};
+  if (address.world.empty()) return bad_address("names no world");
+  for (const UriParameter& parameter : *parameters)
+    if (const Status applied = apply(parameter, address); !applied) return applied.error();
+  return address;
+}
+
+}  // namespace swiftlet
