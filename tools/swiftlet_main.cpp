@@ -12,6 +12,7 @@
 #include "core/sensing/range_sample.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/simulation/flight.hpp"
+#include "firmware_link/simulation/world.hpp"
 #include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
@@ -37,6 +38,13 @@ int refuse(std::string message) {
 /// What ends of itself.
 std::string finite_inputs() { return swiftlet::input_forms({InputNature::kSimulation, InputNature::kFile}); }
 
+std::string worlds_text() {
+  std::string text = "Worlds:";
+  for (const swiftlet::WorldPlan& world : swiftlet::simulated_worlds())
+    text.append("\n  ").append(world.name).append(": ").append(world.text);
+  return text;
+}
+
 CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
@@ -50,14 +58,14 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
       map->add_flag("--odometry-only", command.odometry_only, "Correct nothing: a baseline");
   map->add_flag("--frontend-only", command.frontend_only, "Walls but no loop closures: a baseline")
       ->excludes(odometry);
+  map->footer(worlds_text());
   return map;
 }
 
 CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
   CLI::App* sim = app.add_subcommand(
       "sim", "Put a simulated vehicle on UDP, to practise on; reads instructions from stdin, try help");
-  sim->add_option("--world", command.world, "office, maze, loop, corridors, wings or patrol")
-      ->capture_default_str();
+  sim->add_option("--world", command.world, "One of those below")->capture_default_str();
   sim->add_option("--seed", command.seed, "Of all noise: the same seed is the same vehicle")
       ->capture_default_str();
   sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();
@@ -76,6 +84,7 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
   sim->add_option("--duplicates", command.duplicates_percent, "Percent of packets from the vehicle doubled")
       ->check(CLI::Range(0.0, 100.0));
   sim->add_option("--missing-deck", command.missing_decks, "flow or multiranger; may be given twice");
+  sim->footer(worlds_text());
   return sim;
 }
 

@@ -8,9 +8,10 @@
 
 #include "firmware_link/simulation/world.hpp"
 
-// The worlds of simulated_world.hpp. Coordinates are metres, x to the right, y up the page. Corridors are
-// about 2 m wide and doors 0.9 m, as in the buildings where the vehicle flies, so that its 2 to 3 m of useful
-// range meet walls. Cupboards and pillars keep one corridor from looking exactly like the next.
+// The worlds of world.hpp, a row each in the table at the end. Coordinates are metres, x to the right, y up
+// the page. Corridors are about 2 m wide and doors 0.9 m, as in the buildings where the vehicle flies, so
+// that its 2 to 3 m of useful range meet walls. Cupboards and pillars keep one corridor from looking exactly
+// like the next.
 namespace swiftlet {
 namespace {
 
@@ -271,27 +272,30 @@ std::vector<Waypoint> patrol_flight() {
   return {{{1.2, 1.2}}, {{6.8, 1.2}}, {{6.8, 4.8}, kTravel, 2.0 * kPi}, {{1.2, 4.8}}, {{1.2, 1.2}}};
 }
 
-struct NamedWorld {
-  std::string_view name;
-  std::vector<WallSegment> (*walls)();
-  std::vector<Waypoint> (*flight)();
+constexpr std::array kWorlds{
+    WorldPlan{"office", "20 m x 15 m, a corridor ring with rooms on both sides", office_walls, office_flight},
+    WorldPlan{"maze", "14 m x 10 m of cells of 2 m", maze_walls, maze_flight},
+    WorldPlan{"loop", "25 m x 15 m, one corridor around a block", loop_walls, loop_flight},
+    WorldPlan{"corridors", "24 m x 14 m, three corridors across three", corridors_walls, corridors_flight},
+    WorldPlan{"wings", "the corridors, those of one half 20 degrees askew", wings_walls, wings_flight},
+    WorldPlan{"patrol", "one room of 8 m x 6 m, flown round in a minute", patrol_walls, patrol_flight},
 };
-constexpr std::array<NamedWorld, 6> kWorlds{{{"office", office_walls, office_flight},
-                                             {"maze", maze_walls, maze_flight},
-                                             {"loop", loop_walls, loop_flight},
-                                             {"corridors", corridors_walls, corridors_flight},
-                                             {"wings", wings_walls, wings_flight},
-                                             {"patrol", patrol_walls, patrol_flight}}};
 
 }  // namespace
 
-std::string_view simulated_world_names() { return "office, maze, loop, corridors, wings, patrol"; }
+std::span<const WorldPlan> simulated_worlds() { return kWorlds; }
+
+std::string simulated_world_names() {
+  std::string names(kWorlds.front().name);
+  for (const WorldPlan& world : simulated_worlds().subspan(1)) names.append(", ").append(world.name);
+  return names;
+}
 
 Result<SimulatedWorld> make_simulated_world(std::string_view name) {
-  for (const NamedWorld& world : kWorlds)
+  for (const WorldPlan& world : kWorlds)
     if (world.name == name) return SimulatedWorld{world.walls(), world.flight()};
   return Error{ErrorCode::kNotFound, "no simulated world is called \"" + std::string(name) +
-                                         "\"; choose one of: " + std::string(simulated_world_names())};
+                                         "\"; choose one of: " + simulated_world_names()};
 }
 
 }  // namespace swiftlet

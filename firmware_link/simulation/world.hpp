@@ -39,11 +39,18 @@ struct SimulatedWorld {
   std::vector<Waypoint> flight;
 };
 
-/// The names that make_simulated_world() knows, as a list for people: "office, maze, loop, corridors, wings,
-/// patrol".
-[[nodiscard]] std::string_view simulated_world_names();
+/// A world that can be chosen: one row of the table in floor_plans.cpp, from which all else about it derives.
+struct WorldPlan {
+  std::string_view name;
+  std::string_view text;  ///< what it is, for help
+  std::vector<WallSegment> (*walls)() = nullptr;
+  std::vector<Waypoint> (*flight)() = nullptr;
+};
+[[nodiscard]] std::span<const WorldPlan> simulated_worlds();
+/// "office, maze, loop"
+[[nodiscard]] std::string simulated_world_names();
 
-/// The floor plan of that name. kNotFound: no such world; the message lists those there are.
+/// The world of that name. kNotFound: no such world; the message lists those there are.
 [[nodiscard]] Result<SimulatedWorld> make_simulated_world(std::string_view name);
 
 struct RayHit {

@@ -206,9 +206,8 @@ TEST(SimulatedLink, KnowsTheTruthThatTheEstimateDriftsAwayFrom) {
 TEST(SimulatedLink, ListsTheWorldsForAnUnknownOne) {
   const Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open("cave", 1);
   ASSERT_FALSE(link.ok());
-  EXPECT_EQ(
-      link.error().message,
-      "no simulated world is called \"cave\"; choose one of: office, maze, loop, corridors, wings, patrol");
+  EXPECT_EQ(link.error().message,
+            "no simulated world is called \"cave\"; choose one of: " + simulated_world_names());
 }
 
 }  // namespace
