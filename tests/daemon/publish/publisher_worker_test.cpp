@@ -100,7 +100,7 @@ TEST(PublisherWorker, SaysHowItIsGoingOnceAPeriodWithMapAndWalls) {
   ASSERT_TRUE(
       bench.queues->to_publisher.walls.producer().try_push({.id = LandmarkId{2}, .start_map = {1.0, 2.0}}));
   ASSERT_TRUE(bench.queues->to_publisher.walls.producer().try_push({.id = LandmarkId{1}}));
-  bench.queues->to_publisher.input.store({.samples = 17});
+  bench.queues->to_publisher.input.store({.counters = {.samples = 17}});
   bench.ticks(1);
   ASSERT_EQ(bench.published.statuses.size(), 1U) << "one at the start";
   bench.ticks(250);
@@ -183,7 +183,7 @@ TEST(PublisherWorker, SendsATileThatWasRubbedOutButLeavesItOutOfTheMapsExtent) {
 
 TEST(PublisherWorker, SaysThatItIsFinishingWhenTheInputHasEnded) {
   Bench bench;
-  bench.queues->to_publisher.input.store({.ended = true});
+  bench.queues->to_publisher.input.store({.counters = {}, .ended = true});
   bench.ticks(1);
   EXPECT_EQ(bench.published.statuses.back().state, DaemonState::kFinishing);
 }

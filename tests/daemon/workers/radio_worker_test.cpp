@@ -158,7 +158,7 @@ TEST(RadioWorker, EndsTheInputWhenTold) {
   bench.worker.end_input();
   EXPECT_EQ(bench.worker.step(), StepResult::kFinished);
   EXPECT_TRUE(bench.queue->consumer().closed());
-  EXPECT_EQ(bench.newest_status().samples, 1U);
+  EXPECT_EQ(bench.newest_status().counters.samples, 1U);
 }
 
 }  // namespace
