@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <tuple>
 #include <utility>
+
+#include "core/geometry/grid.hpp"
 
 namespace swiftlet {
 namespace {
@@ -22,37 +23,26 @@ constexpr std::size_t kMinReturns = 8;
 
 double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.y_m; }
 
-struct Cell {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  bool operator<(const Cell& o) const { return std::tie(x, y) < std::tie(o.x, o.y); }
-  bool operator==(const Cell& o) const { return x == o.x && y == o.y; }
-};
-
-Cell cell_of(const Point2& p) {
-  return {static_cast<std::int32_t>(std::floor(p.x_m / kCellM)),
-          static_cast<std::int32_t>(std::floor(p.y_m / kCellM))};
-}
-
 struct Located {
-  Cell cell;
+  CellIndex cell;
   std::uint32_t index = 0;
 };
 
 /// The returns by cell; within a cell in their own order.
-class CellIndex {
+class ReturnsByCell {
  public:
-  explicit CellIndex(std::span<const DrawnReturn> returns) {
-    for (std::uint32_t i = 0; i < returns.size(); ++i) located_.push_back({cell_of(returns[i].p_map), i});
+  explicit ReturnsByCell(std::span<const DrawnReturn> returns) {
+    for (std::uint32_t i = 0; i < returns.size(); ++i)
+      located_.push_back({cell_of(returns[i].p_map, kCellM), i});
     std::stable_sort(located_.begin(), located_.end(),
                      [](const Located& a, const Located& b) { return a.cell < b.cell; });
   }
   /// Cells from `low` to `high` of a column of cells; they lie together.
   [[nodiscard]] std::span<const Located> from_to(std::int32_t x, std::int32_t low, std::int32_t high) const {
-    const auto first = std::lower_bound(located_.begin(), located_.end(), Cell{x, low},
-                                        [](const Located& a, const Cell& c) { return a.cell < c; });
-    const auto last = std::upper_bound(first, located_.end(), Cell{x, high},
-                                       [](const Cell& c, const Located& a) { return c < a.cell; });
+    const auto first = std::lower_bound(located_.begin(), located_.end(), CellIndex{x, low},
+                                        [](const Located& a, const CellIndex& c) { return a.cell < c; });
+    const auto last = std::upper_bound(first, located_.end(), CellIndex{x, high},
+                                       [](const CellIndex& c, const Located& a) { return c < a.cell; });
     return {first, last};
   }
   [[nodiscard]] std::span<const Located> all() const { return located_; }
@@ -90,9 +80,9 @@ struct Moments {
 
 /// Of the face around a return, towards who sees it.
 std::optional<Point2> normal_at(const DrawnReturn& at, std::span<const DrawnReturn> returns,
-                                const CellIndex& cells) {
-  const Cell low = cell_of({at.p_map.x_m - kNeighbourM, at.p_map.y_m - kNeighbourM});
-  const Cell high = cell_of({at.p_map.x_m + kNeighbourM, at.p_map.y_m + kNeighbourM});
+                                const ReturnsByCell& cells) {
+  const CellIndex low = cell_of({at.p_map.x_m - kNeighbourM, at.p_map.y_m - kNeighbourM}, kCellM);
+  const CellIndex high = cell_of({at.p_map.x_m + kNeighbourM, at.p_map.y_m + kNeighbourM}, kCellM);
   Moments moments;
   for (std::int32_t x = low.x; x <= high.x; ++x) {
     for (const Located& near : cells.from_to(x, low.y, high.y)) {
@@ -167,11 +157,11 @@ void split_cell(std::vector<OnWall> left, WallPatches& result) {
 WallPatches find_wall_patches(std::span<const DrawnReturn> returns) {
   WallPatches result;
   result.patch_of.assign(returns.size(), WallPatches::kNone);
-  const CellIndex cells(returns);
+  const ReturnsByCell cells(returns);
   const std::span<const Located> all = cells.all();
   for (std::size_t begin = 0; begin < all.size();) {
     std::vector<OnWall> in_cell;
-    const Cell cell = all[begin].cell;
+    const CellIndex cell = all[begin].cell;
     for (; begin < all.size() && all[begin].cell == cell; ++begin) {
       const DrawnReturn& at = returns[all[begin].index];
       if (const std::optional<Point2> normal = normal_at(at, returns, cells))

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry/pose2.hpp"
+#include "core/geometry/grid.hpp"
 
 namespace swiftlet {
 
@@ -25,9 +24,9 @@ class CellNumbers {
   }
   /// Precondition: not more cells than reset() was told.
   std::uint32_t number_of(const Point2& p) {
-    const auto x = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / cell_m_)));
-    const auto y = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / cell_m_)));
-    const std::uint64_t cell = (std::uint64_t{x} << 32U) | y;
+    const CellIndex at_p = cell_of(p, cell_m_);
+    const std::uint64_t cell =
+        (std::uint64_t{static_cast<std::uint32_t>(at_p.x)} << 32U) | static_cast<std::uint32_t>(at_p.y);
     std::uint64_t at = (cell * 0x9E3779B97F4A7C15U) >> 32U;  // multiplicative hashing (Knuth 1998, 6.4)
     for (;; ++at) {
       Slot& slot = slots_[at & (slots_.size() - 1)];

@@ -66,7 +66,7 @@ void ScanDrawing::apply_beam(const Pose2& T_map_body, const BeamEnd& beam, TileS
     const double share = clear_range_m_ / length_m;
     clear_end = in_cells({beam.end_body.x_m * share, beam.end_body.y_m * share});
   }
-  walk_cells(start, clear_end, [&](CellIndex cell) { store_.add_miss(cell, change); });
+  walk_ray(start, clear_end, [&](CellIndex cell) { store_.add_miss(cell, change); });
   if (beam.is_hit) store_.add_hit(cell_of(end), change);
 }
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/mapping/cell_walk.hpp"
+#include "core/geometry/grid.hpp"
 #include "core/mapping/map_config.hpp"
 #include "core/mapping/map_tile.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/loop_closing/grid_geometry.hpp"
+#include "core/geometry/grid.hpp"
 
 namespace swiftlet {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/backend/config/backend_config.hpp"
-#include "core/backend/loop_closing/grid_geometry.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/base/ids.hpp"
+#include "core/geometry/grid.hpp"
 
 namespace swiftlet {
 

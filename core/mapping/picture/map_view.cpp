@@ -66,8 +66,8 @@ int round_down(int value, int step) {
 
 MapView::MapView(const MapScene& scene) : resolution_m_(scene.resolution_m) {
   const Extent extent = extent_of(scene);
-  const CellIndex low = cell_of({extent.low.x_m / resolution_m_, extent.low.y_m / resolution_m_});
-  const CellIndex high = cell_of({extent.high.x_m / resolution_m_, extent.high.y_m / resolution_m_});
+  const CellIndex low = cell_of(extent.low, resolution_m_);
+  const CellIndex high = cell_of(extent.high, resolution_m_);
   const int longest_cells = std::max(high.x - low.x, high.y - low.y) + 1;
   px_in_cell_ = std::clamp(kMaxSidePx / longest_cells, 1, kMaxPxInCell);
   cells_in_px_ = (longest_cells + kMaxSidePx - 1) / kMaxSidePx;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include "core/mapping/cell_walk.hpp"
+#include "core/geometry/grid.hpp"
 #include "core/mapping/picture/map_scene.hpp"
 #include "core/mapping/picture/painter.hpp"
 

@@ -24,7 +24,7 @@ constexpr double kProbeM = 0.05;
 
 bool occupied_near(const Point2& p_map, double resolution_m,
                    const std::function<bool(CellIndex)>& is_occupied) {
-  const CellIndex centre = cell_of({p_map.x_m / resolution_m, p_map.y_m / resolution_m});
+  const CellIndex centre = cell_of(p_map, resolution_m);
   const int reach = static_cast<int>(std::lround(kReachM / resolution_m));
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
@@ -44,7 +44,7 @@ std::vector<Point2> cells_around(const MapSegment& wall, double reach_m, double 
     for (int across = -reach; across <= reach; ++across) {
       const double x_m = wall.start_map.x_m + (along_m * dx - across * resolution_m * dy) / length_m;
       const double y_m = wall.start_map.y_m + (along_m * dy + across * resolution_m * dx) / length_m;
-      const CellIndex cell = cell_of({x_m / resolution_m, y_m / resolution_m});
+      const CellIndex cell = cell_of({x_m, y_m}, resolution_m);
       if (is_occupied(cell)) cells.insert({cell.x, cell.y});
     }
   }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/mapping/cell_walk.hpp"
+#include "core/geometry/grid.hpp"
 #include "core/mapping/picture/map_scene.hpp"
 
 namespace swiftlet {
