@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "core/geometry/grid.hpp"
+#include "core/geometry/moments2.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr double kCellM = 0.5;
 constexpr double kNeighbourM = 0.3;  // how far around a return its wall is looked for
-constexpr int kMinNeighbours = 6;
+constexpr std::size_t kMinNeighbours = 6;
 constexpr double kMinLengthM2 = 0.003;  // variance along the wall: shorter stretches have no direction
 constexpr double kMaxRatio = 0.35;      // variance across to variance along: more is clutter
 constexpr double kMaxOffM = 0.12;       // of a return from its patch
@@ -51,49 +52,30 @@ class ReturnsByCell {
   std::vector<Located> located_;
 };
 
-/// Moments of the points around a place.
-struct Moments {
-  int count = 0;
-  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-  void add(double dx, double dy) {
-    ++count;
-    x += dx;
-    y += dy;
-    xx += dx * dx;
-    xy += dx * dy;
-    yy += dy * dy;
-  }
-  /// Unit normal of the line through them; nothing where they are no clear line.
-  [[nodiscard]] std::optional<Point2> normal() const {
-    if (count < kMinNeighbours) return std::nullopt;
-    const double n = count;
-    const double cxx = xx / n - x * x / (n * n);
-    const double cxy = xy / n - x * y / (n * n);
-    const double cyy = yy / n - y * y / (n * n);
-    const double along = 0.5 * (cxx + cyy) + std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
-    const double across = cxx + cyy - along;
-    if (along < kMinLengthM2 || across > kMaxRatio * along) return std::nullopt;
-    const double direction_rad = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);
-    return Point2{-std::sin(direction_rad), std::cos(direction_rad)};
-  }
-};
+/// Unit normal of the line through points; nothing where they are no clear line.
+std::optional<Point2> normal_of(const Moments2& moments) {
+  if (moments.count < kMinNeighbours) return std::nullopt;
+  const Scatter2 scatter = moments.scatter();
+  if (scatter.along() < kMinLengthM2 || scatter.across() > kMaxRatio * scatter.along()) return std::nullopt;
+  return scatter.normal();
+}
 
 /// Of the face around a return, towards who sees it.
 std::optional<Point2> normal_at(const DrawnReturn& at, std::span<const DrawnReturn> returns,
                                 const ReturnsByCell& cells) {
   const CellIndex low = cell_of({at.p_map.x_m - kNeighbourM, at.p_map.y_m - kNeighbourM}, kCellM);
   const CellIndex high = cell_of({at.p_map.x_m + kNeighbourM, at.p_map.y_m + kNeighbourM}, kCellM);
-  Moments moments;
+  Moments2 moments;
   for (std::int32_t x = low.x; x <= high.x; ++x) {
     for (const Located& near : cells.from_to(x, low.y, high.y)) {
       const DrawnReturn& other = returns[near.index];
       const double dx = other.p_map.x_m - at.p_map.x_m;
       const double dy = other.p_map.y_m - at.p_map.y_m;
       if (dx * dx + dy * dy > kNeighbourM * kNeighbourM) continue;
-      if (dot(other.direction_map, at.direction_map) > 0.0) moments.add(dx, dy);
+      if (dot(other.direction_map, at.direction_map) > 0.0) moments.add({dx, dy});
     }
   }
-  std::optional<Point2> normal = moments.normal();
+  std::optional<Point2> normal = normal_of(moments);
   if (normal && dot(*normal, at.direction_map) > 0.0) normal = Point2{-normal->x_m, -normal->y_m};
   return normal;
 }

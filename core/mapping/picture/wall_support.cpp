@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "core/geometry/moments2.hpp"
+
 namespace swiftlet {
 
 namespace {
@@ -56,22 +58,14 @@ std::vector<Point2> cells_around(const MapSegment& wall, double reach_m, double 
 
 /// The wall's ends, carried onto the line through the points along their main axis.
 MapSegment onto_line_through(const std::vector<Point2>& points, const MapSegment& wall) {
-  Point2 mean;
-  for (const Point2& p : points) mean = {mean.x_m + p.x_m, mean.y_m + p.y_m};
-  const auto n = static_cast<double>(points.size());
-  mean = {mean.x_m / n, mean.y_m / n};
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-  for (const Point2& p : points) {
-    xx += (p.x_m - mean.x_m) * (p.x_m - mean.x_m);
-    xy += (p.x_m - mean.x_m) * (p.y_m - mean.y_m);
-    yy += (p.y_m - mean.y_m) * (p.y_m - mean.y_m);
-  }
-  const double yaw_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  Moments2 moments;  // from the wall's start: small numbers keep their digits
+  for (const Point2& p : points) moments.add({p.x_m - wall.start_map.x_m, p.y_m - wall.start_map.y_m});
+  const Scatter2 scatter = moments.scatter();
+  const Point2 normal = scatter.normal();
   const auto project = [&](const Point2& p) {
-    const double along_m = (p.x_m - mean.x_m) * std::cos(yaw_rad) + (p.y_m - mean.y_m) * std::sin(yaw_rad);
-    return Point2{mean.x_m + along_m * std::cos(yaw_rad), mean.y_m + along_m * std::sin(yaw_rad)};
+    const double across_m = (p.x_m - wall.start_map.x_m - scatter.mean.x_m) * normal.x_m +
+                            (p.y_m - wall.start_map.y_m - scatter.mean.y_m) * normal.y_m;
+    return Point2{p.x_m - across_m * normal.x_m, p.y_m - across_m * normal.y_m};
   };
   return {project(wall.start_map), project(wall.end_map)};
 }
