@@ -7,15 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "core/backend/refinement/local_moments.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace swiftlet {
-
-/// A return drawn in the map: where it lies and which traversal over the place it belongs to.
-struct TraversalPoint {
-  Point2 p_map;
-  std::uint32_t traversal = 0;
-};
 
 /// The wall that other traversals draw around a point: a line through their returns nearby.
 struct LocalWall {
@@ -42,13 +37,13 @@ class WallMap {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
  private:
-  void sort_into_cells();
+  [[nodiscard]] std::vector<TraversalPoint> sorted_into_cells(const std::vector<TraversalPoint>& points);
 
   double radius_m_;
   Point2 origin_m_;
   int width_ = 0;
   int height_ = 0;
-  std::vector<TraversalPoint> points_;      // by cell
+  PointColumns points_;                     // by cell
   std::vector<std::uint32_t> cell_starts_;  // width * height + 1
 };
 
