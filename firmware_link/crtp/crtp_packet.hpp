@@ -12,13 +12,13 @@
 
 namespace swiftlet {
 
-// CRTP as the Crazyflie firmware speaks it: a header byte (port in bits 7..4, link bits 3..2, channel in bits
-// 1..0) and up to 30 data bytes, numbers little-endian.
+// CRTP, the protocol of the Crazyflie firmware: a header byte (port in bits 7..4, link bits 3..2, channel in
+// bits 1..0) and up to 30 data bytes, numbers little-endian.
 
 inline constexpr std::size_t kMaxCrtpPacket = 31;
 using CrtpPacket = FixedVector<std::uint8_t, kMaxCrtpPacket>;
 
-/// A port and a channel: what a packet is about.
+/// A port and a channel.
 struct CrtpTopic {
   std::uint8_t port = 0;
   std::uint8_t channel = 0;
@@ -34,7 +34,7 @@ inline constexpr CrtpTopic kLinkSourceTopic{15, 1};
 
 /// Commands of the tables of contents, version 2: channel 0 of the log and of the param port.
 enum class TocCommand : std::uint8_t { kItem = 2, kInfo = 3 };
-/// What the vehicle tells of itself on the platform version channel.
+/// Queries of the platform version channel.
 enum class VersionQuery : std::uint8_t { kProtocol = 0, kFirmware = 1, kDeviceType = 2 };
 /// Commands of the log port's control channel.
 enum class LogCommand : std::uint8_t {
@@ -66,7 +66,7 @@ inline constexpr std::size_t kMaxLogBytes = 26;
 constexpr std::uint8_t crtp_header(CrtpTopic topic) {
   return static_cast<std::uint8_t>((topic.port << 4) | 0x0C | topic.channel);
 }
-/// Whether a packet is on that port and channel. The link bits say nothing: radios overwrite them.
+/// Whether a packet is on that port and channel. The link bits are ignored: radios overwrite them.
 constexpr bool is_on(std::span<const std::uint8_t> packet, CrtpTopic topic) {
   return !packet.empty() && (packet[0] & 0xF3) == (crtp_header(topic) & 0xF3);
 }
@@ -85,7 +85,7 @@ inline std::span<const std::uint8_t> bytes_of(const CrtpPacket& packet) {
 constexpr std::uint8_t low_byte(unsigned value) { return static_cast<std::uint8_t>(value & 0xFF); }
 constexpr std::uint8_t high_byte(unsigned value) { return static_cast<std::uint8_t>((value >> 8) & 0xFF); }
 
-// The requests a listener sends.
+// The requests that swiftlet sends.
 constexpr CrtpPacket source_request() { return make_crtp_packet(kLinkSourceTopic, {0}); }
 constexpr CrtpPacket version_request(VersionQuery query) {
   return make_crtp_packet(kPlatformVersionTopic, {static_cast<std::uint8_t>(query)});

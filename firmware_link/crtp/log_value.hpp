@@ -10,7 +10,8 @@
 
 namespace swiftlet {
 
-/// Types of log variables as the table of contents numbers them; kHalf only as the type a block fetches.
+/// Types of log variables as the table of contents numbers them; kHalf: only as the type that a block
+/// requests.
 enum class LogType : std::uint8_t {
   kUint8 = 1,
   kUint16 = 2,
@@ -22,14 +23,14 @@ enum class LogType : std::uint8_t {
   kHalf = 8,
 };
 
-/// From the low four bits of a type byte; nullopt for a number without meaning.
+/// From the low four bits of a type byte; nullopt for an undefined number.
 [[nodiscard]] std::optional<LogType> log_type_of(std::uint8_t type_byte);
 /// "uint16", "float", "half" and so on; nullopt for an unknown name.
 [[nodiscard]] std::optional<LogType> log_type_named(std::string_view name);
-/// Bytes on the wire, 1 to 4.
 /// Bit of supervisor.info.
 inline constexpr unsigned kSupervisorFlying = 1U << 4U;
 
+/// Bytes on the wire, 1 to 4.
 [[nodiscard]] std::size_t size_of(LogType type);
 /// The value at the start of `bytes`, exactly: every type fits a double. Precondition: size_of(type) bytes.
 [[nodiscard]] double decode_log_value(LogType type, std::span<const std::uint8_t> bytes);

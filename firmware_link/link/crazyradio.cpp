@@ -39,7 +39,7 @@ constexpr Duration kQuiet = std::chrono::milliseconds(10);
 constexpr Duration kLongQuiet = std::chrono::milliseconds(25);
 constexpr int kMaxStaleAnswers = 16;
 
-/// An index, where the name is one and not a serial number.
+/// The index, if the name is one and not a serial number.
 std::optional<std::size_t> index_in(const std::string& name) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
@@ -50,7 +50,7 @@ std::optional<std::size_t> index_in(const std::string& name) {
 using Opened = std::variant<std::unique_ptr<UsbDevice>, UsbOutcome>;
 
 Opened open_dongle(UsbBus& bus, const UsbIdentity& identity) {
-  // Permission may come this very moment, but then this may be another dongle than the one asked for.
+  // Permission may be granted at this moment, but this may not be the dongle that was requested.
   if (identity.access == UsbOutcome::kAccessDenied) return identity.access;
   if (identity.release_bcd < kOldestCrazyradioRelease) return UsbOutcome::kFault;
   return bus.open(identity, 0);
@@ -157,7 +157,7 @@ RadioAnswer Crazyradio::exchange(std::span<const std::uint8_t> packet) {
   if (failed.outcome != UsbOutcome::kDone) return failed;
   const RadioAnswer answer = exchange_once(packet);
   if (answer.outcome != UsbOutcome::kDone) return answer;
-  // The dongle answers in order: what has another answer behind it was the late one.
+  // The dongle answers in order: an answer that another one follows was the late one.
   const Drained drained = drain(kLongQuiet);
   failed.outcome = drained.outcome == UsbOutcome::kDone ? UsbOutcome::kTimeout : drained.outcome;
   if (drained.outcome != UsbOutcome::kDone || drained.answers > 0) return failed;
@@ -198,7 +198,7 @@ Crazyradio::Drained Crazyradio::drain(Duration quiet) {
     if (drained.outcome != UsbOutcome::kStall) return drained;
     drained.outcome = UsbOutcome::kDone;
   }
-  drained.outcome = UsbOutcome::kFault;  // it talks without being asked
+  drained.outcome = UsbOutcome::kFault;  // it sends without a request
   return drained;
 }
 

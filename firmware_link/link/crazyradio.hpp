@@ -24,15 +24,15 @@ inline constexpr std::uint16_t kCrazyradioProduct = 0x7777;
 inline constexpr std::uint16_t kOldestCrazyradioRelease = 0x0040;
 inline constexpr std::size_t kMaxRadioPayload = 32;
 
-/// Those that a RadioAddress may mean by `name`: an index, a serial number, "*" for all. Where nobody has
-/// that serial number, those that may not be asked for theirs.
+/// The dongles that RadioAddress::dongle selects: by index, by serial number, or all of them ("*"). If none
+/// has that serial number: those whose serial number may not be read.
 [[nodiscard]] std::vector<UsbIdentity> dongles_named(const std::string& name,
                                                      std::vector<UsbIdentity> plugged_in);
 
-/// What became of one packet.
+/// The outcome of one packet.
 struct RadioAnswer {
-  /// kDone: the dongle has answered. kTimeout, kStall: it has not; it was put right, go on. Others: open it
-  /// anew.
+  /// kDone: the dongle has answered. kTimeout, kStall: it has not; it was recovered, continue. Others: reopen
+  /// it.
   UsbOutcome outcome = UsbOutcome::kDone;
   bool acknowledged = false;                            ///< false: all tries were lost
   bool strong = false;                                  ///< received above about -64 dBm
@@ -51,12 +51,12 @@ class Crazyradio {
   /// where the serial numbers may not be read), kBusy, kFault (also firmware before 0.40), kStall, kTimeout.
   [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const RadioAddress& address);
 
-  /// One packet out, its answer in. Takes about 1 ms, 10 ms where nobody answers, 0.25 s where the dongle
-  /// does not. An answer that comes late is thrown away before the next packet. Allocates nothing.
+  /// One packet out, its answer in. Takes about 1 ms, 10 ms without an acknowledgement, 0.25 s without an
+  /// answer of the dongle. A late answer is discarded before the next packet. Allocates nothing.
   /// Precondition: 1 to 32 bytes.
   [[nodiscard]] RadioAnswer exchange(std::span<const std::uint8_t> packet);
 
-  // Settings. What is set already is not sent again.
+  // Settings. A value that is set already is not sent again.
   [[nodiscard]] UsbOutcome set_rate(RadioRate rate);
   /// Precondition: 0..125.
   [[nodiscard]] UsbOutcome set_channel(std::uint8_t channel);
@@ -69,13 +69,13 @@ class Crazyradio {
   [[nodiscard]] UsbOutcome initialise(const RadioAddress& address);
   [[nodiscard]] UsbOutcome request(std::uint8_t request, std::uint16_t value,
                                    std::span<const std::uint8_t> data = {});
-  /// After a failed transfer: brings the endpoint back where that can be done.
+  /// After a failed transfer: makes the endpoint usable again, if possible.
   [[nodiscard]] UsbOutcome recover(std::uint8_t endpoint, UsbOutcome failure);
   struct Drained {
     UsbOutcome outcome = UsbOutcome::kDone;
     int answers = 0;
   };
-  /// Throws away what the dongle has to say until it says no more for that long.
+  /// Discards answers of the dongle until none has come for that long.
   [[nodiscard]] Drained drain(Duration quiet);
   [[nodiscard]] RadioAnswer exchange_once(std::span<const std::uint8_t> packet);
   [[nodiscard]] RadioAnswer decode(std::size_t size) const;
@@ -86,7 +86,7 @@ class Crazyradio {
   std::optional<std::array<std::uint8_t, 5>> address_;
   std::optional<std::uint8_t> retries_;
   bool answer_may_be_late_ = false;
-  /// A whole USB packet: a shorter one would be an overflow where the dongle says more than expected.
+  /// A whole USB packet: a shorter buffer would overflow if the dongle sent more than expected.
   std::array<std::uint8_t, 64> buffer_{};
 };
 

@@ -6,7 +6,7 @@
 
 namespace swiftlet {
 
-/// Takes every frame that a sample source hears or sends, in order: what is needed to hear the same again.
+/// Takes every frame that a sample source receives or sends, in order: what a replay needs.
 class FrameSink {
  public:
   FrameSink() = default;

@@ -97,7 +97,7 @@ class LibusbDevice final : public UsbDevice {
   int interface_;
 };
 
-/// What is plugged in at present, held for as long as this lives.
+/// The devices plugged in at present, held during the lifetime of this object.
 class DeviceList {
  public:
   explicit DeviceList(libusb_context* context) : count_(libusb_get_device_list(context, &devices_)) {}
@@ -158,7 +158,7 @@ Result<std::unique_ptr<UsbBus>> LibusbBus::open() {
   libusb_context* context = nullptr;
   const int code = libusb_init(&context);
   if (code != LIBUSB_SUCCESS)
-    return Error{ErrorCode::kNotFound, std::string("USB cannot be used here: libusb says ") +
+    return Error{ErrorCode::kNotFound, std::string("USB cannot be used here: libusb reports ") +
                                            libusb_error_name(code) + "; is /dev/bus/usb there?"};
   return std::unique_ptr<UsbBus>(new LibusbBus(context));  // its constructor is private
 }
@@ -166,9 +166,9 @@ Result<std::unique_ptr<UsbBus>> LibusbBus::open() {
 LibusbBus::LibusbBus(libusb_context* context) : context_(context) {
   if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG) == 0) return;
   const int events = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT;
-  is_told_of_changes_ = libusb_hotplug_register_callback(
-                            context_, events, 0, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
-                            LIBUSB_HOTPLUG_MATCH_ANY, note_change, &has_changed_, nullptr) == LIBUSB_SUCCESS;
+  reports_changes_ = libusb_hotplug_register_callback(context_, events, 0, LIBUSB_HOTPLUG_MATCH_ANY,
+                                                      LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
+                                                      note_change, &has_changed_, nullptr) == LIBUSB_SUCCESS;
 }
 
 LibusbBus::~LibusbBus() { libusb_exit(context_); }
@@ -204,7 +204,7 @@ std::variant<std::unique_ptr<UsbDevice>, UsbOutcome> LibusbBus::open(const UsbId
 }
 
 bool LibusbBus::has_changed() {
-  if (!is_told_of_changes_) return true;
+  if (!reports_changes_) return true;
   timeval at_once{};
   libusb_handle_events_timeout_completed(context_, &at_once, nullptr);
   return std::exchange(has_changed_, false);

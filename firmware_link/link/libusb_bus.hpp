@@ -28,7 +28,7 @@ class LibusbBus final : public UsbBus {
   explicit LibusbBus(libusb_context* context);
 
   libusb_context* context_;
-  bool is_told_of_changes_ = false;
+  bool reports_changes_ = false;
   bool has_changed_ = false;  ///< set by libusb's callback, within calls of this thread
 };
 

@@ -15,7 +15,7 @@ namespace swiftlet {
 
 enum class LinkDirection : std::uint8_t { kToVehicle, kFromVehicle };
 
-/// One CRTP packet as it passed the link: header byte and up to 30 data bytes.
+/// One CRTP packet of a link: header byte and up to 30 data bytes.
 struct LinkFrame {
   HostTime at{};  ///< when the host received it (sent it, for kToVehicle)
   LinkDirection direction = LinkDirection::kFromVehicle;
@@ -25,9 +25,9 @@ struct LinkFrame {
   [[nodiscard]] std::span<const std::uint8_t> packet() const { return {bytes.data(), size}; }
 };
 
-/// A way to hear a vehicle: radio, USB, UDP, simulation or a recording. Hands over raw frames in the order in
-/// which they passed; those sent to the vehicle are handed back too (a recording holds them, and the log
-/// session learns the block layouts from them). One thread at a time.
+/// A connection to a vehicle: radio, USB, UDP, simulation or a recording. Delivers raw frames in the order in
+/// which they passed, including those sent to the vehicle (a recording holds them, and the log session learns
+/// the block layouts from them). One thread at a time.
 class Link {
  public:
   Link() = default;
@@ -36,12 +36,12 @@ class Link {
   Link& operator=(const Link&) = delete;
 
   /// The next frame. Errors: kTimeout: nothing received in time, try again. kEndOfRecording: a replay or
-  /// simulation is over. kDamaged: the recording is unusable from here; the message names the byte offset.
-  /// A live link outlives everything: dongle pulled, vehicle switched off; it answers kTimeout until the
-  /// vehicle is received again, and statistics() says what it waits for.
+  /// simulation is over. kDamaged: the recording is unusable from here; the message names the byte offset. A
+  /// live link survives a pulled dongle and a vehicle that is switched off: it returns kTimeout until the
+  /// vehicle is received again, and statistics() reports what it waits for.
   [[nodiscard]] virtual Result<LinkFrame> receive(Duration timeout) = 0;
-  /// Hands a packet to the vehicle. A live link sends it within the next receive(), which hands it back as
-  /// sent; what it has no room for is dropped: requests are repeated anyway. A recording ignores it.
+  /// Sends a packet to the vehicle. A live link sends it within the next receive(), which delivers it as
+  /// sent; a packet without room is dropped: requests are repeated anyway. A recording ignores it.
   [[nodiscard]] virtual Status send(std::span<const std::uint8_t> packet) = 0;
   [[nodiscard]] virtual LinkStatistics statistics() const { return {}; }
 };

@@ -21,7 +21,7 @@ class LinkClock {
 
   /// Unix time in whole microseconds, as a recording keeps it; never goes back.
   [[nodiscard]] virtual HostTime now() = 0;
-  /// What it was so long ago by the machine's clock. Simulated time stands still meanwhile.
+  /// The time that long ago by the machine's clock. Simulated time has not passed meanwhile.
   [[nodiscard]] virtual HostTime ago(Duration /*past*/) { return now(); }
   /// What the machine's monotonic clock showed at `at`, a time that now() has passed. Simulated time: shows
   /// now.
@@ -31,8 +31,8 @@ class LinkClock {
   virtual void sleep_for(Duration duration) = 0;
 };
 
-/// Unix time as it was at the start, carried on by the monotonic clock: a correction of the machine's clock
-/// in mid-flight does not reach the stamps.
+/// Unix time as it was at the start, continued by the monotonic clock: a correction of the machine's clock
+/// during a flight does not change the stamps.
 class SystemLinkClock final : public LinkClock {
  public:
   [[nodiscard]] HostTime now() override {

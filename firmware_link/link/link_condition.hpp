@@ -9,10 +9,10 @@
 
 namespace swiftlet {
 
-/// One line for the user: what the link waits for and what to do about it.
+/// One line for the user: what the link waits for and what to do.
 [[nodiscard]] std::string_view describe(LinkCondition condition);
 
-/// How a link stands whose device failed that way. Precondition: not kDone.
+/// The condition of a link whose device failed that way. Precondition: not kDone.
 [[nodiscard]] LinkCondition condition_of(UsbOutcome failure);
 
 }  // namespace swiftlet

@@ -13,17 +13,17 @@
 
 namespace swiftlet {
 
-/// The packet that says nothing: polls, and what a vehicle answers that has nothing to say.
+/// A packet without content: a poll, or the answer of a vehicle that has nothing to send.
 constexpr bool is_null_packet(std::span<const std::uint8_t> packet) {
   return !packet.empty() && (packet[0] & 0xF3) == 0xF3;
 }
 
-/// Whether it holds something for those who listen: neither a null packet nor longer than a packet can be.
+/// Whether it is neither a null packet nor longer than a packet can be.
 constexpr bool has_content(std::span<const std::uint8_t> packet) {
   return !packet.empty() && packet.size() <= kMaxCrtpPacket && !is_null_packet(packet);
 }
 
-/// The same packet but for the link bits.
+/// Whether both are the same packet, apart from the link bits.
 constexpr bool is_same_packet(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
   return !a.empty() && a.size() == b.size() && ((a[0] ^ b[0]) & 0xF3) == 0 &&
          std::ranges::equal(a.subspan(1), b.subspan(1));

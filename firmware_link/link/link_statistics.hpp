@@ -9,31 +9,32 @@
 
 namespace swiftlet {
 
-/// How a live link stands. Those after kSilent are the device's: the link tries again by itself each second.
+/// The condition of a live link. Those after kSilent concern the device: the link retries by itself each
+/// second.
 enum class LinkCondition : std::uint8_t {
   kNone,       ///< not a live link: a recording or a simulation
   kConnected,  ///< the vehicle was received within the last second
   kSilent,     ///< the device works, the vehicle does not answer: switched off, out of range, other address
   kDeviceMissing,    ///< no such dongle or cable plugged in
-  kAccessDenied,     ///< it is there, this user may not open it
-  kDeviceBusy,       ///< another program has it
+  kAccessDenied,     ///< it is plugged in, but this user may not open it
+  kDeviceBusy,       ///< another program uses it
   kDeviceStalls,     ///< it refuses transfers
   kDeviceOverflows,  ///< it sends more than it may
   kDeviceMute,       ///< it does not answer in time
   kDeviceFault,      ///< any other error: I/O
 };
 
-/// What a link counts, since it was made; copied into the status message. Rates are made of differences.
+/// Counters of a link since it was opened; copied into the status message. Rates are differences of them.
 struct LinkStatistics {
   LinkCondition condition = LinkCondition::kNone;
   std::uint64_t packets_sent = 0;  ///< every transmission, polls and repetitions too
   std::uint64_t packets_acked =
       0;  ///< of those, acknowledged (cable: all; UDP: sent while the vehicle is received)
-  std::uint64_t radio_retries = 0;     ///< retransmissions by the dongle, where it tells
+  std::uint64_t radio_retries = 0;     ///< retransmissions by the dongle, if it reports them
   std::uint64_t packets_received = 0;  ///< with content: null packets left out
   std::uint64_t duplicates = 0;        ///< downlink packets received twice and dropped by safelink
   std::uint64_t silences = 0;          ///< times the vehicle was not received for a second or more
-  std::uint64_t device_losses = 0;     ///< times the device had to be opened anew
+  std::uint64_t device_losses = 0;     ///< times the device had to be reopened
   std::uint64_t usb_timeouts = 0;      ///< answers that did not come in time and were drained
   bool safelink = false;               ///< in use at present
 };

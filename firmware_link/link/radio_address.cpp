@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxDongleIndex = 9;  // digits; from 10 on they are a serial number
 constexpr int kLastChannel = 125;
-// Slower than the lower one, the vehicle's log packets would pile up in it.
+// Below the lower one, log packets would accumulate in the vehicle.
 constexpr int kMinRateLimitHz = 20;
 constexpr int kMaxRateLimitHz = 10'000;
 

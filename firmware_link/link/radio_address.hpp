@@ -12,7 +12,7 @@
 
 namespace swiftlet {
 
-/// As the dongle's data rate request numbers them.
+/// Numbered as in the dongle's data rate request.
 enum class RadioRate : std::uint8_t { k250Kbps = 0, k1Mbps = 1, k2Mbps = 2 };
 
 /// Which vehicle, through which dongle: what a radio:// URI names. The defaults are the vehicle's factory

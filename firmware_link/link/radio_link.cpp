@@ -26,8 +26,8 @@ constexpr Duration kSilentPause = std::chrono::milliseconds(50);
 constexpr Duration kMaxPause = std::chrono::milliseconds(500);
 constexpr Duration kAskPeriodInSilence = std::chrono::seconds(1);
 constexpr int kMaxUnansweredAsks = 10;
-// When both sides count alike there are no repeats at all; a vehicle that has rebooted in between knows
-// nothing of safelink and takes half of its packets for repeats.
+// With both counters in step there are no repeats. A vehicle that has rebooted meanwhile has no safelink, and
+// half of its packets look like repeats.
 constexpr int kMaxRepeats = 5;
 constexpr Duration kRepeatWindow = std::chrono::seconds(1);
 constexpr int kMaxFailuresInARow = 10;
@@ -49,15 +49,15 @@ Result<LinkFrame> RadioLink::receive(Duration timeout) {
   HostTime now = clock_.now();
   const HostTime deadline = now + timeout;
   for (;;) {
-    if (to_hand_back_.empty() && now - pause() >= acted_at_) {
+    if (to_deliver_.empty() && now - pause() >= acted_at_) {
       acted_at_ = now;
       if (!silent_ && now - received_at_ >= kSilence) fall_silent();
       if (!radio_) open(now);
       if (radio_) exchange();
     }
-    if (!to_hand_back_.empty()) {
-      const LinkFrame frame = to_hand_back_.front();
-      to_hand_back_.erase_front(1);
+    if (!to_deliver_.empty()) {
+      const LinkFrame frame = to_deliver_.front();
+      to_deliver_.erase_front(1);
       return frame;
     }
     now = clock_.now();
@@ -145,14 +145,14 @@ void RadioLink::ask_for_safelink() {
 
 CrtpPacket RadioLink::next_packet(HostTime now) {
   if (mode_ == Mode::kAsking) {
-    // Not twice in a row: a vehicle whose yes was lost answers only after another packet.
+    // Not twice in a row: a vehicle whose confirmation was lost answers only after another packet.
     const bool asks = silent_ ? now - kAskPeriodInSilence >= asked_at_ : sent_ != Sent::kAsk;
     sent_ = asks ? Sent::kAsk : Sent::kPoll;
     if (asks) asked_at_ = now;
     return asks ? packet_of(kSafelinkRequest) : packet_of(kPollPacket);
   }
   if (unacknowledged_) {
-    sent_ = Sent::kPoll;  // a request among them was handed back already
+    sent_ = Sent::kPoll;  // a request among them was delivered already
     return *unacknowledged_;
   }
   sent_ = requests_.empty() || silent_ ? Sent::kPoll : Sent::kRequest;
@@ -166,7 +166,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
 }
 
 void RadioLink::hand_back(const LinkFrame& frame) {
-  SWIFTLET_CHECK(to_hand_back_.try_push_back(frame), "an exchange yields two frames at most");
+  SWIFTLET_CHECK(to_deliver_.try_push_back(frame), "an exchange yields two frames at most");
 }
 
 void RadioLink::on_frame(const RadioAnswer& answer, HostTime now) {
@@ -197,7 +197,7 @@ void RadioLink::on_while_asking(std::span<const std::uint8_t> payload, HostTime 
     }
     if (++unanswered_asks_ >= kMaxUnansweredAsks) mode_ = Mode::kPlain;
   }
-  // Its counters unknown, the vehicle may say again what it said last.
+  // The vehicle's counters are unknown: it may repeat its last packet.
   if (last_received_ && is_same_packet(bytes_of(*last_received_), payload)) {
     ++statistics_.duplicates;
     return;

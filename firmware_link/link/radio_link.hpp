@@ -23,16 +23,17 @@
 
 namespace swiftlet {
 
-/// A vehicle by radio. The vehicle speaks only when spoken to, so receive() polls: at once while there is
-/// something to hear or to send, else every 5 to 10 ms, every 50 ms while the vehicle is silent.
+/// A vehicle by radio. The vehicle sends only in acknowledgements, so receive() polls: without pause while
+/// there is something to receive or to send, else every 5 to 10 ms, every 50 ms while the vehicle is silent.
 ///
-/// Hands back each request once, with the time and the bytes of its first transmission and before its answer,
-/// whether acknowledged or not; and each packet from the vehicle once, null packets left out, link bits as
-/// they passed. With safelink, what was not acknowledged is sent again until it is. Without, it is not: the
-/// vehicle may have acted on it and only the acknowledgement is lost; who sent the request repeats it when
-/// the answer does not come. Requests that wait when the vehicle falls silent are dropped.
+/// Delivers each request once, with the time and the bytes of its first transmission and before its answer,
+/// whether acknowledged or not; and each packet from the vehicle once, without null packets, link bits as
+/// received. With safelink, an unacknowledged packet is sent again until it is acknowledged. Without, it is
+/// not: the vehicle may have executed it and only the acknowledgement is lost; the sender repeats a request
+/// that is not answered. Requests that wait when the vehicle falls silent are dropped.
 ///
-/// One thread at a time; what it is made with must outlive it. Allocates only while it opens the dongle.
+/// One thread at a time; the arguments of its constructor must outlive it. Allocates only while it opens the
+/// dongle.
 class RadioLink final : public Link {
  public:
   /// The dongle is opened by the first receive().
@@ -71,8 +72,7 @@ class RadioLink final : public Link {
   LinkStatistics statistics_;
 
   RequestQueue requests_;
-  FixedVector<LinkFrame, 2>
-      to_hand_back_;                      ///< one exchange yields a request and its acknowledgement's payload
+  FixedVector<LinkFrame, 2> to_deliver_;  ///< one exchange yields a request and its acknowledgement's payload
   HostTime acted_at_ = HostTime::min();   ///< the last exchange or attempt to open
   HostTime received_at_;                  ///< any acknowledgement
   HostTime active_at_ = HostTime::min();  ///< content, either way

@@ -9,15 +9,15 @@
 
 namespace swiftlet {
 
-/// When a device that is missing or was lost is tried again: a second after the last attempt, or as soon as
+/// When to retry a device that is missing or was lost: a second after the last attempt, or as soon as
 /// something was plugged in or out.
 class ReopenSchedule {
  public:
-  /// How often a link without a device asks.
+  /// How often a link without a device checks.
   static constexpr Duration kCheckPeriod = std::chrono::milliseconds(100);
   static constexpr Duration kRetryPeriod = std::chrono::seconds(1);
 
-  /// Whether to try now; yes counts as an attempt.
+  /// Whether to try now; true counts as an attempt.
   [[nodiscard]] bool is_due(UsbBus& bus, HostTime now) {
     const bool changed = bus.has_changed();
     if (!changed && now < retry_at_) return false;

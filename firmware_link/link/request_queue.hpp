@@ -16,12 +16,12 @@
 namespace swiftlet {
 
 /// Requests that wait to be sent over a live link. Fixed storage; a request that waits already is not queued
-/// twice, and what it has no room for is dropped: requests without an answer are repeated anyway.
+/// twice, and a request without room is dropped: requests without an answer are repeated anyway.
 class RequestQueue {
  public:
   static constexpr std::size_t kCapacity = 8;
 
-  /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet: with those, radios are switched, also off.
+  /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet, which may switch the vehicle off.
   Status push(std::span<const std::uint8_t> packet) {
     if (packet.empty() || packet.size() > kMaxCrtpPacket)
       return Error{ErrorCode::kInvalidInput,

@@ -8,29 +8,29 @@
 
 namespace swiftlet {
 
-/// Asks the vehicle's radio for safelink; it acknowledges with the same three bytes.
+/// Requests safelink from the vehicle's radio, which acknowledges with the same three bytes.
 inline constexpr std::array<std::uint8_t, 3> kSafelinkRequest{0xFF, 0x05, 0x01};
 
-/// Whether an acknowledgement's payload says yes to kSafelinkRequest. The link bits say nothing.
+/// Whether an acknowledgement's payload confirms kSafelinkRequest. The link bits are ignored.
 constexpr bool is_safelink_echo(std::span<const std::uint8_t> payload) {
   return payload.size() == 3 && (payload[0] & 0xF3) == 0xF3 && payload[1] == 0x05 && payload[2] == 0x01;
 }
 
-/// The host's side of safelink: with one bit a direction in each header, both sides tell a packet from its
-/// repetition, so that none is lost and none counts twice however the acknowledgements fare. Allocates
+/// The host's side of safelink: with one bit a direction in each header, both sides distinguish a packet from
+/// its repetition: none is lost and none counts twice, whichever acknowledgements are lost. Allocates
 /// nothing.
 class Safelink {
  public:
   enum class Payload { kNone, kNew, kRepeat };
 
-  /// Both sides start anew when the vehicle has said yes.
+  /// When the vehicle has confirmed safelink: both sides reset their counters.
   constexpr void restart() { up_ = down_ = 0; }
-  /// The header with which a packet is sent. The same until acknowledged(): what was not acknowledged is to
-  /// be sent again unchanged.
+  /// The header with which a packet is sent. The same until acknowledged(): an unacknowledged packet is to be
+  /// sent again unchanged.
   [[nodiscard]] constexpr std::uint8_t header(std::uint8_t header) const {
     return static_cast<std::uint8_t>((header & 0xF3) | (up_ << 3) | (down_ << 2));
   }
-  /// The packet was acknowledged with this payload: what is that worth?
+  /// The packet was acknowledged with this payload. Returns what the payload is.
   constexpr Payload acknowledged(std::span<const std::uint8_t> payload) {
     up_ ^= 1U;
     if (payload.empty()) return Payload::kNone;

@@ -18,13 +18,13 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kSilence = std::chrono::seconds(1);
-constexpr Duration kGreetingPeriod = std::chrono::milliseconds(200);
+constexpr Duration kRegistrationPeriod = std::chrono::milliseconds(200);
 constexpr Duration kMaxPause = std::chrono::milliseconds(100);
-// Datagrams read without a look at the time: a flood of useless ones must not hold receive() for ever.
+// Datagrams read without checking the time: a flood of useless ones must not block receive().
 constexpr int kMaxAtOnce = 64;
 constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
 constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
-// Beyond that the machine's clock was set meanwhile.
+// A longer time means that the machine's clock was set meanwhile.
 constexpr Duration kMaxInSocket = std::chrono::seconds(1);
 
 /// How long ago the kernel received what `message` holds.
@@ -41,7 +41,7 @@ Duration since_arrival(msghdr& message) {
 }
 
 struct Datagram {
-  ssize_t size = -1;  ///< as sent, also where it was longer than there is room; negative: none waits
+  ssize_t size = -1;  ///< as sent, even if longer than the buffer; negative: none waits
   Duration age{};     ///< since it reached the machine
 };
 
@@ -110,7 +110,7 @@ Result<LinkFrame> UdpLink::receive(Duration timeout) {
     // A text this short needs no memory.
     if (now >= deadline) return Error{ErrorCode::kTimeout, "nothing received"};
     const HostTime alive_at =
-        received_at_ ? std::min(sent_at_ + kMaxPause, *received_at_ + kSilence) : greets_at_;
+        received_at_ ? std::min(sent_at_ + kMaxPause, *received_at_ + kSilence) : registers_at_;
     wait_until(std::min(deadline, alive_at), now);
     now = clock_.now();
   }
@@ -119,7 +119,7 @@ Result<LinkFrame> UdpLink::receive(Duration timeout) {
 void UdpLink::note_silence(HostTime now) {
   if (!received_at_ || now - *received_at_ < kSilence) return;
   received_at_.reset();
-  greets_at_ = now;
+  registers_at_ = now;
   statistics_.condition = LinkCondition::kSilent;
   ++statistics_.silences;
 }
@@ -132,10 +132,10 @@ void UdpLink::note_received(HostTime now) {
 void UdpLink::keep_alive(HostTime now) {
   if (received_at_) {
     if (now - sent_at_ >= kMaxPause) transmit(kNullPacket, now);
-  } else if (now >= greets_at_) {
+  } else if (now >= registers_at_) {
     transmit(kRegistration, now);
     transmit(kNullPacket, now);
-    greets_at_ = now + kGreetingPeriod;
+    registers_at_ = now + kRegistrationPeriod;
   }
 }
 
@@ -143,26 +143,26 @@ std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
   while (!requests_.empty()) {
     const CrtpPacket request = requests_.pop();
     if (!transmit(bytes_of(request), now)) continue;
-    handed_back_at_ = std::max(handed_back_at_, now);
-    return frame_of(LinkDirection::kToVehicle, handed_back_at_, bytes_of(request));
+    delivered_at_ = std::max(delivered_at_, now);
+    return frame_of(LinkDirection::kToVehicle, delivered_at_, bytes_of(request));
   }
   return std::nullopt;
 }
 
-/// Reads what has come, up to the first datagram to hand back.
+/// Reads what has arrived, up to the first datagram to deliver.
 std::optional<LinkFrame> UdpLink::take_datagrams() {
   for (int i = 0; i < kMaxAtOnce; ++i) {
     LinkFrame frame;
     const auto [size, age] = read_datagram(socket_, frame.bytes);
     if (size < 0) return std::nullopt;
-    frame.at = std::max(handed_back_at_, clock_.ago(age));
+    frame.at = std::max(delivered_at_, clock_.ago(age));
     note_received(frame.at);
     const bool is_packet = size > 0 && static_cast<std::size_t>(size) <= kMaxCrtpPacket;
     if (is_packet) {
       frame.size = static_cast<std::uint8_t>(size);
       if (!is_null_packet(frame.packet())) {
         ++statistics_.packets_received;
-        handed_back_at_ = frame.at;
+        delivered_at_ = frame.at;
         return frame;
       }
     }
@@ -176,27 +176,28 @@ void UdpLink::wait_until(HostTime wake_at, HostTime now) const {
   static_cast<void>(::poll(&watched, 1, static_cast<int>(left.count())));
 }
 
-/// Whether the system took it.
+/// Whether the system accepted it.
 bool UdpLink::transmit(std::span<const std::uint8_t> packet, HostTime now) {
-  sent_at_ = now;  // also when it fails: no hurry to fail again
+  sent_at_ = now;  // also when it fails: the next attempt can wait
   if (!associated_ && !associate()) return false;
-  // The answer to an earlier datagram that nobody listens (ICMP) fails this call, not this datagram.
+  // An ICMP error for an earlier datagram (port unreachable) fails this call, not this datagram.
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL) >= 0) {
       ++statistics_.packets_sent;
-      if (received_at_) ++statistics_.packets_acked;  // UDP itself does not say
+      if (received_at_) ++statistics_.packets_acked;  // UDP has no acknowledgements
       return true;
     }
     if (errno != ECONNREFUSED) break;
   }
-  // No room in the socket passes; all else may be a network that has changed.
+  // A full socket is temporary; any other error may mean that the network has changed.
   associated_ = errno == EAGAIN || errno == ENOBUFS || errno == ECONNREFUSED;
   return false;
 }
 
 bool UdpLink::associate() {
-  const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
-  static_cast<void>(::connect(socket_, &nobody, sizeof(nobody)));  // forget the way it went before
+  const sockaddr unspecified{.sa_family = AF_UNSPEC, .sa_data = {}};
+  static_cast<void>(
+      ::connect(socket_, &unspecified, sizeof(unspecified)));  // dissolves the previous association
   // The socket interface takes addresses of every family under this type.
   const auto* address = reinterpret_cast<const sockaddr*>(&peer_.address);
   associated_ = ::connect(socket_, address, peer_.size) == 0;

@@ -17,17 +17,17 @@
 namespace swiftlet {
 
 /// A simulated vehicle on UDP: one datagram is one CRTP packet of 1 to 31 bytes, either way. While nothing is
-/// received it greets every 200 ms, in the ways that are in use (`f3` registers with CrazySim, `ff` is the
+/// received it registers every 200 ms, in the ways that are in use (`f3` registers with CrazySim, `ff` is the
 /// client library's scan); then it sends a null packet whenever it has sent nothing for 100 ms, because a
-/// vehicle drops its log after a second without any. What it sends of its own accord is never more than null
-/// packets. Nobody listening, a network that is down: kSilent, and it goes on trying.
+/// vehicle deletes its log blocks after a second without any. Without requests it sends null packets only.
+/// While no vehicle listens or the network is down, the condition is kSilent and the link keeps trying.
 ///
-/// Null packets from the vehicle count as hearing it and are not handed back. Datagrams of other sizes are
+/// Null packets from the vehicle count as received and are not delivered. Datagrams of other sizes are
 /// dropped. A frame is stamped with the time at which it reached the machine, however late it is read.
 /// receive() and send() do not allocate.
 class UdpLink final : public Link {
  public:
-  /// Looks the name up (this may take seconds); IPv4 where it has both, for the vendor's simulators listen to
+  /// Looks the name up (this may take seconds); IPv4 if it has both, because the vendor's simulators support
   /// nothing else. `clock` must keep pace with real time and outlive the link. Errors: kNotFound: there is no
   /// such host. kInvalidInput: no socket to be had.
   [[nodiscard]] static Result<std::unique_ptr<UdpLink>> open(const std::string& host, std::uint16_t port,
@@ -60,11 +60,11 @@ class UdpLink final : public Link {
   int socket_;
   Peer peer_;
   LinkClock& clock_;
-  HostTime handed_back_at_{};  // stamp of the last frame: they never go back
-  bool associated_ = false;    // with the peer: a route to it is known
+  HostTime delivered_at_{};  // stamp of the last frame: they never go back
+  bool associated_ = false;  // with the peer: a route to it is known
   RequestQueue requests_;
   std::optional<HostTime> received_at_;  // since when it is not silent
-  HostTime greets_at_{};                 // while silent
+  HostTime registers_at_{};              // while silent
   HostTime sent_at_{};
   LinkStatistics statistics_{.condition = LinkCondition::kSilent};
 };

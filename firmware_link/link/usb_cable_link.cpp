@@ -106,7 +106,7 @@ void UsbCableLink::watch_silence(HostTime now) {
   if (vehicle_)
     statistics_.condition = LinkCondition::kSilent;
   else
-    requests_.clear();  // whoever plugs it in again has another conversation
+    requests_.clear();  // after it is plugged in again, another session begins
 }
 
 std::optional<LinkFrame> UsbCableLink::send_next(HostTime now) {
@@ -119,7 +119,7 @@ std::optional<LinkFrame> UsbCableLink::send_next(HostTime now) {
 
 std::optional<LinkFrame> UsbCableLink::listen(Duration timeout) {
   const UsbTransfer transfer = vehicle_->bulk_in(kIn, buffer_, std::min(timeout, kMaxRead));
-  if (transfer.outcome == UsbOutcome::kTimeout) return std::nullopt;  // it has nothing to say
+  if (transfer.outcome == UsbOutcome::kTimeout) return std::nullopt;  // it has nothing to send
   if (!check(transfer, kIn)) return std::nullopt;
   received_at_ = clock_.now();
   silent_ = false;

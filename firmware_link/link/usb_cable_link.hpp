@@ -20,14 +20,14 @@
 
 namespace swiftlet {
 
-/// The vehicles on cables, in the order of their indices; among them devices with the same numbers that may
-/// not be asked for their maker.
+/// The vehicles on cables, in the order of their indices; among them devices with the same numbers whose
+/// manufacturer may not be read.
 [[nodiscard]] std::vector<UsbIdentity> vehicles_on_cables(UsbBus& bus);
 
 /// A vehicle on its own USB cable: each transfer is a packet, nothing is lost, nothing is polled. While the
-/// link has it, the vehicle does not answer by radio; the destructor gives it back. Hands back what it sent
-/// as a RadioLink does. One thread at a time; what it is made with must outlive it. Allocates only while it
-/// opens the vehicle.
+/// link has it, the vehicle does not answer by radio; the destructor releases it. Delivers requests as a
+/// RadioLink does. One thread at a time; the arguments of its constructor must outlive it. Allocates only
+/// while it opens the vehicle.
 class UsbCableLink final : public Link {
  public:
   /// `index`: which of the vehicles on cables, from 0. The vehicle is opened by the first receive().
@@ -47,7 +47,7 @@ class UsbCableLink final : public Link {
   void watch_silence(HostTime now);
   [[nodiscard]] std::optional<LinkFrame> send_next(HostTime now);
   [[nodiscard]] std::optional<LinkFrame> listen(Duration timeout);
-  /// Whether the transfer went well; else mends what can be mended, or gives the vehicle up.
+  /// Whether the transfer succeeded; else recovers the endpoint if possible, or gives the vehicle up.
   [[nodiscard]] bool check(UsbTransfer transfer, std::uint8_t endpoint);
 
   UsbBus& bus_;

@@ -19,7 +19,7 @@ enum class UsbOutcome : std::uint8_t {
   kDone,
   kTimeout,       ///< LIBUSB_ERROR_TIMEOUT
   kStall,         ///< LIBUSB_ERROR_PIPE
-  kOverflow,      ///< LIBUSB_ERROR_OVERFLOW: the device sent more than was asked for
+  kOverflow,      ///< LIBUSB_ERROR_OVERFLOW: the device sent more than was requested
   kNoDevice,      ///< LIBUSB_ERROR_NO_DEVICE, NOT_FOUND: unplugged, or never there
   kAccessDenied,  ///< LIBUSB_ERROR_ACCESS
   kBusy,          ///< LIBUSB_ERROR_BUSY: another program has claimed the interface
@@ -28,7 +28,7 @@ enum class UsbOutcome : std::uint8_t {
 
 struct UsbTransfer {
   UsbOutcome outcome = UsbOutcome::kDone;
-  std::size_t size = 0;  ///< bytes transferred, also where it timed out half-way
+  std::size_t size = 0;  ///< bytes transferred, also of a transfer that timed out
   [[nodiscard]] bool done() const { return outcome == UsbOutcome::kDone; }
 };
 
@@ -50,7 +50,7 @@ class UsbDevice {
   [[nodiscard]] virtual UsbTransfer bulk_in(std::uint8_t endpoint, std::span<std::uint8_t> buffer,
                                             Duration timeout) = 0;
   [[nodiscard]] virtual UsbOutcome clear_halt(std::uint8_t endpoint) = 0;
-  /// kNoDevice: it came back as another device: open it anew.
+  /// kNoDevice: it has become another device: reopen it.
   [[nodiscard]] virtual UsbOutcome reset() = 0;
 };
 
@@ -60,11 +60,11 @@ struct UsbIdentity {
   std::uint16_t product = 0;
   std::uint16_t release_bcd = 0;  ///< bcdDevice
   std::uint8_t bus = 0;
-  std::uint8_t address = 0;  ///< new with every plugging in
+  std::uint8_t address = 0;  ///< changes whenever it is plugged in
   std::string manufacturer;
   std::string name;
   std::string serial;
-  UsbOutcome access = UsbOutcome::kDone;  ///< kAccessDenied: it can be seen but not opened
+  UsbOutcome access = UsbOutcome::kDone;  ///< kAccessDenied: it is listed but may not be opened
 };
 
 /// Finds and opens devices. One thread at a time.
@@ -80,7 +80,7 @@ class UsbBus {
   /// Claims `interface`. The device, or why not: kNoDevice, kAccessDenied, kBusy, kFault.
   [[nodiscard]] virtual std::variant<std::unique_ptr<UsbDevice>, UsbOutcome> open(const UsbIdentity& identity,
                                                                                   int interface) = 0;
-  /// Whether a device came or went since the last call (true where the system cannot tell).
+  /// Whether a device was plugged in or out since the last call (true if the system does not report it).
   [[nodiscard]] virtual bool has_changed() = 0;
 };
 
