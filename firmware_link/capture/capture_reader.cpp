@@ -25,7 +25,7 @@ std::optional<CaptureLinkKind> kind_of(std::uint8_t byte) {
   return std::nullopt;
 }
 
-/// nullopt when it holds no packet.
+/// nullopt if it holds no packet.
 std::optional<CaptureRecord> parse_record(std::span<const std::uint8_t> bytes) {
   const std::optional<CaptureLinkKind> kind = bytes.empty() ? std::nullopt : kind_of(bytes[0]);
   if (!kind || bytes.size() <= record_prefix(*kind) || bytes[1] > 1) return std::nullopt;

@@ -18,15 +18,15 @@ struct CaptureRecord {
   LinkFrame frame;
 };
 
-/// Reads a capture record by record, in either byte order, with microseconds or nanoseconds. One thread at a
-/// time.
+/// Reads a capture record by record, in either byte order, with stamps in microseconds or nanoseconds. One
+/// thread at a time.
 class CaptureReader {
  public:
-  /// Errors: kNotFound: no such file. kInvalidInput: a directory, unreadable, empty, or no such capture.
+  /// Errors: kNotFound: no such file. kInvalidInput: a directory, unreadable, empty, or not such a capture.
   [[nodiscard]] static Result<CaptureReader> open(const std::string& path);
 
-  /// The next record that holds a packet. Errors: kEndOfRecording. kDamaged: cut off or garbled; the message
-  /// names the byte offset, and every later call answers the same.
+  /// The next record that holds a packet. Errors: kEndOfRecording. kDamaged: truncated or corrupt; the
+  /// message names the byte offset, and every later call returns the same error.
   [[nodiscard]] Result<CaptureRecord> next();
   /// Back to the first record.
   void rewind();
@@ -35,7 +35,7 @@ class CaptureReader {
   /// Bytes read so far, and in all.
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Records passed over: of an unknown kind, or too short to hold a packet.
+  /// Records skipped: of an unknown kind, or too short to hold a packet.
   [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
  private:

@@ -25,7 +25,7 @@ constexpr mode_t kEverybodyMayRead = 0644;
 
 std::string text_of_error(int error_number) { return std::generic_category().message(error_number); }
 
-/// How many of `bytes` were taken; errno says why not all.
+/// How many of `bytes` were written; if not all, errno holds the reason.
 std::size_t write_all(int file, std::span<const std::uint8_t> bytes) {
   std::size_t taken = 0;
   while (taken < bytes.size()) {
@@ -37,7 +37,7 @@ std::size_t write_all(int file, std::span<const std::uint8_t> bytes) {
   return taken;
 }
 
-/// Bytes of the whole records at the start of `records`, of which only `taken` bytes arrived.
+/// Bytes of the complete records at the start of `records`, of which only `taken` bytes were written.
 std::size_t whole_records(std::span<const std::uint8_t> records, std::size_t taken) {
   std::size_t whole = 0;
   while (whole + kPcapRecordHeader <= taken) {
@@ -58,12 +58,13 @@ Result<CaptureWriter> CaptureWriter::create(const std::string& path, const Captu
   if (file < 0 && refuses && errno == EEXIST)
     return Error{ErrorCode::kInvalidInput, path + ": is there already; choose another name or remove it"};
   if (file < 0) return Error{ErrorCode::kInvalidInput, path + ": cannot be written: " + text_of_error(errno)};
-  static_cast<void>(::flock(file, LOCK_EX | LOCK_NB));  // a courtesy: without it, it is written all the same
+  static_cast<void>(
+      ::flock(file, LOCK_EX | LOCK_NB));  // advisory: without the lock the file is written anyway
   CaptureWriter writer(path, vehicle, file);
   writer.put_file_header();
   const Status written = writer.flush();
   if (written) return writer;
-  if (refuses) ::unlink(path.c_str());  // made a moment ago, and empty
+  if (refuses) ::unlink(path.c_str());  // just created, and empty
   return written.error();
 }
 
@@ -131,11 +132,11 @@ Status CaptureWriter::flush() {
 }
 
 Status CaptureWriter::fail(int error_number, std::size_t taken) {
-  // The header has no length of its own, and nothing of it is worth keeping.
+  // The file holds an incomplete header only.
   const bool has_header = stored_ > 0;
   stored_ += has_header ? whole_records(buffer_, taken) : 0;
   buffer_.clear();
-  // Where even this fails a reader finds the last record cut off, and says so.
+  // If even this fails, a reader reports the last record as truncated.
   static_cast<void>(::ftruncate(file_, static_cast<off_t>(stored_)));
   failure_ = Error{ErrorCode::kOutOfSpace,
                    path_ + ": cannot be written any further: " + text_of_error(error_number)};

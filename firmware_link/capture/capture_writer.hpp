@@ -14,31 +14,31 @@
 
 namespace swiftlet {
 
-/// Writes what CaptureReader reads: little-endian, microseconds, in the order of the calls. Whatever happens,
-/// the file holds whole records only: where the disk takes half of one, the half is cut off again. Holds an
-/// advisory lock on the file (is_being_written). One thread at a time; allocates when it is made.
+/// Writes what CaptureReader reads: little-endian, microseconds, in the order of the calls. The file always
+/// holds complete records only: a partly written record is truncated. Holds an advisory lock on the file
+/// (is_being_written). One thread at a time; allocates when it is opened.
 class CaptureWriter {
  public:
-  enum class Existing { kEmpty, kRefuse };  ///< what happens to a file that is there already
+  enum class Existing { kEmpty, kRefuse };  ///< what is done with a file that exists already
 
-  /// Errors: kInvalidInput: it cannot be created, or is there and refused. kOutOfSpace: the disk did not even
-  /// take the file's header.
+  /// Errors: kInvalidInput: it cannot be created, or exists and is refused. kOutOfSpace: not even the file's
+  /// header could be written.
   [[nodiscard]] static Result<CaptureWriter> create(const std::string& path, const CaptureVehicle& vehicle,
                                                     Existing existing = Existing::kEmpty);
-  /// Writes what is left, without asking whether it arrived: close() does.
+  /// Writes the rest, without checking that it was written: close() does.
   ~CaptureWriter();
   CaptureWriter(CaptureWriter&& other) noexcept;
   CaptureWriter& operator=(CaptureWriter&& other) = delete;
 
   /// Keeps the record until flush(), or until the buffer is full. Errors: kOutOfSpace: disk full or failing;
-  /// final: every later call answers the same. Precondition: at most kMaxCrtpPacket bytes.
+  /// final: every later call returns the same error. Precondition: at most kMaxCrtpPacket bytes.
   [[nodiscard]] Status write(const LinkFrame& frame);
   /// For another vehicle in the same capture.
   void set_vehicle(const CaptureVehicle& vehicle) { vehicle_ = vehicle; }
-  /// Hands all to the operating system: it survives the end of this process, by kill -9 too. Errors: as
+  /// Writes all to the operating system: it survives the end of this process, also by kill -9. Errors: as
   /// write().
   [[nodiscard]] Status flush();
-  /// Hands all to the disk: it survives the end of the machine. Waits for the disk. Nothing may be written
+  /// Writes all to the disk: it survives a power failure. Waits for the disk. Nothing may be written
   /// afterwards. Errors: as write().
   [[nodiscard]] Status close();
 
@@ -57,7 +57,7 @@ class CaptureWriter {
   CaptureVehicle vehicle_;
   int file_ = -1;
   std::vector<std::uint8_t> buffer_;  // whole records
-  std::uint64_t stored_ = 0;          // bytes handed to the operating system
+  std::uint64_t stored_ = 0;          // bytes written to the operating system
   std::optional<Error> failure_;
 };
 

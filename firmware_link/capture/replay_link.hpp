@@ -12,20 +12,20 @@
 
 namespace swiftlet {
 
-/// A capture played as a link, as fast as it is read: both directions of one vehicle. Where several share the
-/// capture it follows the one whose log data comes first.
+/// A capture as a link, as fast as it is read: both directions of one vehicle. If several vehicles share the
+/// capture: of the one whose log data comes first.
 class ReplayLink final : public Link {
  public:
-  /// Reads the capture once to see whom it holds. Errors as CaptureReader::open, and kInvalidInput for a
+  /// Reads the capture once to find its vehicles. Errors as CaptureReader::open, and kInvalidInput for a
   /// capture without a single packet.
   [[nodiscard]] static Result<std::unique_ptr<ReplayLink>> open(const std::string& path);
 
   /// Never waits. Errors: kEndOfRecording, kDamaged.
   [[nodiscard]] Result<LinkFrame> receive(Duration timeout) override;
-  /// Does nothing: the past does not answer.
+  /// Does nothing: a recording does not answer.
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
 
-  /// What to know about the capture: vehicles left out, records passed over.
+  /// For the report: vehicles left out, records skipped.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// Share of the file read, 0 to 1.
   [[nodiscard]] double progress() const;

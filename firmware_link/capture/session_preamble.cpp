@@ -18,11 +18,11 @@
 namespace swiftlet {
 namespace {
 
-// What every firmware with this log port answers beside the key.
+// The rest of the answer, the same of every firmware with this log port.
 constexpr std::uint8_t kMaxBlocks = 16;
 constexpr std::uint8_t kMaxVariables = 128;
 
-/// Collects the frames of one exchange after the other.
+/// Collects the frames of the exchanges in order.
 class Exchanges {
  public:
   explicit Exchanges(HostTime at) : at_(at) {}
@@ -55,7 +55,7 @@ void add_toc_info(const TocInfo& info, Exchanges& exchanges) {
 void add_toc_item(const LogToc& toc, std::uint16_t id, Exchanges& exchanges) {
   const std::optional<CrtpPacket> reply = toc_item_reply(
       kLogTocTopic, {id, static_cast<std::uint8_t>(toc.type_of(id)), std::string(toc.name_of(id))});
-  // It came in one packet, so it fits one.
+  // It was received in one packet, so it fits into one.
   if (reply) exchanges.add(toc_item_request(kLogTocTopic, id), *reply);
 }
 
@@ -73,9 +73,9 @@ void add_start(std::uint8_t id, Duration period, Exchanges& exchanges) {
 }
 
 void add_block(std::uint8_t id, const LogBlock& block, Exchanges& exchanges) {
-  // Who knows an older layout must not append to it.
+  // A reader that knows an older layout must not append to it.
   exchanges.add_control(log_block_request(LogCommand::kDelete, id), LogError::kNone);
-  // A block that nobody saw made, but that exists, is what a listener takes for uncertain.
+  // A reader takes a block for uncertain that exists but whose creation it has not received.
   LogError error = block.uncertain ? LogError::kExists : LogError::kNone;
   CrtpPacket request = log_block_request(LogCommand::kCreate, id);
   for (const LogEntry& entry : block.entries) {

@@ -10,11 +10,10 @@
 
 namespace swiftlet {
 
-/// The exchange that tells a listener who joins now what `session` has learnt so far: the key of the table of
-/// contents, the names of the variables in use, and each log block anew: delete, create, append and
-/// start with their replies. A recording that begins with it can be read on its own; one that meets it again
-/// in the middle reads on as before. All frames bear the time `at`. Precondition: no create or append is
-/// unanswered.
+/// The exchange from which a reader learns what `session` has learnt so far: the key of the table of
+/// contents, the names of the variables in use, and each log block: delete, create, append and start with
+/// their replies. A recording that begins with it can be read on its own; in the middle of a recording it
+/// changes nothing. All frames have the time `at`. Precondition: no create or append is unanswered.
 [[nodiscard]] std::vector<LinkFrame> session_preamble(const LogSession& session, HostTime at);
 
 }  // namespace swiftlet

@@ -13,17 +13,17 @@
 
 namespace swiftlet {
 
-/// The lines of a text file, plain or gzip (told by content). One thread at a time.
+/// The lines of a text file, plain or gzip (detected by content). One thread at a time.
 class GzipLines {
  public:
   /// Errors: as size_of_input_file.
   [[nodiscard]] static Result<GzipLines> open(const std::string& path);
 
   /// The next line without its end; valid until the next call. Errors: kEndOfRecording. kDamaged: the gzip
-  /// stream is cut off or garbled; the message names the byte offset in the file. The lines before it were
-  /// delivered, a line cut in two was not.
+  /// stream is truncated or corrupt; the message names the byte offset in the file. The lines before it were
+  /// delivered, a truncated line was not.
   [[nodiscard]] Result<std::string_view> next();
-  /// Of the line that next() gave last, from 1.
+  /// The number of the line that next() returned last, from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
 
  private:

@@ -10,10 +10,10 @@
 namespace swiftlet {
 
 /// Size in bytes of a file that can be read. Errors: kNotFound: no such file. kInvalidInput: a directory or
-/// device, no permission, or empty. The message is fit for the user.
+/// device, no permission, or empty. The message is written for the user.
 [[nodiscard]] Result<std::uint64_t> size_of_input_file(const std::string& path);
 
-/// By content: any pcap, classic or not, begins in one of a few ways. False where it cannot be read.
+/// By content: the magic numbers of pcap files, classic or not. False if it cannot be read.
 [[nodiscard]] bool begins_like_capture(const std::string& path);
 
 }  // namespace swiftlet

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBufferSize = 65'536;
 
-/// As it lies in the file, which this process alone reads.
+/// The layout in the file, which only this process reads.
 struct Record {
   std::int64_t stamp_ns;
   double x_m;
@@ -31,7 +31,7 @@ Result<PoseFile> PoseFile::open() {
                                              failure.message() + "; make room there"};
 }
 
-/// With a buffer of our own: else the first write would allocate one.
+/// With its own buffer: else the first write would allocate one.
 PoseFile::PoseFile(std::FILE* file) : buffer_(std::make_unique<char[]>(kBufferSize)), file_(file) {
   static_cast<void>(std::setvbuf(file, buffer_.get(), _IOFBF, kBufferSize));
 }

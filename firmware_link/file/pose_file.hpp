@@ -11,18 +11,18 @@
 
 namespace swiftlet {
 
-/// Poses kept on disk, so that memory stays the same however many they are. One thread at a time.
+/// Poses kept on disk, so that memory does not grow with their number. One thread at a time.
 class PoseFile {
  public:
-  /// The file lies among the temporary ones without a name and is gone with this object. kInvalidInput: it
-  /// cannot be made. Allocates.
+  /// The file is a temporary one without a name and disappears with this object. kInvalidInput: it cannot be
+  /// created. Allocates.
   [[nodiscard]] static Result<PoseFile> open();
 
-  /// Writes to the disk now and then; allocates nothing. A failure is remembered.
+  /// Writes to the disk when its buffer is full; allocates nothing. A failure is remembered.
   void push_back(const StampedPose& pose);
-  /// All were written so far.
+  /// Whether all were written so far.
   [[nodiscard]] bool is_complete() const { return !failed_; }
-  /// In the order in which they came; of an incomplete file, what can be read. Allocates.
+  /// In the order of push_back(); of an incomplete file, what can be read. Allocates.
   [[nodiscard]] std::vector<StampedPose> read() const;
 
  private:

@@ -13,12 +13,12 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
-// After a second without the radio the vehicle gives the link up, and so do we: what it did meanwhile is a
-// guess. Its estimate runs on all the same, so that the guess is a good one as long as the step across the
-// hole is one that it can have flown; after half a minute it may have landed and been carried.
+// After a second without the radio the vehicle gives up the link, and so does the source: the motion
+// meanwhile is a guess. The estimate runs on aboard, so the guess is good if the vehicle can have flown the
+// step across the hole; after half a minute it may have landed and been carried.
 constexpr Duration kUnwatched = std::chrono::seconds(1);
 constexpr Duration kLinkLost = std::chrono::seconds(30);
-// A vehicle that talks without end, and never of what samples are made of, must not hold the caller.
+// A vehicle that sends without end, but nothing that samples need, must not block the caller.
 constexpr int kMaxFramesAtOnce = 64;
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
 
@@ -114,7 +114,7 @@ void LinkSampleSource::on_frame(const LinkFrame& frame) {
   assembler_.add(ground_.hold(*reading));
 }
 
-/// A recording has to hold the names too, or it could not be replayed.
+/// A recording needs the names too, or it could not be replayed.
 void LinkSampleSource::on_cached_toc(HostTime at) {
   for (const CrtpPacket& reply : live_->take_cached_replies()) {
     const LinkFrame frame = frame_of(LinkDirection::kFromVehicle, at, bytes_of(reply));
@@ -125,7 +125,7 @@ void LinkSampleSource::on_cached_toc(HostTime at) {
 
 Status LinkSampleSource::answer_failure(const Error& error) {
   if (error.code == ErrorCode::kTimeout) {
-    now_ += kReceiveTimeout;  // of a clock, the next look sets it right
+    now_ += kReceiveTimeout;  // with a clock, the next call corrects it
     return error;
   }
   assembler_.end();
@@ -176,7 +176,7 @@ std::string LinkSampleSource::explain_no_samples() const {
   const bool has_data = extractor_.finds_ranges() || extractor_.finds_position() || extractor_.finds_yaw();
   if (!has_data && unreadable.unknown_block > 0)
     return input_.name +
-           ": nothing in it tells what its log blocks hold (no table of contents); describe them in " +
+           ": the contents of its log blocks are unknown (no table of contents); describe them in " +
            input_.name +
            ".toml: [[block]] id = 1, variables = [ { name = \"range.front\", type = \"uint16\" }, ... ]";
   if (!extractor_.finds_ranges())

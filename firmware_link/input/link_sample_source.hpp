@@ -28,22 +28,23 @@
 
 namespace swiftlet {
 
-/// What a simulation knows of its vehicle, and where it is kept for the end.
+/// The true poses of a simulated vehicle, and the file that keeps them.
 struct KnownTruth {
   std::function<Pose2(DeviceTime)> T_world_body_at;
   PoseFile kept;
 };
 
-/// What a LinkSampleSource is made of.
+/// The parts of a LinkSampleSource.
 struct LinkInput {
-  std::string name;                  ///< for messages: path or URI
-  std::shared_ptr<LinkClock> clock;  ///< of a live link; without one time is what the frames say
-  std::shared_ptr<UsbBus> usb_bus;   ///< what the link uses, if anything
+  std::string name;  ///< for messages: path or URI
+  std::shared_ptr<LinkClock>
+      clock;                        ///< of a live link; without a clock the stamps of the frames are the time
+  std::shared_ptr<UsbBus> usb_bus;  ///< used by the link, or nullptr
   std::unique_ptr<Link> link;
   SensorModel sensor = SensorModel::crazyflie();
-  bool starts_logging = false;  ///< a vehicle that answers: ask it for the log; otherwise only listen
-  std::filesystem::path cache_directory;  ///< of tables of contents; empty: remembered only while running
-  FrameSink* recording = nullptr;         ///< hears every frame too; must outlive the source
+  bool starts_logging = false;            ///< request the log from the vehicle; otherwise only receive
+  std::filesystem::path cache_directory;  ///< of tables of contents; empty: kept in memory only
+  FrameSink* recording = nullptr;         ///< receives every frame too; must outlive the source
   std::optional<BlockDescription> description;
   std::vector<std::string> notes;
   std::function<std::optional<double>()> progress;  ///< may be empty
@@ -51,14 +52,14 @@ struct LinkInput {
 };
 
 /// Range samples from a vehicle, live or recorded: link, log session and assembler in one. One thread at a
-/// time. next() allocates nothing once samples flow and a live vehicle has been asked about itself, some
-/// seconds later, until the connection has to be made anew or the recording ends.
+/// time. next() allocates nothing once samples flow and the inventory of a live vehicle is known, some
+/// seconds later, until it has to reconnect or the recording ends.
 class LinkSampleSource final : public SampleSource {
  public:
   explicit LinkSampleSource(LinkInput input);
 
   /// For recordings: reads up to the first sample, which next() then delivers. Errors: kInvalidInput: there
-  /// is none; the message says why. kDamaged: damaged before the first sample.
+  /// is none; the message gives the reason. kDamaged: damaged before the first sample.
   [[nodiscard]] Status find_first_sample();
 
   [[nodiscard]] Result<ReceivedSample> next() override;
@@ -69,14 +70,14 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
   [[nodiscard]] std::optional<LiveStatus> live_status() const override;
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
-  /// Warnings that were taken as events become notes, the first of each kind.
+  /// Events that are warnings become notes, the first of each kind.
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
  private:
   Result<ReceivedSample> read_sample();
   [[nodiscard]] MonotonicTime arrived_at() const;
-  /// One frame's worth of work.
+  /// Processes one frame.
   Status step();
   Status send_request();
   void on_frame(const LinkFrame& frame);

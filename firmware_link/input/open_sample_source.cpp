@@ -32,7 +32,7 @@ Status check_options(const SampleSourceOptions& options) {
   return {};
 }
 
-/// One limit given, the other the sensor's own: there must be ranges between them.
+/// Limits as given, or the sensor's own: there must be ranges between them.
 Status check_limits(const SampleSourceOptions& options, const SensorModel& usual) {
   const double min_m = options.min_range_m.value_or(usual.min_range_m);
   const double max_m = options.max_range_m.value_or(usual.max_range_m);

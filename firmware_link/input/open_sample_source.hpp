@@ -10,8 +10,8 @@
 
 namespace swiftlet {
 
-/// Opens an input of any kind (input_forms()). A vehicle need not be there yet.
-/// Errors: kInvalidInput or kNotFound with one line that says what, where and what to do.
+/// Opens an input of any kind (input_forms()). A vehicle need not be there yet. Errors: kInvalidInput or
+/// kNotFound with one line: what, where and what to do.
 [[nodiscard]] Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
                                                                        const SampleSourceOptions& options);
 

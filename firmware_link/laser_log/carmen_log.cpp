@@ -98,7 +98,7 @@ class CarmenParser {
     scratch_m_.resize(readings);
     for (float& distance_m : scratch_m_)
       if (!numbers.read(distance_m)) return "FLASER line cut off or garbled";
-    CarmenOdometry corrected;  // another program's estimate: not ours to use
+    CarmenOdometry corrected;  // another program's estimate: not used
     CarmenOdometry scan;
     if (!read_odometry_pose(numbers, corrected) || !read_odometry_pose(numbers, scan) ||
         !read_stamp(numbers, scan.stamp))

@@ -39,7 +39,7 @@ struct CarmenLog {
       0;  ///< ODOM lines with a stamp before that of the line before, in file order
   std::uint64_t scan_reversals = 0;   ///< the same of FLASER lines
   std::uint64_t duplicate_scans = 0;  ///< same stamp, same distances: dropped
-  PoseScanLag pose_scan_lag;          ///< of the FLASER lines' odometry, told from all their readings
+  PoseScanLag pose_scan_lag;          ///< of the FLASER lines' odometry, from all their readings
   std::uint64_t lines = 0;
   std::vector<std::string> problems;  ///< malformed lines and damage, by line number or byte offset
 

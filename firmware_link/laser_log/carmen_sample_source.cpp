@@ -54,7 +54,8 @@ AssemblyConfig assembly_config(const CarmenLog& log, const SensorModel& sensor) 
   AssemblyConfig config;
   config.beams = log.beams;
   config.sensor = sensor;
-  // Wheels count on while nobody logs, and stamps of such logs come in bunches: only a leap breaks the run.
+  // Wheels count on while nothing is logged, and stamps of such logs come in bunches: only a jump breaks the
+  // run.
   config.continuity.longest_interpolation = std::chrono::seconds(5);
   config.continuity.longest_silence = Duration::max();
   config.continuity.jump_slack_m = 2.0;
@@ -149,7 +150,7 @@ void CarmenSampleSource::feed_scan() {
   const CarmenOdometry& scan = log_.scans[next_scan_];
   Reading reading;
   reading.stream = kScanStream;
-  // Two different scans with one stamp are both used; the assembler wants ascending times.
+  // Two different scans with one stamp are both used; the assembler requires ascending times.
   reading.at = device_time(scan.stamp);
   if (next_scan_ > 0) reading.at = std::max(reading.at, last_scan_at_ + Duration(1));
   last_scan_at_ = reading.at;

@@ -16,7 +16,8 @@ namespace swiftlet {
 
 /// Range samples from a CARMEN laser log. Dead reckoning comes from the ODOM lines, taken 0.1 s before the
 /// scan, when their stamps can be trusted (they never go back and span the scans), else from the pose in each
-/// FLASER line; report().notes says which. Stamps are the ipc_timestamps as logged. One thread at a time.
+/// FLASER line; report().notes names the choice. Stamps are the ipc_timestamps as logged. One thread at a
+/// time.
 class CarmenSampleSource final : public SampleSource {
  public:
   /// Errors: as read_carmen_log. Precondition: options.beam_count, if given, is 2..kMaxBeams.
@@ -31,7 +32,7 @@ class CarmenSampleSource final : public SampleSource {
 
  private:
   CarmenSampleSource(CarmenLog log, const SampleSourceOptions& options);
-  /// False when all has been fed.
+  /// False at the end of the log.
   bool feed();
   void feed_odometry(const CarmenOdometry& odometry);
   void feed_scan();

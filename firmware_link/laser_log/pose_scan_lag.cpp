@@ -11,8 +11,8 @@ namespace swiftlet {
 namespace {
 
 constexpr double kMaxTurnRad = radians(40.0);
-constexpr float kFarthestM = 20.0F;      // beyond it nothing was hit
-constexpr float kMaxDifferenceM = 0.5F;  // more of one reading counts no more: something else is seen
+constexpr float kFarthestM = 20.0F;      // farther readings are no hits
+constexpr float kMaxDifferenceM = 0.5F;  // larger differences count as this: another object was hit
 constexpr double kAgreesM = 0.2;         // on average
 constexpr std::size_t kMinReadings = 60;
 
@@ -38,7 +38,7 @@ double disagreement_m(std::span<const float> before, std::span<const float> now,
   return count < kMinReadings ? kMaxDifferenceM : sum_m / static_cast<float>(count);
 }
 
-/// Where between its neighbours the lowest of three equally spaced values would lie, -0.5 to 0.5.
+/// The minimum of the parabola through three equally spaced values, -0.5 to 0.5 steps from the middle one.
 double lowest_between(double left, double middle, double right) {
   const double bend = left - 2.0 * middle + right;
   return bend > 0.0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;

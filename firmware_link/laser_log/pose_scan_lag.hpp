@@ -10,14 +10,15 @@
 namespace swiftlet {
 
 /// How far a scanner turned from one scan to the next, counter-clockwise: the turn by which both agree best,
-/// to a fraction of `step_rad`, the angle between readings. Nothing where they do not agree, as where too
-/// much is out of range, or where it turned by 40 degrees or more. Scans have as many readings, in metres.
+/// to a fraction of `step_rad`, the angle between readings. nullopt if they do not agree, e.g. because too
+/// much is out of range, or if it turned by 40 degrees or more. Both scans have the same number of readings,
+/// in metres.
 [[nodiscard]] std::optional<double> turned_rad(std::span<const float> before, std::span<const float> now,
                                                double step_rad);
 
-/// Tells whether the poses that a laser log has beside its scans run ahead of them by a line, as in logs
-/// whose recorder took the newest pose for a scan that had waited. Scan and pose must turn together: the
-/// turns of the scans are held against those of the poses beside them and one line before. One thread.
+/// Detects whether the poses that a laser log has beside its scans run ahead of them by a line, as in logs
+/// whose recorder took the newest pose for a scan that had waited. Scan and pose turn together: the turns of
+/// the scans are compared with those of the poses beside them and one line before. One thread.
 class PoseScanLag {
  public:
   /// The next line: its readings and its pose's yaw. Allocates.

@@ -18,9 +18,9 @@ inline double yaw_of(const Quaternion& q) {
   return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
 }
 
-/// The firmware's 32-bit form (stateEstimateZ.quat): bits 31..30 say which of x, y, z, w is the largest,
-/// which is positive and left out; the other three follow in order, a sign bit and nine bits of magnitude in
-/// units of 1 / (511 sqrt 2).
+/// The firmware's 32-bit form (stateEstimateZ.quat): bits 31..30 select the largest of x, y, z, w, which is
+/// positive and left out; the other three follow in order, a sign bit and nine bits of magnitude in units of
+/// 1 / (511 sqrt 2).
 inline Quaternion unpack_quaternion(std::uint32_t packed) {
   double q[4] = {0.0, 0.0, 0.0, 0.0};
   const std::size_t largest = packed >> 30;

@@ -9,7 +9,7 @@
 namespace swiftlet {
 namespace {
 
-/// Further than an estimate at rest wanders.
+/// More than the drift of an estimate at rest.
 constexpr double kCarriedM = 0.5;
 
 }  // namespace
@@ -22,7 +22,7 @@ Reading LandedOdometryFreeze::hold(const Reading& reading) {
   const Pose2 T_odom_body = T_odom_vehicle_ * T_vehicle_body;
   held.position_odom = T_odom_body.position();
   held.yaw_odom_rad = T_odom_body.yaw_rad();
-  held.begins_anew = std::exchange(begins_anew_, false);
+  held.odometry_restarted = std::exchange(restart_pending_, false);
   if (state_ == State::kStanding)
     for (float& distance : held.distance_m) distance = std::numeric_limits<float>::quiet_NaN();
   return held;
@@ -45,7 +45,7 @@ void LandedOdometryFreeze::follow(const Reading& reading, const Pose2& T_vehicle
   if (std::hypot(T_vehicle_body.x_m() - T_vehicle_landed_.x_m(),
                  T_vehicle_body.y_m() - T_vehicle_landed_.y_m()) > kCarriedM) {
     state_ = State::kNotFlown;
-    begins_anew_ = true;
+    restart_pending_ = true;
   } else {
     T_odom_vehicle_ = T_odom_landed_ * T_vehicle_body.inverse();
   }

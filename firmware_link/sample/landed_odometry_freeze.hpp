@@ -12,10 +12,10 @@ namespace swiftlet {
 
 /// Holds the dead reckoning still while a vehicle that has flown stands: with its motors off the firmware
 /// pulls the yaw estimate back to kalman.initialYaw with a time constant of ten seconds, and the map would
-/// turn under a vehicle that has landed. What the ranges see from the floor meanwhile is nothing for the map
-/// either. After the next take-off the dead reckoning goes on from where the vehicle stood. A vehicle that
-/// was carried elsewhere begins anew; one that has not flown yet may be carried on purpose and is left alone,
-/// as is one that does not tell whether it flies. One thread at a time; allocates nothing.
+/// turn under a vehicle that has landed. Ranges measured on the floor meanwhile do not belong into the map
+/// either. After the next take-off the dead reckoning continues from where the vehicle stood. A vehicle that
+/// was carried elsewhere restarts it; one that has not flown yet may be carried on purpose and is not frozen,
+/// nor is one that does not report whether it flies. One thread at a time; allocates nothing.
 class LandedOdometryFreeze {
  public:
   /// Only readings with both position and yaw are held; others pass as they are.
@@ -27,9 +27,9 @@ class LandedOdometryFreeze {
 
   State state_ = State::kNotFlown;
   std::uint32_t boot_ = 0;
-  bool begins_anew_ = false;
+  bool restart_pending_ = false;
   Pose2 T_odom_vehicle_;    ///< from the vehicle's own dead reckoning to the one that was held
-  Pose2 T_vehicle_landed_;  ///< where it says it landed
+  Pose2 T_vehicle_landed_;  ///< where it landed, by its own dead reckoning
   Pose2 T_odom_landed_;
 };
 

@@ -13,11 +13,11 @@
 
 namespace swiftlet {
 
-/// When readings of dead reckoning belong together.
+/// When readings of dead reckoning belong to one motion.
 struct ContinuityLimits {
   Duration longest_interpolation{};  ///< no value between readings further apart than this
-  Duration longest_silence{};        ///< after a longer one the dead reckoning counts as begun anew
-  double top_speed_m_per_s = 5.0;    ///< what moves faster (and further than the slack) has been reset
+  Duration longest_silence{};        ///< after a longer one the dead reckoning counts as restarted
+  double top_speed_m_per_s = 5.0;    ///< what moves faster (and farther than the slack) was reset
   double jump_slack_m = 0.1;
   double top_turn_rate_rad_per_s = 4.0 * kPi;
 };
@@ -29,11 +29,11 @@ struct YawReading {
 inline Point2 interpolate(const Point2& a, const Point2& b, double fraction) {
   return {a.x_m + fraction * (b.x_m - a.x_m), a.y_m + fraction * (b.y_m - a.y_m)};
 }
-/// The short way round.
+/// The shorter of both ways around the circle.
 inline YawReading interpolate(const YawReading& a, const YawReading& b, double fraction) {
   return {wrap_angle(a.yaw_rad + fraction * wrap_angle(b.yaw_rad - a.yaw_rad))};
 }
-/// Whether one can follow the other after `elapsed`, as motions go.
+/// Whether a motion can lead from one to the other within `elapsed`.
 inline bool is_motion(const Point2& a, const Point2& b, Duration elapsed, const ContinuityLimits& limits) {
   return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) <=
          limits.jump_slack_m + limits.top_speed_m_per_s * to_seconds(elapsed);
@@ -44,26 +44,26 @@ inline bool is_motion(const YawReading& a, const YawReading& b, Duration elapsed
 }
 
 /// The latest readings of one part of the dead reckoning (position or yaw), interpolated in time. Fixed
-/// storage: the oldest reading gives way. One thread at a time.
+/// storage: the oldest reading is overwritten. One thread at a time.
 template <typename Value, std::size_t kCapacity = 128>
 class OdometryTimeline {
  public:
   enum class Outcome {
     kFound,
-    kTooEarly,  ///< nothing received yet at or after that time: ask again
-    kNever,     ///< a hole, a jump, or before all that is remembered
+    kTooEarly,  ///< nothing received yet at or after that time: try again later
+    kNever,     ///< a hole, a jump, or before the oldest reading
   };
   struct Answer {
     Outcome outcome = Outcome::kNever;
     Value value{};
-    /// Counts the times the dead reckoning began anew: answers with equal runs are joined by motion.
+    /// Counts the restarts of the dead reckoning: values of equal runs are joined by motion.
     std::uint32_t run = 0;
   };
 
   explicit OdometryTimeline(const ContinuityLimits& limits) : limits_(limits) {}
 
   void set_limits(const ContinuityLimits& limits) { limits_ = limits; }
-  /// Readings not later than the newest are ignored. NaN and infinity, too.
+  /// Readings not later than the newest are ignored, as are NaN and infinity.
   void add(DeviceTime at, const Value& value) {
     if (count_ > 0) {
       const Reading& last = newest();
@@ -78,7 +78,7 @@ class OdometryTimeline {
       first_ = (first_ + 1) % kCapacity;
     }
   }
-  /// Forgets all readings; what follows is a new run.
+  /// Clears all readings; what follows is a new run.
   void restart() {
     count_ = 0;
     ++run_;

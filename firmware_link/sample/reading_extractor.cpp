@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-/// A value beyond the variable's own 16 bits says nothing.
+/// A value beyond the variable's own 16 bits is invalid.
 std::optional<bool> is_flying(double value, unsigned mask) {
   if (!(value >= 0.0 && value <= 65535.0)) return std::nullopt;
   return (static_cast<unsigned>(value) & mask) != 0;
@@ -158,7 +158,7 @@ Point2 ReadingExtractor::read_position(const LogRecord& record, const Slots& slo
 }
 
 double ReadingExtractor::WrappedMillimetres::unwrap_m(double wrapped_mm) {
-  if (!(std::abs(wrapped_mm) <= 32768.0)) return wrapped_mm * 1e-3;  // fetched in a wider type
+  if (!(std::abs(wrapped_mm) <= 32768.0)) return wrapped_mm * 1e-3;  // requested in a wider type
   const auto step = static_cast<std::int16_t>(std::llround(wrapped_mm) - value_mm);
   value_mm += step;
   return static_cast<double>(value_mm) * 1e-3;
@@ -174,7 +174,7 @@ double ReadingExtractor::read_yaw_rad(const LogRecord& record, const Slots& slot
     case YawKind::kPackedQuaternion: {
       const double packed = record.value(*slots.yaw_slots[0]);
       const bool is_packed = packed >= 0.0 && packed <= std::numeric_limits<std::uint32_t>::max();
-      if (!is_packed) break;  // fetched in a type that cannot hold it
+      if (!is_packed) break;  // requested in a type that cannot hold it
       return yaw_of(unpack_quaternion(static_cast<std::uint32_t>(packed)));
     }
     case YawKind::kNone:

@@ -21,19 +21,19 @@ namespace swiftlet {
 inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "range.left", "range.back",
                                                             "range.right"};
 
-/// Finds in the vehicle's log records what samples are made of, by the names of the variables, in whichever
-/// blocks they come: the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or
-/// stateEstimateZ.x/y); the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ).
-/// Each of the three is taken from the first block that offers it. Names are resolved when a layout changes,
-/// not per packet: fixed storage. One thread at a time; `session` must outlive it.
+/// Extracts from the vehicle's log records what samples need, by the names of the variables, from any blocks:
+/// the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or stateEstimateZ.x/y);
+/// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ). Each of the three is
+/// taken from the first block that offers it. Names are resolved when a layout changes, not per packet: fixed
+/// storage. One thread at a time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
 
-  /// nullopt when the record holds nothing of use.
+  /// nullopt if the record holds nothing that samples need.
   [[nodiscard]] std::optional<Reading> extract(const LogRecord& record);
 
-  /// How often each arrives, as the blocks were started; 0 when unknown.
+  /// The period of each, as the blocks were started; 0 when unknown.
   [[nodiscard]] Duration range_period() const { return period_of(range_source_); }
   [[nodiscard]] Duration odometry_period() const;
   [[nodiscard]] bool finds_ranges() const { return range_source_.has_value(); }
@@ -46,7 +46,7 @@ class ReadingExtractor {
   using Slot = std::optional<std::uint8_t>;  ///< entry of a block
   enum class PositionKind : std::uint8_t { kNone, kMetres, kMillimetres };
   enum class YawKind : std::uint8_t { kNone, kDegrees, kQuaternion, kPackedQuaternion };
-  /// Where a block holds what.
+  /// Where a block holds which value.
   struct Slots {
     bool resolved = false;
     std::array<Slot, 4> ranges{};

@@ -9,11 +9,11 @@
 
 namespace swiftlet {
 
-/// A sample and when it arrived. Trivially copyable: crosses queues by value.
+/// A sample and its time of arrival. Trivially copyable: crosses queues by value.
 struct ReceivedSample {
   RangeSample sample;
-  /// When the radio frame that completed the sample was received. Not set by a source that is not live: its
-  /// samples arrive when they are handed on.
+  /// When the radio frame that completed the sample was received. Not set by a source that is not live: the
+  /// time at which the sample is passed on counts.
   MonotonicTime arrived_at{};
 };
 static_assert(std::is_trivially_copyable_v<ReceivedSample>);

@@ -37,7 +37,7 @@ void SampleAssembler::add(const Reading& reading) {
                  "a reading has a distance for each beam of the layout, or none");
   if (!accept_time(reading)) return;
   latest_ = std::max(latest_, reading.at);
-  if (reading.begins_anew) {
+  if (reading.odometry_restarted) {
     positions_.restart();
     yaws_.restart();
   }
@@ -82,7 +82,7 @@ void SampleAssembler::restart() {
 }
 
 void SampleAssembler::hold_ranges(const Reading& reading) {
-  // The block that ranges come in can change: then they may come crosswise.
+  // Ranges may move to another block: then packets may overtake each other.
   if (last_ranges_at_ && reading.at <= *last_ranges_at_) {
     ++counters_.out_of_order;
     return;
@@ -94,7 +94,7 @@ void SampleAssembler::hold_ranges(const Reading& reading) {
       pending_.try_push_back({reading.at - config_.sensor.range_age, reading.received, reading.distance_m}));
 }
 
-/// By the vehicle's clock; by ours where the vehicle's began anew.
+/// By the vehicle's clock; by the host's if the vehicle's has restarted.
 void SampleAssembler::count_gap(const Reading& reading) {
   if (last_ranges_received_ && config_.range_period > Duration::zero()) {
     const Duration since =
@@ -118,8 +118,8 @@ std::optional<RangeSample> SampleAssembler::take() {
     const auto yaw = yaws_.at(at);
     const bool too_early = position.outcome == Outcome::kTooEarly || yaw.outcome == YawOutcome::kTooEarly;
     const bool never = position.outcome == Outcome::kNever || yaw.outcome == YawOutcome::kNever;
-    // What is later than one interpolation span could not be used any more; another span of grace for
-    // packets that overtake each other.
+    // A reading later than one interpolation span could not be used; another span for packets that overtake
+    // each other.
     const bool may_come = !ended_ && latest_ - at <= 2 * config_.continuity.longest_interpolation;
     if (too_early && !never && may_come) return std::nullopt;
     if (too_early || never) {

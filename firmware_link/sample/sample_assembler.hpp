@@ -16,16 +16,16 @@
 
 namespace swiftlet {
 
-/// What one packet, or one line of a log, said, whatever its format.
+/// The contents of one packet, or of one line of a log, in any format.
 struct Reading {
-  std::uint8_t stream = 0;  ///< log block, or kind of line: times ascend within one
-  std::uint32_t boot = 0;   ///< of the vehicle: its clock and its dead reckoning begin anew with each
+  std::uint8_t stream = 0;  ///< log block, or kind of line: times ascend within a stream
+  std::uint32_t boot = 0;   ///< of the vehicle: its clock and its dead reckoning restart with each
   DeviceTime at{};
   HostTime received{};
   std::optional<Point2> position_odom;
   std::optional<double> yaw_odom_rad;
-  std::optional<bool> is_flying;  ///< nullopt where the vehicle does not tell
-  bool begins_anew = false;       ///< the dead reckoning does not continue what came before
+  std::optional<bool> is_flying;    ///< nullopt: the vehicle does not report it
+  bool odometry_restarted = false;  ///< the dead reckoning has restarted
   /// One distance a beam, or empty: no ranges in this packet. NaN is no measurement; out-of-range values stay
   /// as they are.
   FixedVector<float, kMaxBeams> distance_m;
@@ -36,26 +36,26 @@ struct AssemblyConfig {
   SensorModel sensor;
   Duration range_period{};  ///< nominal, to count gaps by; 0: irregular, gaps are not counted
   ContinuityLimits continuity;
-  /// Dead reckoning that nobody received for so long is a guess: RangeSample::odometry_ran_on.
+  /// Dead reckoning that was not received for that long is a guess: RangeSample::odometry_ran_on.
   Duration unwatched_after = Duration::max();
 };
 
-/// Makes range samples of readings: pairs ranges with dead reckoning of the same instant (the packet's time
-/// less the range's age), position and yaw each interpolated on its own time line, because they may come in
-/// different packets. Waits for dead reckoning that is still to come, but not for long; keeps the order;
+/// Assembles range samples from readings: pairs ranges with dead reckoning of the same instant (the packet's
+/// time less the range's age), position and yaw each interpolated on its own time line, because they may come
+/// in different packets. Waits for dead reckoning that is still to come, for a short time; keeps the order;
 /// counts what it drops. Fixed storage, no allocation, one thread at a time.
 class SampleAssembler {
  public:
   /// Counts into `counters`, which must outlive the assembler.
   SampleAssembler(const AssemblyConfig& config, InputCounters& counters);
 
-  /// Once the traffic has told them: how often ranges and dead reckoning come. Dead reckoning is then
-  /// interpolated across at most 1.5 periods.
+  /// The periods of ranges and dead reckoning, once known. Dead reckoning is then interpolated across at most
+  /// 1.5 periods.
   void set_periods(Duration range_period, Duration odometry_period);
-  /// A reading of the past second's order or of no use is dropped and counted; a step back of more than a
-  /// second is a reboot of the vehicle.
+  /// A duplicate or late reading is dropped and counted; a step back of more than a second is a reboot of the
+  /// vehicle.
   void add(const Reading& reading);
-  /// No more readings will come: what waits for dead reckoning is dropped.
+  /// No more readings will come: ranges that wait for dead reckoning are dropped.
   void end() { ended_ = true; }
   /// The next finished sample, if any. Call until empty after each add().
   [[nodiscard]] std::optional<RangeSample> take();
@@ -66,7 +66,7 @@ class SampleAssembler {
     HostTime received{};
     FixedVector<float, kMaxBeams> distance_m;
   };
-  /// Where a sample stands in the dead reckoning: how often that began anew, and when it was measured.
+  /// Which runs of the dead reckoning a sample belongs to, and when it was measured.
   struct Motion {
     std::uint32_t position_run = 0;
     std::uint32_t yaw_run = 0;
@@ -96,7 +96,7 @@ class SampleAssembler {
   bool ended_ = false;
 };
 
-/// What a distance says, given the sensor's limits: below min_range_m and NaN kInvalid, max_range_m and
+/// The status of a distance, given the sensor's limits: below min_range_m and NaN kInvalid, max_range_m and
 /// beyond kNoReturn. The firmware's sentinels fall out of the same rule: 0 mm is no measurement, 32766 mm no
 /// target; firmware before 2022.09 reports distances beyond the sensor's reach instead.
 [[nodiscard]] RangeStatus classify_distance(double distance_m, const SensorModel& sensor);

@@ -18,15 +18,15 @@
 
 namespace swiftlet {
 
-/// What an input had to say about itself, good and bad; copied into report.json and the status message.
+/// The report of an input on itself; copied into report.json and the status message.
 struct InputReport {
   InputCounters counters;
-  std::vector<std::string> notes;     ///< what to know (e.g. layout taken from a side file)
+  std::vector<std::string> notes;     ///< remarks (e.g. layout taken from a side file)
   std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
 };
 
-/// Anything that yields range samples in time order: a link with its log session and assembler, or a laser
-/// log. One thread at a time.
+/// A source of range samples in time order: a link with its log session and assembler, or a laser log. One
+/// thread at a time.
 class SampleSource {
  public:
   SampleSource() = default;
@@ -35,24 +35,23 @@ class SampleSource {
   SampleSource& operator=(const SampleSource&) = delete;
 
   /// The next sample. Errors: kEndOfRecording at the end, also where damage ended it early (then
-  /// report().problems says so); kTimeout: nothing now, call again; anything else is final.
+  /// report().problems names it); kTimeout: nothing now, call again; anything else is final.
   [[nodiscard]] virtual Result<ReceivedSample> next() = 0;
   [[nodiscard]] virtual const BeamLayout& beams() const = 0;
-  /// The sensor model this input is taken with, unless the configuration says otherwise.
+  /// The sensor model of this input, unless the configuration overrides it.
   [[nodiscard]] virtual const SensorModel& sensor() const = 0;
   [[nodiscard]] virtual const InputReport& report() const = 0;
-  /// How far through a recording it is, 0 to 1; nullopt when the end is unknown.
+  /// The share of the input that was read, 0 to 1; nullopt when the end is unknown.
   [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
-  /// A vehicle that cannot be asked to wait: samples come when they come, and there is no end.
+  /// Whether it is a vehicle, which cannot wait: samples come in real time, without end.
   [[nodiscard]] virtual bool is_live() const { return false; }
-  /// How the link and the vehicle stand; nullopt for recordings and laser logs.
+  /// The state of the link and the vehicle; nullopt for recordings and laser logs.
   [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
-  /// What happened to the vehicle or its link since the last call, in order.
+  /// The next event of the vehicle or its link.
   [[nodiscard]] virtual std::optional<VehicleEvent> take_event() { return std::nullopt; }
-  /// No more will be taken: what happened on the way is put into words in report() now. Allocates.
+  /// No more samples will be taken: events become notes in report() now. Allocates.
   virtual void end() {}
-  /// T_world_body at every sample delivered so far, stamped like the sample; empty where nobody knows the
-  /// truth.
+  /// T_world_body at every sample delivered so far, stamped like the sample; empty if the truth is unknown.
   [[nodiscard]] virtual std::vector<StampedPose> ground_truth() const { return {}; }
 };
 
@@ -61,7 +60,7 @@ struct SampleSourceOptions {
   std::optional<Duration> range_age;  ///< overrides the sensor model's
   std::optional<double> max_range_m;  ///< overrides the sensor model's
   std::optional<double> min_range_m;  ///< overrides the sensor model's
-  FrameSink* recording = nullptr;     ///< links only: hears every frame; must outlive the source
+  FrameSink* recording = nullptr;     ///< links only: receives every frame; must outlive the source
 };
 
 }  // namespace swiftlet

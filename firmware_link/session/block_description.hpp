@@ -13,17 +13,12 @@
 
 namespace swiftlet {
 
-/// What log blocks hold, told by a person, for captures made without a table of contents (client programs
-/// keep the table in a cache and then do not ask the vehicle for it). It stands beside the capture as
-/// FILE.pcap.toml:
+/// A description of log blocks, written by hand, for captures without a table of contents (client programs
+/// keep the table in a cache and then do not request it). It lies beside the capture as FILE.pcap.toml:
 ///
-///     [[block]]
-///     id = 1               # block id, 0..255
-///     period_ms = 100      # optional
-///     variables = [        # in the order in which the block was made
-///       { name = "stateEstimate.x", type = "float" },
-///       { name = "range.front", type = "uint16" },
-///     ]
+/// [[block]] id = 1 # block id, 0..255 period_ms = 100 # optional variables = [ # in the order in which the
+/// block was created { name = "stateEstimate.x", type = "float" }, { name = "range.front", type = "uint16" },
+/// ]
 ///
 /// Types: uint8, uint16, uint32, int8, int16, int32, float, half (as fetched); at most 26 bytes a block.
 struct BlockDescription {
@@ -32,7 +27,7 @@ struct BlockDescription {
     LogType type = LogType::kUint8;
   };
   struct Block {
-    Duration period{0};  ///< 0: not said
+    Duration period{0};  ///< 0: not given
     std::vector<Variable> variables;
   };
   std::string source;  ///< the file it was read from

@@ -9,12 +9,12 @@
 
 namespace swiftlet {
 
-/// Makes one running time of the 24-bit millisecond counter in log packets, which wraps every 4 h 39 min. A
-/// step of less than half that span is forward, any other is backward: packets of two blocks may arrive
-/// crosswise, and a vehicle may reboot. One thread at a time; allocates nothing.
+/// Unwraps the 24-bit millisecond counter of log packets, which wraps every 4 h 39 min. A step of less than
+/// half that span is forward, any other is backward: packets of two blocks may overtake each other, and a
+/// vehicle may reboot. One thread at a time; allocates nothing.
 class DeviceClockUnwrapper {
  public:
-  /// The first counter value is taken as it is: time since boot, if that was less than one span ago.
+  /// The first counter value is the time since boot, if that was less than one span ago.
   DeviceTime unwrap(std::uint32_t counter_ms) {
     const std::uint32_t counter = counter_ms & kMask;
     if (!started_) {

@@ -10,10 +10,11 @@ namespace {
 
 using Kind = VehicleEvent::Kind;
 
-// The firmware's own watchdog: after as long without a packet it deletes the log blocks.
+// The firmware's watchdog: after that long without a packet it deletes the log blocks.
 constexpr Duration kMaxSilence = std::chrono::seconds(1);
 constexpr Duration kTryAgainAfter = std::chrono::seconds(5);
-// With each request repeated five times a second no mere loss lasts as long; no vehicle is exchanged sooner.
+// Each request is repeated five times a second, so packet loss alone does not last that long; no vehicle is
+// exchanged sooner.
 constexpr Duration kMaxHandshakeSilence = std::chrono::seconds(3);
 
 }  // namespace
@@ -33,7 +34,7 @@ void LiveSession::watch_for_silence(HostTime now) {
   if (handshake_.finished()) {
     const auto has_stopped = [now](const Stream& stream) { return now - stream.data_at > kMaxSilence; };
     if (std::ranges::none_of(streams_, has_stopped)) return;
-    tell(Kind::kDataStopped);
+    report(Kind::kDataStopped);
     restart();
   } else if (received_at_ && !refused_at_ && now - *received_at_ > kMaxHandshakeSilence) {
     restart();
@@ -43,7 +44,7 @@ void LiveSession::watch_for_silence(HostTime now) {
 void LiveSession::restart() {
   handshake_ = LogHandshake(session_, cache_);
   inventory_ = VehicleInventory(cache_);
-  inventory_told_ = false;
+  inventory_reported_ = false;
   monitor_.restart();
   round_trip_.restart();
   streams_.clear();
@@ -57,7 +58,7 @@ void LiveSession::on_frame(const LinkFrame& frame, const std::optional<LogRecord
     for (Stream& stream : streams_)
       if (stream.block == record->block_id) stream.data_at = frame.at;
     monitor_.on_frame(*record);
-    if (record->boot != boot_) tell(Kind::kRebooted);
+    if (record->boot != boot_) report(Kind::kRebooted);
     boot_ = record->boot;
   }
   round_trip_.on_frame(frame.packet(), frame.at);
@@ -70,26 +71,26 @@ void LiveSession::on_handshake(const LinkFrame& frame) {
   handshake_.on_frame(frame.packet());
   if (handshake_.failure()) {
     refused_at_ = frame.at;
-    if (was_connected_) return tell(Kind::kRefused);
+    if (was_connected_) return report(Kind::kRefused);
     failure_ = handshake_.failure();
   } else if (handshake_.finished()) {
     was_connected_ = true;
     for (const std::uint8_t block : handshake_.essential_blocks())
       static_cast<void>(streams_.try_push_back({block, frame.at}));
-    tell(Kind::kConnected, handshake_.protocol());
-    if (handshake_.protocol() > kNewestProtocol) tell(Kind::kProtocolNewer, handshake_.protocol());
+    report(Kind::kConnected, handshake_.protocol());
+    if (handshake_.protocol() > kNewestProtocol) report(Kind::kProtocolNewer, handshake_.protocol());
   }
 }
 
 void LiveSession::on_inventory(const LinkFrame& frame) {
   inventory_.on_frame(frame.packet());
-  if (!inventory_.finished() || inventory_told_) return;
-  inventory_told_ = true;
-  if (inventory_.has_multiranger() == false) tell(Kind::kNoMultiranger);
-  if (inventory_.has_flow_deck() == false) tell(Kind::kNoFlowDeck);
+  if (!inventory_.finished() || inventory_reported_) return;
+  inventory_reported_ = true;
+  if (inventory_.has_multiranger() == false) report(Kind::kNoMultiranger);
+  if (inventory_.has_flow_deck() == false) report(Kind::kNoFlowDeck);
 }
 
-void LiveSession::tell(Kind kind, std::int32_t value) {
+void LiveSession::report(Kind kind, std::int32_t value) {
   static_cast<void>(events_.try_push_back({kind, value}));
 }
 

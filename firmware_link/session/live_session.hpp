@@ -23,10 +23,10 @@
 
 namespace swiftlet {
 
-/// Keeps a live vehicle sending: brings it to log, asks what it carries, measures the round trip, and begins
-/// anew when a log block that samples are made of sent nothing for a second: the vehicle itself deletes its
-/// log blocks when it hears nothing for that long, or it has rebooted. No link, no clock. One thread at a
-/// time; allocates while it connects, not while log data flows. `session` must outlive it and hear each
+/// Keeps a live vehicle sending: starts its log, requests its inventory, measures the round trip, and
+/// restarts when a log block that samples need has sent nothing for a second: the vehicle deletes its log
+/// blocks when it receives nothing for that long, or it has rebooted. No link, no clock. One thread at a
+/// time; allocates while it connects, not while log data flows. `session` must outlive it and receive each
 /// packet first; `cache` must outlive it.
 class LiveSession {
  public:
@@ -34,30 +34,30 @@ class LiveSession {
 
   /// The packet to send now, if any.
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
-  /// A packet from the vehicle; `record` where it was log data that can be read.
+  /// A packet from the vehicle; `record` if it is log data that can be read.
   void on_frame(const LinkFrame& frame, const std::optional<LogRecord>& record);
-  /// Dead reckoning, as samples come.
+  /// The dead reckoning of each sample.
   void see(const Pose2& T_odom_body) { monitor_.see(T_odom_body); }
-  /// As LogHandshake's: replies to be received as if the vehicle had given them now.
+  /// As LogHandshake's: replies to be handled as if the vehicle had sent them now.
   [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return handshake_.take_cached_replies(); }
 
-  /// Why the first vehicle met cannot be used. Later ones are tried again and again.
+  /// Why the first vehicle cannot be used. Later ones are retried.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
-  /// What happened since the last call, in order. The oldest are kept where there are many.
+  /// The events since the last call, in order. When there are too many, the newest are dropped.
   [[nodiscard]] std::optional<VehicleEvent> take_event();
   [[nodiscard]] const VehicleHealth& health() const { return monitor_.health(); }
   [[nodiscard]] Duration round_trip() const { return round_trip_.last(); }
-  /// What a report should say of the vehicle: "firmware 2026.08, Crazyflie 2.1"; empty while unknown.
+  /// The vehicle, for a report: "Crazyflie 2.1, firmware 2026.08"; empty while unknown.
   [[nodiscard]] std::string vehicle_text() const;
 
  private:
-  /// A log block that samples cannot do without.
+  /// A log block that samples need.
   struct Stream {
     std::uint8_t block = 0;
     HostTime data_at{};  ///< the last log data, or the end of the handshake
   };
   void restart();
-  void tell(VehicleEvent::Kind kind, std::int32_t value = 0);
+  void report(VehicleEvent::Kind kind, std::int32_t value = 0);
   void on_handshake(const LinkFrame& frame);
   void on_inventory(const LinkFrame& frame);
   void watch_for_silence(HostTime now);
@@ -66,7 +66,7 @@ class LiveSession {
   TocCache& cache_;
   LogHandshake handshake_;
   VehicleInventory inventory_;
-  bool inventory_told_ = false;
+  bool inventory_reported_ = false;
   RoundTrip round_trip_;
   VehicleMonitor monitor_;
   FixedVector<Stream, 2> streams_;

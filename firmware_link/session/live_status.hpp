@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// What the vehicle's log said last about its own state; nullopt where it does not say.
+/// The vehicle's state by its latest log data; nullopt: not logged.
 struct VehicleHealth {
   std::optional<int> battery_mv;
   std::optional<int> rssi_dbm;  ///< of our packets at the vehicle
@@ -18,7 +18,7 @@ struct VehicleHealth {
   bool battery_is_low = false;
 };
 
-/// How a live input stands.
+/// The state of a live input.
 struct LiveStatus {
   LinkStatistics link;
   Duration round_trip{0};  ///< to the vehicle and back, the last one measured; 0 before the first

@@ -10,7 +10,7 @@
 namespace swiftlet {
 namespace {
 
-/// The entries of a create or append request. Stops at one that cannot be: the vehicle does, too.
+/// The entries of a create or append request. Stops at an invalid one, as the vehicle does.
 LogEntries parse_entries(std::span<const std::uint8_t> packet) {
   LogEntries entries;
   for (std::size_t at = 3; at + 3 <= packet.size(); at += 3) {
@@ -39,7 +39,7 @@ std::size_t byte_count(const LogEntries& entries) {
 }
 
 void LogBlockTable::on_request(std::span<const std::uint8_t> packet) {
-  if (packet.size() < 3) return;  // only reset is shorter, and its reply says all
+  if (packet.size() < 3) return;  // only reset is shorter, and its reply suffices
   const auto command = static_cast<LogCommand>(packet[1]);
   Request& request = requests_[packet[2]];
   if (command == LogCommand::kCreate || command == LogCommand::kAppend) {
@@ -94,13 +94,13 @@ void LogBlockTable::apply_create(std::uint8_t id, LogError error) {
   LogBlock& block = blocks_[id];
   if (request.command != LogCommand::kCreate || request.answered) return;
   request.answered = true;
-  if (error == LogError::kExists && block.exists) return;  // it holds what it held
+  if (error == LogError::kExists && block.exists) return;  // its contents have not changed
   const bool in_part =
       error == LogError::kUnknown || error == LogError::kTooBig || error == LogError::kNoRoom;
   if (error != LogError::kNone && error != LogError::kExists && !in_part) return;
   block = {};
   block.exists = true;
-  // An existing block that nobody saw made is most likely this one, its first reply lost.
+  // An existing block whose creation was not received is most likely this one, its first reply lost.
   block.uncertain = error != LogError::kNone;
   block.entries = request.entries;
 }
@@ -112,7 +112,7 @@ void LogBlockTable::apply_append(std::uint8_t id, LogError error) {
   const bool again = request.answered;
   request.answered = true;
   if (error == LogError::kUnknownCommand) return;
-  // A second reply is either a repeat of the first or a second execution: only the size can tell.
+  // A second reply is either a repeat of the first or a second execution: only the size shows which.
   block.uncertain = block.uncertain || error != LogError::kNone || again;
   append_all(block.entries, request.entries);
 }

@@ -14,10 +14,10 @@
 
 namespace swiftlet {
 
-/// One variable in a log block, in the order in which the block's packets carry them.
+/// One variable of a log block, in the order of the block's packets.
 struct LogEntry {
   std::uint16_t variable = 0;      ///< number in the table of contents
-  LogType type = LogType::kUint8;  ///< as fetched: how it stands in the packet
+  LogType type = LogType::kUint8;  ///< as requested: its form in the packet
   std::uint8_t offset = 0;         ///< of its first byte among the values
 };
 /// Values of at least one byte each: no more fit.
@@ -30,15 +30,15 @@ using LogEntries = FixedVector<LogEntry, kMaxLogBytes>;
 struct LogBlock {
   bool exists = false;
   /// A refused or repeated create or append: the block holds the entries up to an unknown one. The size of
-  /// its packets tells how many.
+  /// its packets shows how many.
   bool uncertain = false;
   bool running = false;
-  Duration period{0};  ///< 0: one shot, or never received
+  Duration period{0};  ///< 0: one shot, or unknown
   LogEntries entries;
 };
 
-/// What a vehicle's log blocks hold, learnt by listening to the requests and the replies of the log control
-/// channel (5:1); a layout counts from the reply on. Create and append are not atomic in the firmware: see
+/// The layouts of a vehicle's log blocks, learnt from the requests and the replies of the log control channel
+/// (5:1); a layout is valid from the reply on. Create and append are not atomic in the firmware: see
 /// LogBlock::uncertain. Fixed storage; one thread at a time.
 class LogBlockTable {
  public:
@@ -47,7 +47,7 @@ class LogBlockTable {
 
   [[nodiscard]] const LogBlock& operator[](std::uint8_t id) const { return blocks_[id]; }
   /// How many of the block's entries a packet with that many value bytes holds; 0 when the layout does not
-  /// explain it. A request whose reply was never received is believed when the size confirms it.
+  /// explain it. A request whose reply was lost is accepted when the size confirms it.
   [[nodiscard]] std::size_t entries_in(std::uint8_t id, std::size_t value_bytes);
   /// Changes with every change of any layout.
   [[nodiscard]] std::uint32_t revision() const { return revision_; }

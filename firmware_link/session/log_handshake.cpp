@@ -12,30 +12,30 @@ namespace {
 
 constexpr std::uint8_t kFast10ms = 10;
 constexpr std::uint8_t kSlow10ms = 100;
-// How long the reply to an append is waited for, in repetition periods, however slow the link.
+// The longest wait for the reply to an append, in repetition periods.
 constexpr int kMaxPatience = 20;
 constexpr std::string_view kSourceText = "Bitcraze Crazyflie";
 
-// Everything of one instant in one packet: 26 bytes, the most a block can hold.
+// All values of one instant in one packet: 26 bytes, the most that a block can hold.
 constexpr std::array<std::string_view, 10> kOneBlock{
     "stateEstimate.x", "stateEstimate.y", "stateEstimate.yaw", "range.front",     "range.back",
     "range.left",      "range.right",     "range.zrange",      "supervisor.info", "pm.vbatMV"};
 // For firmware that lacks one of those.
 constexpr std::array<std::string_view, 2> kPositionBlock{"stateEstimateZ.x", "stateEstimateZ.y"};
-// What the one block tells of the vehicle's health, by the other names too that firmware has for it.
+// The vehicle's health as in kOneBlock, also by the names of other firmware releases.
 constexpr std::array<std::string_view, 6> kPositionBlockExtras{
     "stateEstimateZ.z", "pm.vbatMV", "pm.vbat", "radio.rssi", "supervisor.info", "sys.isFlying"};
 constexpr std::array<std::string_view, 8> kRangeBlock{
     "stateEstimate.qw", "stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz",
     "range.front",      "range.back",       "range.left",       "range.right"};
 constexpr std::array<std::string_view, 1> kRangeBlockExtras{"range.zrange"};
-// The vehicle's health, for the status and for whoever reads the recording.
+// The vehicle's health, for the status and for readers of the recording.
 constexpr std::array<std::string_view, 8> kSlowBlock{
     "pm.state",           "radio.rssi",          "range.up",    "stateEstimate.z",
     "stateEstimate.roll", "stateEstimate.pitch", "kalman.varX", "kalman.varY"};
 constexpr std::uint8_t kSlowBlockId = 3;
 
-/// A variable that can be asked for: one of an unknown type could not be read.
+/// A variable of a known type; one of an unknown type could not be read.
 const TocItem* find_readable(const TocDownload& toc, std::string_view name) {
   const TocItem* const item = toc.find(name);
   return item != nullptr && log_type_of(item->type) ? item : nullptr;
@@ -54,7 +54,7 @@ LogHandshake::LogHandshake(const LogSession& session, TocCache& cache) : session
 std::optional<CrtpPacket> LogHandshake::next_request(HostTime now) {
   if (step_ == Step::kToc) return toc_->next_request(now);
   if (!request_.is_due(now)) return std::nullopt;
-  // An append must not reach the vehicle twice, and nobody knows whether the first did: make the block anew.
+  // An append must not reach the vehicle twice, and it is unknown whether the first did: remake the block.
   if (request_.was_sent() && step_ == Step::kBlocks && is_append(*request_.packet())) {
     append_patience_ = std::min(append_patience_ + 1, kMaxPatience);
     remake_block();
@@ -97,13 +97,13 @@ void LogHandshake::on_version(std::span<const std::uint8_t> packet) {
   if (packet.size() < 3 || packet[1] != static_cast<std::uint8_t>(VersionQuery::kProtocol)) return;
   protocol_ = packet[2];
   if (protocol_ < kOldestProtocol)
-    return fail("the vehicle's firmware speaks CRTP protocol " + std::to_string(protocol_) +
+    return fail("the vehicle's firmware has CRTP protocol " + std::to_string(protocol_) +
                 ", swiftlet needs 4 or newer: update it to 2018.10 or newer");
   enter(Step::kReset);
 }
 
 void LogHandshake::on_reset(std::span<const std::uint8_t> packet) {
-  // The id in the reply to a reset means nothing.
+  // The id in the reply to a reset has no meaning.
   if (static_cast<LogError>(packet[3]) != LogError::kNone)
     return fail("the vehicle refuses to reset its log, error " + std::to_string(packet[3]));
   enter(Step::kToc);
@@ -117,7 +117,7 @@ void LogHandshake::on_toc(std::span<const std::uint8_t> packet) {
   plan_blocks();
 }
 
-/// Only where somebody still has to hear them.
+/// Only items that the session does not know yet.
 void LogHandshake::restate_cached_toc() {
   for (const TocItem& item : toc_->items()) {
     const std::optional<CrtpPacket> reply = toc_item_reply(kLogTocTopic, item);
@@ -184,7 +184,7 @@ void LogHandshake::on_block_reply(std::span<const std::uint8_t> packet) {
 }
 
 void LogHandshake::answer_refusal(LogCommand command, LogError error) {
-  // It exists from a request whose reply was lost, or is gone with a reboot: make it anew.
+  // It exists from a request whose reply was lost, or is gone with a reboot: remake it.
   const bool is_gone = error == LogError::kUnknown && command != LogCommand::kCreate;
   if (is_gone || (command == LogCommand::kCreate && error == LogError::kExists)) return remake_block();
   if (error == LogError::kUnknown && toc_->came_from_cache()) {
@@ -223,7 +223,7 @@ void LogHandshake::next_block() {
 
 void LogHandshake::send_block_request() {
   const CrtpPacket& request = plan_[block_].requests[block_request_];
-  // A reply that only takes long must not cost the block over and over again.
+  // A slow reply must not cost the block again and again.
   request_.ask(request, PendingRequest::kRepeatAfter * (is_append(request) ? append_patience_ : 1));
 }
 

@@ -25,11 +25,11 @@ namespace swiftlet {
 inline constexpr int kOldestProtocol = 4;
 inline constexpr int kNewestProtocol = 12;
 
-/// Brings a live vehicle to send what samples need: says which request to send next, one outstanding,
-/// repeated after 200 ms; learns from the replies. Source, protocol version, reset of the log, table of
-/// contents, then creates and starts the blocks: pose and ranges at 10 Hz, the vehicle's health at 1 Hz. No
-/// link, no clock: it is told the time. One thread at a time; allocates; `session` must outlive it and hear
-/// each packet first, `cache` must outlive it.
+/// Starts the log of a live vehicle: determines the next request, one outstanding, repeated after 200 ms,
+/// from the replies. Source, protocol version, reset of the log, table of contents, then creates and starts
+/// the blocks: pose and ranges at 10 Hz, the vehicle's health at 1 Hz. No link, no clock: the caller passes
+/// the time. One thread at a time; allocates; `session` must outlive it and receive each packet first,
+/// `cache` must outlive it.
 class LogHandshake {
  public:
   LogHandshake(const LogSession& session, TocCache& cache);
@@ -38,15 +38,15 @@ class LogHandshake {
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   /// A packet from the vehicle.
   void on_frame(std::span<const std::uint8_t> packet);
-  /// Where the table of contents came from the cache: the replies that the vehicle would have given, for
-  /// whoever learns from replies. Empty afterwards.
+  /// If the table of contents came from the cache: the replies that the vehicle would have sent, for all that
+  /// learn from replies. Empty afterwards.
   [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return std::exchange(cached_replies_, {}); }
 
   /// All blocks are started: log data flows.
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
   /// The blocks that samples are made of. Once finished().
   [[nodiscard]] std::vector<std::uint8_t> essential_blocks() const;
-  /// Why this vehicle cannot be used; final. Packets that get lost are no reason.
+  /// Why this vehicle cannot be used; final. Lost packets are no failure.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// CRTP protocol version; 0 until received. kNewestProtocol is the newest that swiftlet was tried with.
   [[nodiscard]] int protocol() const { return protocol_; }
@@ -55,7 +55,7 @@ class LogHandshake {
   enum class Step { kSource, kVersion, kReset, kToc, kBlocks, kFinished, kFailed };
   struct PlannedBlock {
     std::uint8_t id = 0;
-    bool optional = false;             ///< nothing of a sample stands in it: refused, it is left out
+    bool optional = false;             ///< samples do not need it: if refused, it is left out
     std::vector<CrtpPacket> requests;  ///< create, append as needed, start
   };
 

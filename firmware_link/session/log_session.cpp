@@ -14,8 +14,8 @@
 namespace swiftlet {
 namespace {
 
-// Packets of less than a second wait in the vehicle while the link is silent; older ones are thrown away, but
-// for eight in its radio.
+// While the link is silent, packets of less than a second wait in the vehicle; older ones are discarded,
+// except for eight in its radio.
 constexpr Duration kClocksAgree = std::chrono::seconds(2);
 
 }  // namespace
@@ -57,16 +57,16 @@ void LogSession::on_request(std::span<const std::uint8_t> packet) {
   if (packet.size() > 1 && packet[1] == static_cast<std::uint8_t>(LogCommand::kReset)) reset_received_ = true;
 }
 
-/// A reset is how a session begins, also after the link was lost. If the vehicle's clock did not run on as
-/// long as ours did meanwhile, the vehicle has rebooted (or is another one).
+/// A session begins with a reset, also after the link was lost. If the vehicle's clock did not advance as far
+/// as the host's meanwhile, the vehicle has rebooted (or is another one).
 DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime received) {
   const bool is_after_reset = std::exchange(reset_received_, false);
   bool has_waited = false;
   if (last_data_) {
     using std::chrono::milliseconds;
-    const auto ours_ms = (received - last_data_->received) / milliseconds(1);
-    const auto theirs_ms = static_cast<std::int64_t>(counter_ms) - last_data_->counter_ms;
-    const Duration late = milliseconds(DeviceClockUnwrapper::shortest_step_ms(ours_ms - theirs_ms));
+    const auto host_ms = (received - last_data_->received) / milliseconds(1);
+    const auto device_ms = static_cast<std::int64_t>(counter_ms) - last_data_->counter_ms;
+    const Duration late = milliseconds(DeviceClockUnwrapper::shortest_step_ms(host_ms - device_ms));
     if (is_after_reset && std::chrono::abs(late) > kClocksAgree) {
       ++boot_;
       clock_ = {};
@@ -74,7 +74,7 @@ DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime received) {
       has_waited = late > kClocksAgree;
     }
   }
-  // The few that the vehicle's radio keeps through any silence do not tell how the clocks stand.
+  // The few packets that the vehicle's radio keeps through any silence do not show how the clocks compare.
   if (!has_waited) last_data_ = {counter_ms, received};
   return clock_.unwrap(counter_ms);
 }

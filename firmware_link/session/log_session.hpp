@@ -20,8 +20,8 @@
 
 namespace swiftlet {
 
-/// A log data packet whose layout is known. Borrows from the session and the frame it came from: valid until
-/// the next on_frame().
+/// A log data packet whose layout is known. References the session and its frame: valid until the next
+/// on_frame().
 struct LogRecord {
   std::uint8_t block_id = 0;
   const LogBlock* block = nullptr;
@@ -41,28 +41,28 @@ struct LogRecord {
 
 /// Log packets that could not be read, by reason.
 struct UnreadableRecords {
-  std::uint64_t unknown_block = 0;  ///< nothing tells what the block holds, or not by name
+  std::uint64_t unknown_block = 0;  ///< the contents of the block, or their names, are unknown
   std::uint64_t misfit = 0;         ///< its size is not that of the layout
 };
 
-/// Listens to both directions of a link and learns what the vehicle's log packets hold: table of contents,
-/// block layouts, start and stop; then decodes the packets. No I/O, no clock; works the same on a live link
-/// and on a recording. One thread at a time; allocates while it learns names, not on log data.
+/// Learns from both directions of a link what the vehicle's log packets hold: table of contents, block
+/// layouts, start and stop; then decodes the packets. No I/O, no clock; works the same on a live link and on
+/// a recording. One thread at a time; allocates while it learns names, not on log data.
 class LogSession {
  public:
-  /// For blocks that the traffic leaves without names. Call before on_frame().
+  /// For blocks that the traffic does not name. Call before on_frame().
   void describe(const BlockDescription& description);
 
-  /// Learns from a frame. A record when it is log data that can be read.
+  /// Learns from a frame. Returns a record if it is log data that can be read.
   [[nodiscard]] std::optional<LogRecord> on_frame(const LinkFrame& frame);
-  /// Learns from a request on its way to the vehicle. Hearing one twice is harmless.
+  /// Learns from a request to the vehicle. The same one twice is harmless.
   void on_request(std::span<const std::uint8_t> packet);
 
   [[nodiscard]] const LogToc& toc() const { return toc_; }
   [[nodiscard]] const LogBlockTable& blocks() const { return blocks_; }
   /// "group.name"; empty when unknown. Valid until the next on_frame().
   [[nodiscard]] std::string_view name_of(const LogRecord& record, std::size_t entry) const;
-  /// Changes with every change of a layout or of a name: what was derived from them must be derived anew.
+  /// Changes with every change of a layout or of a name: what was derived from them must be derived again.
   [[nodiscard]] std::uint32_t revision() const { return blocks_.revision() + toc_revision_; }
   [[nodiscard]] bool used_description() const { return used_description_; }
   [[nodiscard]] const UnreadableRecords& unreadable() const { return unreadable_; }

@@ -15,13 +15,12 @@
 
 namespace swiftlet {
 
-/// The vehicle's table of contents: which log variable bears which number. Numbers are positions in the
-/// firmware image and change with every build. Filled from replies; one thread at a time; allocates while it
-/// is filled.
+/// The vehicle's table of contents: the number of each log variable, a position in the firmware image that
+/// changes with every build. Filled from replies; one thread at a time; allocates while it is filled.
 class LogToc {
  public:
-  /// Learns from a reply of the table-of-contents channel (5:0); false when it says nothing. A changed crc
-  /// forgets all items: another firmware.
+  /// Learns from a reply of the table-of-contents channel (5:0); false when it holds none. A changed crc
+  /// clears all items: another firmware.
   bool on_reply(std::span<const std::uint8_t> packet);
   void add(std::uint16_t id, LogType type, std::string name);
   void clear();

@@ -10,8 +10,8 @@
 
 namespace swiftlet {
 
-/// A request that is sent again every 200 ms, unless told otherwise, until it is answered: one outstanding,
-/// because bursts lose replies in older firmware.
+/// A request that is repeated every 200 ms, or as given, until it is answered: one outstanding, because older
+/// firmware loses replies to bursts.
 class PendingRequest {
  public:
   static constexpr Duration kRepeatAfter = std::chrono::milliseconds(200);

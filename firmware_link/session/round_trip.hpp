@@ -12,8 +12,8 @@
 
 namespace swiftlet {
 
-/// Measures how long a packet takes to the vehicle and back, once a second, by the firmware's echo service.
-/// What is lost is not repeated. One thread at a time; allocates nothing.
+/// Measures how long a packet takes to the vehicle and back, once a second, by the firmware's echo service. A
+/// lost packet is not repeated. One thread at a time; allocates nothing.
 class RoundTrip {
  public:
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now) {
@@ -28,7 +28,7 @@ class RoundTrip {
     is_open_ = false;
     last_ = at - *sent_at_;
   }
-  /// Another connection: what was measured of the last one says nothing any more.
+  /// A new connection: the measurement of the last one is discarded.
   void restart() {
     is_open_ = false;
     last_ = Duration::zero();

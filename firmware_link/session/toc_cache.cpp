@@ -62,7 +62,7 @@ void TocCache::store(std::uint8_t port, const TocInfo& info, std::span<const Toc
   if (directory_.empty()) return;
   std::error_code ignored;
   std::filesystem::create_directories(directory_, ignored);
-  // Under another name until it is whole: another swiftletd may read at the same time.
+  // Under another name until it is complete: another swiftletd may read at the same time.
   const std::filesystem::path path = file_of(port, info);
   const std::filesystem::path unfinished = path.string() + ".new";
   {

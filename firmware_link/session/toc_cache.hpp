@@ -14,9 +14,9 @@
 
 namespace swiftlet {
 
-/// Tables of contents of vehicles met before, by port, length and crc: fetching one takes a second or two,
-/// and every reconnection would have to wait for it. Kept in memory and, with a directory, in one small text
-/// file each. One thread at a time; allocates; touches files in load() and store().
+/// Tables of contents of known vehicles, by port, length and crc: a download takes a second or two, and every
+/// reconnection would wait for it. Kept in memory and, with a directory, in one small text file each. One
+/// thread at a time; allocates; touches files in load() and store().
 class TocCache {
  public:
   /// An empty path: in memory only.
@@ -28,9 +28,9 @@ class TocCache {
 
   /// All items, in the order of their ids; nullopt when this table is not known (or its file is damaged).
   [[nodiscard]] std::optional<std::vector<TocItem>> load(std::uint8_t port, const TocInfo& info);
-  /// A directory that cannot be written costs the file, nothing else.
+  /// If the directory cannot be written, only the file is missing.
   void store(std::uint8_t port, const TocInfo& info, std::span<const TocItem> items);
-  /// It proved wrong.
+  /// The table proved wrong.
   void forget(std::uint8_t port, const TocInfo& info);
 
  private:

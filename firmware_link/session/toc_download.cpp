@@ -18,7 +18,7 @@ void TocDownload::on_frame(std::span<const std::uint8_t> packet) {
     if (const std::optional<TocInfo> info = read_toc_info(packet)) on_info(*info);
     return;
   }
-  // A reply of two bytes says that there is no such item, although the table counts it.
+  // A reply of two bytes means that there is no such item, although the table counts it.
   if (packet.size() == 2 && packet[1] == static_cast<std::uint8_t>(TocCommand::kItem)) {
     failure_ = Error{ErrorCode::kInvalidInput, "the vehicle's table of contents ends at item " +
                                                    std::to_string(items_.size()) + " of " +

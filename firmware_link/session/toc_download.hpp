@@ -16,8 +16,9 @@
 
 namespace swiftlet {
 
-/// Fetches one port's table of contents, item by item, or takes it from the cache; what was fetched goes into
-/// the cache. No clock, no link: it is told the time and what was received. One thread at a time; allocates.
+/// Downloads one port's table of contents, item by item, or takes it from the cache; a downloaded table is
+/// stored there. No clock, no link: the caller passes the time and the packets received. One thread at a
+/// time; allocates.
 class TocDownload {
  public:
   /// `topic`: kLogTocTopic or kParamTocTopic. `cache` must outlive it.

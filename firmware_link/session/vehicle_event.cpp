@@ -14,15 +14,15 @@ std::string describe(const VehicleEvent& event) {
     case Kind::kConnected:
       return "connected to the vehicle, CRTP protocol " + value + "; log data flows";
     case Kind::kProtocolNewer:
-      return "the vehicle's firmware speaks CRTP protocol " + value +
+      return "the vehicle's firmware has CRTP protocol " + value +
              ", newer than the newest known; if samples look wrong, update swiftlet";
     case Kind::kDataStopped:
-      return "no log data for a second; the map is kept, and the session begins anew when the vehicle is "
+      return "no log data for a second; the map is kept, and the session restarts when the vehicle is "
              "received";
     case Kind::kRebooted:
-      return "the vehicle has rebooted; its dead reckoning begins anew, the map is kept";
+      return "the vehicle has rebooted; its dead reckoning restarts, the map is kept";
     case Kind::kRefused:
-      return "this vehicle cannot be used; swiftlet doctor says why; trying again";
+      return "this vehicle cannot be used; swiftlet doctor reports why; trying again";
     case Kind::kNoMultiranger:
       return "the vehicle finds no Multiranger deck (deck.bcMultiranger is 0), so there are no ranges: check "
              "how it is mounted and restart the vehicle";

@@ -8,14 +8,14 @@
 
 namespace swiftlet {
 
-/// What happened to a live vehicle or its link, for people; noted on the radio thread without a word, put
-/// into words by describe().
+/// An event of a live vehicle or its link; recorded on the radio thread without text, which describe() gives
+/// it.
 struct VehicleEvent {
   enum class Kind : std::uint8_t {
     kConnected,      ///< log data flows; value: CRTP protocol version
     kProtocolNewer,  ///< value: CRTP protocol version
-    kDataStopped,    ///< no log data for a second: the session begins anew when the vehicle is received
-    kRebooted,       ///< its clock began anew
+    kDataStopped,    ///< no log data for a second: the session restarts when the vehicle is received
+    kRebooted,       ///< its clock restarted
     kRefused,        ///< after a reconnection, it cannot be used (the session tries again)
     kNoMultiranger,
     kNoFlowDeck,
@@ -28,7 +28,7 @@ struct VehicleEvent {
 };
 static_assert(std::is_trivially_copyable_v<VehicleEvent>);
 
-/// Whether somebody should do something about it.
+/// Whether the user should act on it.
 [[nodiscard]] bool is_warning(const VehicleEvent& event);
 /// One line: what, and what to do. Allocates.
 [[nodiscard]] std::string describe(const VehicleEvent& event);

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kMultiranger = "deck.bcMultiranger";
 // Both generations of the flow deck.
 constexpr std::array<const char*, 2> kFlowDecks{"deck.bcFlow2", "deck.bcFlow"};
-// Firmware keeps silent about a version that it does not know of.
+// Firmware does not answer a query that it does not know.
 constexpr int kMaxVersionRequests = 10;
 
 }  // namespace
@@ -85,7 +85,7 @@ void VehicleInventory::ask_next_deck() {
 
 void VehicleInventory::on_deck(std::span<const std::uint8_t> packet) {
   if (packet.size() < 4 || load_u16(packet, 1) != decks_[deck_].id) return;
-  // Status, then the value; no value when the status says why not.
+  // Status, then the value; no value when the status is an error.
   if (packet[3] == 0 && packet.size() > 4) decks_[deck_].attached = packet[4] != 0;
   ++deck_;
   ask_next_deck();

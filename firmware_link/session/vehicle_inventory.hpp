@@ -17,9 +17,9 @@
 
 namespace swiftlet {
 
-/// Asks a vehicle what it is and what it carries: firmware, device type, decks. Reads only; needs neither log
-/// nor flight, so it can run beside them. No link, no clock: it is told the time and what was received. One
-/// thread at a time; allocates; `cache` must outlive it.
+/// Requests what a vehicle is and carries: firmware, device type, decks. Reads only; needs neither log nor
+/// flight, so it can run beside them. No link, no clock: the caller passes the time and the packets received.
+/// One thread at a time; allocates; `cache` must outlive it.
 class VehicleInventory {
  public:
   explicit VehicleInventory(TocCache& cache);
@@ -31,10 +31,11 @@ class VehicleInventory {
 
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
 
-  // Once finished. Texts are empty where the vehicle does not say: firmware of 2018 does not know its type.
+  // Once finished. Texts are empty if the vehicle does not report them: firmware of 2018 does not report its
+  // type.
   [[nodiscard]] const std::string& firmware() const { return firmware_; }
   [[nodiscard]] const std::string& device_type() const { return device_type_; }
-  /// nullopt: the vehicle does not say.
+  /// nullopt: the vehicle does not report it.
   [[nodiscard]] std::optional<bool> has_multiranger() const;
   [[nodiscard]] std::optional<bool> has_flow_deck() const;
 

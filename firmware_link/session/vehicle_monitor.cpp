@@ -23,10 +23,10 @@ constexpr std::array<std::string_view, 10> kNames{
     "pm.state",  "range.front", "range.left", "range.back",      "range.right"};
 
 constexpr int kLowPower = 3;  // of pm.state
-// More than an estimate at rest wanders.
+// More than the drift of an estimate at rest.
 constexpr double kCarriedM = 0.5;
 constexpr double kTurnedRad = 0.5;
-// Measured anew twenty times; a vehicle in flight never stands so still, and no sensor is so quiet.
+// Twenty measurements; neither a vehicle in flight nor a sensor is that still.
 constexpr Duration kFrozen = std::chrono::seconds(2);
 constexpr int kOutOfReachMm = 4000;
 
@@ -61,7 +61,7 @@ void VehicleMonitor::watch_ranges(const Ranges& ranges_mm, DeviceTime at) {
   const bool could_move = health_.is_flying.value_or(true) && std::ranges::any_of(ranges_mm, is_hit);
   if (!could_move || ranges_mm != ranges_mm_ || !ranges_moved_at_) {
     ranges_moved_at_ = at;
-    told_frozen_ = false;
+    frozen_reported_ = false;
   }
   ranges_mm_ = ranges_mm;
   ranges_are_frozen_ = at - *ranges_moved_at_ >= kFrozen;
@@ -79,16 +79,16 @@ void VehicleMonitor::see(const Pose2& T_odom_body) {
 }
 
 std::optional<VehicleEvent> VehicleMonitor::take_event() {
-  if (yaw_trap_ && !told_yaw_trap_) {
-    told_yaw_trap_ = true;
+  if (yaw_trap_ && !yaw_trap_reported_) {
+    yaw_trap_reported_ = true;
     return VehicleEvent{VehicleEvent::Kind::kYawTrap, 0};
   }
-  if (health_.battery_is_low && !told_battery_) {
-    told_battery_ = true;
+  if (health_.battery_is_low && !battery_reported_) {
+    battery_reported_ = true;
     return VehicleEvent{VehicleEvent::Kind::kBatteryLow, health_.battery_mv.value_or(0)};
   }
-  if (ranges_are_frozen_ && !told_frozen_) {
-    told_frozen_ = true;
+  if (ranges_are_frozen_ && !frozen_reported_) {
+    frozen_reported_ = true;
     return VehicleEvent{VehicleEvent::Kind::kRangesFrozen, 0};
   }
   return std::nullopt;
@@ -98,7 +98,7 @@ void VehicleMonitor::restart() {
   health_ = {};
   T_odom_standing_.reset();
   ranges_moved_at_.reset();
-  yaw_trap_ = told_yaw_trap_ = told_battery_ = ranges_are_frozen_ = told_frozen_ = false;
+  yaw_trap_ = yaw_trap_reported_ = battery_reported_ = ranges_are_frozen_ = frozen_reported_ = false;
 }
 
 const VehicleMonitor::Slots& VehicleMonitor::slots_of(const LogRecord& record) {

@@ -17,21 +17,21 @@
 namespace swiftlet {
 
 /// Reads the vehicle's health from the log records as they pass, and watches for the yaw trap: while the
-/// supervisor says "not flying" the firmware pulls the yaw estimate towards kalman.initialYaw with a time
+/// supervisor reports "not flying" the firmware pulls the yaw estimate towards kalman.initialYaw with a time
 /// constant of ten seconds, so a vehicle that is carried turns the map. Also for ranges that freeze: the
-/// firmware waits for a sensor that hangs without end, and logs the last values of all of them meanwhile. One
-/// thread at a time; allocates nothing; `session` must outlive it.
+/// firmware waits without limit for a sensor that hangs, and meanwhile logs the last values of all sensors.
+/// One thread at a time; allocates nothing; `session` must outlive it.
 class VehicleMonitor {
  public:
   explicit VehicleMonitor(const LogSession& session) : session_(session) {}
 
   void on_frame(const LogRecord& record);
-  /// Dead reckoning, as samples come.
+  /// The dead reckoning of each sample.
   void see(const Pose2& T_odom_body);
   [[nodiscard]] const VehicleHealth& health() const { return health_; }
   /// At most one of each kind in a connection; of frozen ranges, whenever they freeze.
   [[nodiscard]] std::optional<VehicleEvent> take_event();
-  /// A new connection: everything is to be said again.
+  /// A new connection: every event is due again.
   void restart();
 
  private:
@@ -47,12 +47,12 @@ class VehicleMonitor {
   VehicleHealth health_;
   std::optional<Pose2> T_odom_standing_;  ///< since when it is not flying
   bool yaw_trap_ = false;
-  bool told_yaw_trap_ = false;
-  bool told_battery_ = false;
+  bool yaw_trap_reported_ = false;
+  bool battery_reported_ = false;
   Ranges ranges_mm_{};
   std::optional<DeviceTime> ranges_moved_at_;  ///< or the flight began, or none was in reach
   bool ranges_are_frozen_ = false;
-  bool told_frozen_ = false;
+  bool frozen_reported_ = false;
 };
 
 }  // namespace swiftlet

@@ -35,7 +35,7 @@ TEST(LandedOdometryFreeze, LeavesAFlightAsItIs) {
   const Reading flown = ground.hold(reading_of({3.0, 1.0, 2.0}, true));
   expect_pose(flown, {3.0, 1.0, 2.0});
   EXPECT_EQ(flown.distance_m[0], 1.F);
-  EXPECT_FALSE(flown.begins_anew);
+  EXPECT_FALSE(flown.odometry_restarted);
 }
 
 TEST(LandedOdometryFreeze, StandsStillAfterLandingWhileTheYawIsPulledBackAndSeesNothing) {
@@ -57,18 +57,18 @@ TEST(LandedOdometryFreeze, TheNextTakeOffGoesOnFromWhereItStood) {
   const Reading flown = ground.hold(reading_of({3.7, 1.0, 0.0}, true));
   expect_pose(flown, {3.0, 1.7, kPi / 2.0});
   EXPECT_EQ(flown.distance_m[0], 1.F);
-  EXPECT_FALSE(flown.begins_anew);
+  EXPECT_FALSE(flown.odometry_restarted);
 }
 
 TEST(LandedOdometryFreeze, CarriedElsewhereItBeginsAnew) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, true)));
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, false)));
-  EXPECT_FALSE(ground.hold(reading_of({3.3, 1.0, 0.9}, false)).begins_anew);
+  EXPECT_FALSE(ground.hold(reading_of({3.3, 1.0, 0.9}, false)).odometry_restarted);
   const Reading carried = ground.hold(reading_of({3.6, 1.0, 0.8}, false));
-  EXPECT_TRUE(carried.begins_anew);
+  EXPECT_TRUE(carried.odometry_restarted);
   EXPECT_EQ(carried.distance_m[0], 1.F);
-  EXPECT_FALSE(ground.hold(reading_of({3.7, 1.0, 0.8}, false)).begins_anew);
+  EXPECT_FALSE(ground.hold(reading_of({3.7, 1.0, 0.8}, false)).odometry_restarted);
 }
 
 TEST(LandedOdometryFreeze, LeavesAloneWhatHasNotFlownOrDoesNotTell) {
