@@ -20,18 +20,18 @@ namespace swiftlet {
 namespace {
 
 constexpr int kWaitMs = 1;       // the vehicle's clock ticks in milliseconds
-constexpr int kIdleWaitMs = 20;  // with nobody there
+constexpr int kIdleWaitMs = 20;  // without a client
 constexpr double kLapMinutes = 8.0;
 
-struct UdpAddress {
+struct ListenAddress {
   std::string host;
   std::uint16_t port = 0;
 };
 
-Result<UdpAddress> parse_udp_address(const std::string& text) {
+Result<ListenAddress> parse_listen_address(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon != std::string::npos) {
-    UdpAddress address{.host = text.substr(0, colon)};
+    ListenAddress address{.host = text.substr(0, colon)};
     const char* const begin = text.data() + colon + 1;
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(begin, end, address.port);
@@ -46,7 +46,7 @@ Result<VehicleModel> model_for(const SimCommand& command) {
   model.clock_start = from_seconds(command.clock_start_s);
   model.battery_endurance = from_seconds(60.0 * command.battery_minutes.value_or(kLapMinutes * command.laps));
   model.link_timeout = kRadioLinkTimeout;
-  model.tells_of_boot = true;
+  model.prints_boot_text = true;
   for (const std::string& name : command.missing_decks) {
     const Result<SimulatedDeck> deck = parse_deck(name);
     if (!deck) return deck.error();
@@ -55,29 +55,30 @@ Result<VehicleModel> model_for(const SimCommand& command) {
   return model;
 }
 
-void say(const std::string& notice) {
+void print_line(const std::string& notice) {
   std::printf("%s\n", notice.c_str());
   std::fflush(stdout);
 }
 
-/// Tells what changed since it looked last.
-class Observer {
+/// Reports what has changed since its last call.
+class ChangeReporter {
  public:
-  Observer(const SimulatedUdpServer& server, const SimulatedVehicle& vehicle)
+  ChangeReporter(const SimulatedUdpServer& server, const SimulatedVehicle& vehicle)
       : server_(server), vehicle_(vehicle) {}
 
-  void look() {
+  void report() {
     const std::optional<std::string> client = server_.client();
-    if (client != client_) say(client ? "client " + *client + " connected" : "client " + *client_ + " gone");
+    if (client != client_)
+      print_line(client ? "client " + *client + " connected" : "client " + *client_ + " gone");
     client_ = client;
-    tell(was_on_air_, vehicle_.is_on_air(), "vehicle on air", "vehicle silent");
-    tell(was_flying_, vehicle_.is_flying(), "took off",
-         vehicle_.is_finished() ? "landed" : "flight interrupted");
+    report(was_on_air_, vehicle_.is_on_air(), "vehicle on air", "vehicle silent");
+    report(was_flying_, vehicle_.is_flying(), "took off",
+           vehicle_.is_finished() ? "landed" : "flight interrupted");
   }
 
  private:
-  static void tell(bool& was, bool is, const char* begun, const char* ended) {
-    if (was != is) say(is ? begun : ended);
+  static void report(bool& was, bool is, const char* begun, const char* ended) {
+    if (was != is) print_line(is ? begun : ended);
     was = is;
   }
 
@@ -91,9 +92,9 @@ class Observer {
 /// stdin, line by line, without waiting.
 class InstructionReader {
  public:
-  /// -1, which poll() passes over, after the end.
+  /// After the end: -1, which poll() ignores.
   [[nodiscard]] int fd() const { return is_over_ ? -1 : STDIN_FILENO; }
-  /// To be called when there is something to read.
+  /// To be called when poll() reports input.
   void read_some() {
     std::array<char, 256> buffer{};
     const ssize_t size = read(STDIN_FILENO, buffer.data(), buffer.size());
@@ -115,8 +116,8 @@ class InstructionReader {
   bool is_over_ = false;
 };
 
-/// False when it is time to end.
-bool obey(const SimInstruction& instruction, SimulatedVehicle& vehicle, SimulatedUdpServer& server) {
+/// False: quit.
+bool execute(const SimInstruction& instruction, SimulatedVehicle& vehicle, SimulatedUdpServer& server) {
   PacketFaults faults = server.faults();
   switch (instruction.kind) {
     case SimInstruction::Kind::kNothing:
@@ -155,30 +156,30 @@ bool obey(const SimInstruction& instruction, SimulatedVehicle& vehicle, Simulate
   return true;
 }
 
-/// False when it is time to end.
-bool obey_lines(InstructionReader& reader, SimulatedVehicle& vehicle, SimulatedUdpServer& server) {
+/// False: quit.
+bool execute_lines(InstructionReader& reader, SimulatedVehicle& vehicle, SimulatedUdpServer& server) {
   while (const std::optional<std::string> line = reader.next_line()) {
     const Result<SimInstruction> instruction = parse_sim_instruction(*line);
     if (!instruction)
-      say(instruction.error().message);
-    else if (!obey(*instruction, vehicle, server))
+      print_line(instruction.error().message);
+    else if (!execute(*instruction, vehicle, server))
       return false;
     else if (instruction->kind != SimInstruction::Kind::kNothing)
-      say("done: " + *line);
+      print_line("done: " + *line);
   }
   return true;
 }
 
-void run_until_told(SimulatedVehicle& vehicle, SimulatedUdpServer& server, const std::stop_token& stop) {
-  Observer observer(server, vehicle);
+void run_until_quit(SimulatedVehicle& vehicle, SimulatedUdpServer& server, const std::stop_token& stop) {
+  ChangeReporter changes(server, vehicle);
   InstructionReader reader;
   while (!stop.stop_requested()) {
     std::array<pollfd, 2> watched{{{server.socket_fd(), POLLIN, 0}, {reader.fd(), POLLIN, 0}}};
     static_cast<void>(poll(watched.data(), watched.size(), server.client() ? kWaitMs : kIdleWaitMs));
     if (watched[1].revents != 0) reader.read_some();
-    if (!obey_lines(reader, vehicle, server)) return;
+    if (!execute_lines(reader, vehicle, server)) return;
     server.serve();
-    observer.look();
+    changes.report();
   }
 }
 
@@ -190,7 +191,7 @@ Status run_sim_command(const SimCommand& command) {
   if (!world) return world.error();
   const Result<VehicleModel> model = model_for(command);
   if (!model) return model.error();
-  const Result<UdpAddress> address = parse_udp_address(command.udp);
+  const Result<ListenAddress> address = parse_listen_address(command.udp);
   if (!address) return address.error();
   SimulatedVehicle vehicle(std::move(*world), *model, command.seed);
   SystemLinkClock clock;
@@ -199,10 +200,10 @@ Status run_sim_command(const SimCommand& command) {
   (*server)->set_faults({.loss_share = command.loss_percent / 100.0,
                          .duplicate_share = command.duplicates_percent / 100.0,
                          .delay = from_seconds(command.delay_ms / 1000.0)});
-  say("listening on udp://" + (*server)->address() + ", world " + command.world + ", seed " +
-      std::to_string(command.seed) + "; type help for instructions");
-  run_until_told(vehicle, **server, signals.token());
-  say("ended");
+  print_line("listening on udp://" + (*server)->address() + ", world " + command.world + ", seed " +
+             std::to_string(command.seed) + "; type help for instructions");
+  run_until_quit(vehicle, **server, signals.token());
+  print_line("ended");
   return {};
 }
 

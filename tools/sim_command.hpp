@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-/// What `swiftlet sim` was asked to do.
+/// The options of `swiftlet sim`.
 struct SimCommand {
   std::string world = "office";
   std::uint64_t seed = 1;
@@ -26,9 +26,9 @@ struct SimCommand {
 };
 
 /// Puts a simulated vehicle on UDP in real time until SIGINT, SIGTERM or the instruction `quit`. Instructions
-/// are read from stdin, one a line (sim_instructions_help()); its end is not the simulation's. Prints to
-/// stdout, a line each, where it listens, who connects and goes, what the vehicle does, and what is wrong
-/// with an instruction. To be called before any other thread runs.
+/// are read from stdin, one a line (sim_instructions_help()); the end of stdin does not end the simulation.
+/// Prints to stdout, a line each, where it listens, which clients come and go, what the vehicle does, and
+/// what is wrong with an instruction. To be called before any other thread runs.
 ///
 /// Errors: kNotFound, kInvalidInput: world, deck or address cannot be used, or the port is in use.
 [[nodiscard]] Status run_sim_command(const SimCommand& command);

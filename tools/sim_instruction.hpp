@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-/// What the user of `swiftlet sim` asks of the running simulation.
+/// An instruction of the user to a running `swiftlet sim`.
 struct SimInstruction {
   enum class Kind {
     kNothing,  ///< an empty line
@@ -30,7 +30,7 @@ struct SimInstruction {
   SimulatedDeck deck = SimulatedDeck::kFlow;
 };
 
-/// All instructions, for people; several lines.
+/// All instructions, for help; several lines.
 [[nodiscard]] std::string_view sim_instructions_help();
 
 /// One line as typed. Error: kInvalidInput, with a line for the user.

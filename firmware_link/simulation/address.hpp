@@ -17,8 +17,7 @@ struct SimulationAddress {
   int laps = 1;  ///< how often the world's script is flown
 };
 
-/// `WORLD[?seed=N&laps=N]`. Error: kInvalidInput: what is wrong. Whether there is such a world is not looked
-/// at.
+/// `WORLD[?seed=N&laps=N]`. Error: kInvalidInput: what is wrong. Does not check that the world exists.
 [[nodiscard]] Result<SimulationAddress> parse_simulation_address(std::string_view text);
 
 }  // namespace swiftlet

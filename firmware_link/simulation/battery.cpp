@@ -13,7 +13,7 @@ constexpr double kLoadV = 0.3;
 constexpr double kSagV = 0.5;
 constexpr double kKneeV = 0.35;
 constexpr double kSigmaV = 0.008;
-constexpr double kFallPerEndurance = 3.0;  // V, of what is discharged beyond its end
+constexpr double kFallPerEndurance = 3.0;  // V, beyond the end of the discharge
 constexpr Duration kPatience = std::chrono::seconds(5);
 
 bool is_so_for_long(bool is_so, Duration now, std::optional<Duration>& since) {

@@ -10,14 +10,14 @@
 
 namespace swiftlet {
 
-/// When the firmware calls a battery low or critical, by the parameters pm.lowVoltage and
-/// pm.criticalLowVoltage: below that for 5 s.
+/// The firmware's limits for a low and a critical battery, the parameters pm.lowVoltage and
+/// pm.criticalLowVoltage: below them for 5 s.
 struct BatteryLimits {
   double low_v = 3.2;
   double critical_v = 3.0;
 };
 
-/// A 250 mAh cell: 4.15 V at rest, 0.3 V less under load, empty after its endurance in flight, with a knee at
+/// A 250 mAh cell: 4.15 V at rest, 0.3 V less under load, empty after its endurance in flight, with a drop at
 /// the end. Noise source: "battery". One thread at a time.
 class SimulatedBattery {
  public:
@@ -25,13 +25,13 @@ class SimulatedBattery {
 
   /// A fresh cell.
   void replace(Duration flown);
-  /// Measures at `now`, after `flown` in the air since the vehicle was made, under load or not.
+  /// Measures at `now`, after `flown` in the air since the start of the simulation, under load or not.
   void update(Duration now, Duration flown, bool is_under_load, const BatteryLimits& limits);
 
   [[nodiscard]] double volts() const { return volts_; }
   [[nodiscard]] double percent() const { return percent_; }
   [[nodiscard]] bool is_low() const { return is_low_; }
-  /// The firmware switches the vehicle off.
+  /// Whether the firmware switches the vehicle off.
   [[nodiscard]] bool is_critical() const { return is_critical_; }
 
  private:

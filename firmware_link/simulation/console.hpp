@@ -14,9 +14,9 @@ namespace swiftlet {
 /// thread at a time; allocates.
 class SimulatedConsole {
  public:
-  /// Queues a line; the line's end is added. Text for which there is no room is lost.
+  /// Queues a line; the line's end is added. Text without room in the queue is lost.
   void print(std::string_view line);
-  /// The next packet to send; nullopt when all was sent.
+  /// The next packet to send; nullopt: all was sent.
   [[nodiscard]] std::optional<PacketBytes> next();
   void clear() { queue_.clear(); }
 

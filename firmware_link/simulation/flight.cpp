@@ -14,7 +14,7 @@ namespace {
 constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
 constexpr int kTakeOffSteps = 200;
 constexpr double kLookAheadM = 0.35;         // how far ahead of the vehicle the pilot aims
-constexpr double kArrivedM = 0.1;            // near enough to a place where there is something to do
+constexpr double kArrivedM = 0.1;            // near enough to a place with an action
 constexpr double kVelocityResponseS = 0.3;   // velocity follows the stick with this time constant
 constexpr double kMaxAcceleration = 1.2;     // m/s^2
 constexpr double kYawGain = 2.0;             // 1/s
@@ -117,7 +117,7 @@ void SimulatedFlight::look_around() {
   nose_rad_ = state_.T_world_body.yaw_rad();
 }
 
-/// Towards the aim, slowly while the nose is still elsewhere.
+/// Towards the aim, slowly while the nose points elsewhere.
 void SimulatedFlight::steer(double wander_yaw_rad) {
   const Point2 here = state_.T_world_body.position();
   const Point2 aim{aim_.x_m + wander_x_.step(noise_), aim_.y_m + wander_y_.step(noise_)};

@@ -41,8 +41,8 @@ struct FlightState {
 /// Between two states of a flight.
 inline constexpr Duration kFlightStep = std::chrono::milliseconds(10);
 
-/// A script flown over and over, without being stored more than once: from its end on, or back along it where
-/// it does not end where it began.
+/// A script that is repeated without being stored more than once: from its end on, or back along it if it
+/// does not end where it began.
 class RepeatedScript {
  public:
   /// Precondition: a script of at least two waypoints, at least one lap. Allocates.
@@ -51,27 +51,27 @@ class RepeatedScript {
   /// Waypoints of all laps.
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] Waypoint operator[](std::size_t i) const;
-  /// How often the script is flown from one end to the other, back too.
+  /// How often the script is flown from one end to the other, in either direction.
   [[nodiscard]] int passes() const { return static_cast<int>((size_ - 1) / (script_.size() - 1)); }
 
  private:
   std::vector<Waypoint> script_;
-  std::size_t period_ = 0;  // waypoints after which all comes again
+  std::size_t period_ = 0;  // waypoints after which the script repeats
   std::size_t size_ = 0;
 };
 
-/// The flight through a world's script from take-off to landing, flown step by step, in the same memory
-/// however long it is. A copy flies the same flight on. Noise source: "pilot". One thread at a time; step()
-/// allocates nothing.
+/// The flight through a world's script from take-off to landing, flown step by step, in memory that does not
+/// grow with its length. A copy continues the same flight. Noise source: "pilot". One thread at a time;
+/// step() allocates nothing.
 class SimulatedFlight {
  public:
   /// On the ground, in the first state. Allocates.
   SimulatedFlight(const SimulatedWorld& world, const PilotModel& pilot, std::uint64_t seed);
 
   [[nodiscard]] const FlightState& state() const { return state_; }
-  /// It has landed: this is the last state.
+  /// Whether it has landed: this is the last state.
   [[nodiscard]] bool is_over() const { return landing_steps_left_ == 0; }
-  /// On to the state kFlightStep later; the last one stays.
+  /// Advances to the state kFlightStep later; the last one stays.
   void step();
 
  private:
@@ -106,7 +106,7 @@ class SimulatedFlight {
   FlightState state_;
   int take_off_steps_ = 0;
   int landing_steps_left_ = kLandingSteps;
-  Point2 aim_;            // where the pilot steers to, on the scripted lines
+  Point2 aim_;            // the point on the scripted lines that the pilot steers to
   std::size_t next_ = 1;  // the waypoint that the aim moves towards
   double nose_rad_;       // where the nose should point
   double spin_left_rad_ = 0.0;

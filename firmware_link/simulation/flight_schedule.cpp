@@ -16,7 +16,7 @@ std::size_t steps_of(SimulatedFlight flight) {
 
 }  // namespace
 
-/// Room for twice what is remembered: who looks ahead must not push out what lies behind.
+/// Room for twice the remembered time: a look ahead must not overwrite the past.
 FlightSchedule::FlightSchedule(SimulatedFlight flight)
     : flight_(std::move(flight)),
       recent_(static_cast<std::size_t>(2 * kRemembered / kFlightStep)),
@@ -65,7 +65,7 @@ std::size_t FlightSchedule::index(Duration at) const {
   return std::min(leg->index + static_cast<std::size_t>(flown / kFlightStep), last_);
 }
 
-/// Flies on to it; the oldest that is remembered, where it is none any more.
+/// Flies on to that state; the oldest remembered one, if it is older.
 const FlightState& FlightSchedule::state_at(std::size_t index) {
   while (newest_ < index) {
     flight_.step();
@@ -75,7 +75,7 @@ const FlightState& FlightSchedule::state_at(std::size_t index) {
   return recent_[std::max(index, oldest) % recent_.size()];
 }
 
-/// The latest that had begun.
+/// The latest leg that had begun.
 const FlightSchedule::Leg* FlightSchedule::leg_at(Duration at) const {
   const auto later = std::ranges::find_if(legs_, [at](const Leg& leg) { return leg.from >= at; });
   return later == legs_.begin() ? nullptr : &*std::prev(later);

@@ -157,10 +157,10 @@ std::vector<Waypoint> corridors_flight() {
 constexpr double kSlantFromX = 12.0;
 constexpr double kSlant = 0.364;  // tan 20 degrees
 
-/// What lies to the right of the slant's beginning moves up the page, the farther right the more.
+/// Points to the right of the slant's beginning move up the page, in proportion to their distance.
 Point2 slanted(const Point2& p) { return {p.x_m, p.y_m + kSlant * std::max(0.0, p.x_m - kSlantFromX)}; }
 
-/// Where a line crosses the beginning of the slant and has to bend; nothing if it does not.
+/// The point where a line crosses the beginning of the slant and bends; nullopt if it does not.
 std::optional<Point2> bend_between(const Point2& a, const Point2& b) {
   if ((a.x_m - kSlantFromX) * (b.x_m - kSlantFromX) >= 0.0) return std::nullopt;
   const double share = (kSlantFromX - a.x_m) / (b.x_m - a.x_m);
@@ -267,7 +267,7 @@ std::vector<WallSegment> patrol_walls() {
   return plan.take();
 }
 
-/// Round the room to the left, with a look around in one corner: a round that may be flown all day.
+/// Round the room to the left, with a look around in one corner: for long flights of many laps.
 std::vector<Waypoint> patrol_flight() {
   return {{{1.2, 1.2}}, {{6.8, 1.2}}, {{6.8, 4.8}, kTravel, 2.0 * kPi}, {{1.2, 4.8}}, {{1.2, 1.2}}};
 }

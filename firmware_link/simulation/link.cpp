@@ -67,7 +67,7 @@ Status SimulatedLink::send(std::span<const std::uint8_t> packet) {
   return {};
 }
 
-/// Null packets are not handed back: there is no end of them.
+/// Null packets are not delivered: there are too many.
 void SimulatedLink::poll() {
   if (vehicle_.now() - polled_at_ < kPollEvery) return;
   constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};

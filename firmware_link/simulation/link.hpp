@@ -16,10 +16,10 @@
 
 namespace swiftlet {
 
-/// A simulated vehicle in a simulated world behind a link that answers every request, loses some log packets
-/// and keeps the vehicle listening as a radio does that polls it. Time is simulated too: receive() moves it
-/// on to the next frame and never waits, host time is a fixed date plus simulated time, so a run is
-/// repeatable byte for byte. One thread at a time; allocates.
+/// A simulated vehicle in a simulated world behind a link that delivers every request and reply, loses some
+/// log packets and polls the vehicle as a radio does. Time is simulated too: receive() advances it to the
+/// next frame and never waits; host time is a fixed date plus simulated time, so a run is repeatable byte for
+/// byte. One thread at a time; allocates.
 class SimulatedLink final : public Link {
  public:
   /// `world`: one of simulated_world_names(), its script flown `laps` times on a battery that lasts as long.

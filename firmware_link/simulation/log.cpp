@@ -33,7 +33,7 @@ std::uint16_t half_bits(float value) {
   return static_cast<std::uint16_t>(sign | ((static_cast<std::uint32_t>(exponent + 13) << 10U) + mantissa));
 }
 
-/// What the firmware keeps in memory for a variable of that type, and reads back when it logs.
+/// The value as stored in a variable of that type, and read back when it is logged.
 double stored(double value, LogType type) {
   return type == LogType::kFloat ? static_cast<double>(static_cast<float>(value)) : std::trunc(value);
 }
@@ -63,7 +63,7 @@ PacketBytes table_info() {
 std::optional<PacketBytes> answer_table(std::span<const std::uint8_t> packet) {
   if (asks_for_toc_info(packet)) return table_info();
   const std::optional<std::uint16_t> id = wanted_toc_item(packet);
-  if (!id) return std::nullopt;  // the 8-bit commands left the firmware with protocol version 12
+  if (!id) return std::nullopt;  // protocol version 12 has no 8-bit commands any more
   if (*id >= simulated_log_table().size()) return simulated_toc_end(kLogTocTopic);
   const LogVariable& variable = simulated_log_table()[*id];
   return simulated_toc_item(kLogTocTopic, *id, static_cast<std::uint8_t>(variable.type), variable.group,

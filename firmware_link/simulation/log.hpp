@@ -28,10 +28,9 @@ class SimulatedLog {
   explicit SimulatedLog(std::uint64_t seed) : seed_(seed) {}
 
   [[nodiscard]] bool has_running_block() const;
-  /// Deletes all blocks, as the firmware does when the radio has gone silent.
+  /// Deletes all blocks, as the firmware does when the radio is silent.
   void clear() { blocks_.clear(); }
-  /// The answer to a packet of port 5, received at `now` (since boot); nullopt where the firmware keeps
-  /// silent.
+  /// The answer to a packet of port 5, received at `now` (since boot); nullopt: the firmware does not answer.
   [[nodiscard]] std::optional<PacketBytes> handle(std::span<const std::uint8_t> packet, Milliseconds now);
   /// The packets of all blocks that are due at `now`, in the order of block ids. To be called each
   /// millisecond.

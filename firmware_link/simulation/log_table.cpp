@@ -19,7 +19,7 @@ namespace {
 constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kGyroCounts = 16.4;  // per degree per second
 constexpr double kGroundAboveSeaM = 50.0;
-constexpr double kVelocityVar = 2e-3;  // (m/s)^2, what the filter believes of its velocity
+constexpr double kVelocityVar = 2e-3;  // (m/s)^2, the filter's own estimate
 
 using State = VehicleState;
 using enum LogType;
@@ -189,8 +189,8 @@ constexpr LogVariable kLive[] = {
     {"sys", "armed", kInt8, [](const State&) { return 1.0; }},
 };
 
-/// Variables of one group with the same type about which the simulation knows nothing; `members`: names, each
-/// with what it shows unless that is 0.
+/// Variables of one group and type that the simulation does not model; `members`: names, each with its
+/// constant value unless that is 0.
 struct LogFamily {
   std::string_view group;
   LogType type;

@@ -11,10 +11,10 @@
 
 namespace swiftlet {
 
-/// Bytes on the wire; 0 for a number that names no type.
+/// Bytes on the wire; 0 for an undefined type.
 [[nodiscard]] std::size_t log_type_size(LogType type);
 
-/// Everything that the vehicle's log variables show, in the vehicle's own frames and SI units: position in
+/// All values that the vehicle's log variables show, in the vehicle's own frames and SI units: position in
 /// the frame set at take-off, attitude as right-handed roll, pitch, yaw.
 struct VehicleState {
   double x_m = 0.0;
@@ -47,7 +47,7 @@ struct LogVariable {
   std::string_view group;
   std::string_view name;
   LogType type;
-  double (*live)(const VehicleState&) = nullptr;  ///< unset: what it shows never changes
+  double (*live)(const VehicleState&) = nullptr;  ///< nullptr: its value never changes
   double constant = 0.0;
 
   /// In the variable's own unit, before conversion to its type.
@@ -56,7 +56,7 @@ struct LogVariable {
   }
 };
 
-/// The log variables of the simulated vehicle; the id of each is its place here.
+/// The log variables of the simulated vehicle; the id of each is its index.
 [[nodiscard]] std::span<const LogVariable> simulated_log_table();
 
 /// A key that changes with the table (CRC-32 over types and names in order).

@@ -24,7 +24,7 @@ constexpr std::size_t kEepromBytes = 8192;
 constexpr std::size_t kTesterBytes = 4096;
 constexpr std::uint8_t kIoError = 5;  // EIO
 
-constexpr std::size_t kRequestHead = 6;  // header, memory, address: what reads and writes begin with
+constexpr std::size_t kRequestHead = 6;  // header, memory, address: the beginning of reads and writes
 constexpr std::size_t kMaxRead = kMaxCrtpPacket - kRequestHead - 1;
 
 /// Channel, data rate, trims of pitch and roll, address; ends with the sum of what precedes.
@@ -65,7 +65,7 @@ std::optional<PacketBytes> SimulatedMemories::answer_info(std::span<const std::u
   }
   if (packet[1] != kDetails || packet.size() < 3) return std::nullopt;
   put(reply, packet[2]);
-  if (packet[2] >= kMemories) return reply;  // an answer without contents says: no such memory
+  if (packet[2] >= kMemories) return reply;  // an answer without contents means: no such memory
   const bool is_eeprom = packet[2] == kEeprom;
   put(reply, is_eeprom ? kEepromType : kTesterType);
   put_little_endian(reply, is_eeprom ? kEepromBytes : kTesterBytes, 4);

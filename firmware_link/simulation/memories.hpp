@@ -18,7 +18,7 @@ class SimulatedMemories {
  public:
   SimulatedMemories();
 
-  /// The answer to a packet of port 4; nullopt where the firmware keeps silent.
+  /// The answer to a packet of port 4; nullopt: the firmware does not answer.
   [[nodiscard]] std::optional<PacketBytes> handle(std::span<const std::uint8_t> packet);
 
  private:

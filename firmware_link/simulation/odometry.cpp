@@ -22,7 +22,7 @@ FlowOdometry::FlowOdometry(const FlowOdometryModel& model, std::uint64_t seed)
           gyro_noise_.either_sign(gyro_noise_.uniform(model.yaw_bias_min_rad_s, model.yaw_bias_max_rad_s))),
       turn_scale_(1.0 + gyro_noise_.uniform(-model.turn_scale_spread, model.turn_scale_spread)) {}
 
-/// How much of the motion the flow sensor sees just now.
+/// The share of the motion that the flow sensor measures now.
 double FlowOdometry::seen_share() {
   slip_left_s_ -= kStepS;
   if (slip_left_s_ > 0.0) return slip_share_;

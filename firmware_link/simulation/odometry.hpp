@@ -10,9 +10,9 @@
 
 namespace swiftlet {
 
-/// How flow and gyro err. Calibrated on the two reference flights, raw odometry against the published
-/// corrected trajectories: olsson (294 m in 377 s) and rice (192 m in 311 s). Heading: changes of the
-/// error from minute to minute of 5 and 7 degrees (standard deviation), 19 and 23 degrees between its
+/// The errors of flow sensor and gyro. Calibrated on the two reference flights, raw odometry against the
+/// published corrected trajectories: olsson (294 m in 377 s) and rice (192 m in 311 s). Heading: changes of
+/// the error from minute to minute of 5 and 7 degrees (standard deviation), 19 and 23 degrees between its
 /// extremes, 15 degrees left at the end of olsson. Scale: 0.992 and 0.999, +-3 % and +-2 % from one 3 m chord
 /// to the next. Position after rigid alignment: 1.30 and 1.02 m RMS. With the values below the simulated
 /// flights (150 to 195 m in 6 to 7.5 minutes, seeds 1 to 10): heading 3 to 9 degrees from minute to minute,
@@ -34,8 +34,8 @@ struct FlowOdometryModel {
   double slip_seen_max_share = 0.8;
 };
 
-/// The vehicle's dead reckoning: integrates what flow sensor and gyro make of the true motion. Noise sources:
-/// "flow", "gyro", "slip", each on its own.
+/// The vehicle's dead reckoning: integrates the true motion as measured by flow sensor and gyro. Noise
+/// sources: "flow", "gyro", "slip", independent of each other.
 class FlowOdometry {
  public:
   FlowOdometry(const FlowOdometryModel& model, std::uint64_t seed);
@@ -45,17 +45,17 @@ class FlowOdometry {
   [[nodiscard]] double vx_body_m_s() const { return vx_body_m_s_; }
   [[nodiscard]] double vy_body_m_s() const { return vy_body_m_s_; }
   [[nodiscard]] double yaw_rate_rad_s() const { return yaw_rate_rad_s_; }
-  /// What the filter believes of itself.
+  /// The filter's own estimates of its variance.
   [[nodiscard]] double position_variance_m2() const { return position_variance_m2_; }
   [[nodiscard]] double yaw_variance_rad2() const { return yaw_variance_rad2_; }
 
-  /// The vehicle moved like `truth` for one kFlightStep. On the ground (height 0) the estimate holds; without
-  /// flow the position does, and only the heading is followed.
+  /// One kFlightStep of the motion `truth`. On the ground (height 0) the estimate stays; without flow the
+  /// position stays and only the heading is integrated.
   void step(const FlightState& truth, bool has_flow = true);
-  /// One kFlightStep of what the filter does while it takes the vehicle for standing: the heading is drawn
-  /// towards the initial one, with a time constant of 10 s.
+  /// One kFlightStep of the filter while it takes the vehicle for standing: the heading decays to the initial
+  /// one, with a time constant of 10 s.
   void pull_yaw(double initial_yaw_rad);
-  /// The filter begins anew from there.
+  /// The filter restarts from that pose.
   void reset(const Pose2& T_odom_body);
 
  private:

@@ -15,7 +15,7 @@ namespace swiftlet {
 /// A CRTP packet: header byte and up to 30 data bytes.
 using PacketBytes = CrtpPacket;
 
-// Building packets. Precondition of each: what is put fits.
+// Building packets. Precondition of each: there is room.
 
 inline void put(PacketBytes& packet, std::uint8_t byte) {
   SWIFTLET_CHECK(packet.try_push_back(byte), "a packet has 31 bytes");
@@ -29,12 +29,12 @@ inline void put_little_endian(PacketBytes& packet, std::uint64_t value, std::siz
 inline void put_characters(PacketBytes& packet, std::string_view text) {
   for (const char c : text) put(packet, static_cast<std::uint8_t>(c));
 }
-/// With the zero that ends a string of C.
+/// With the terminating zero.
 inline void put_text(PacketBytes& packet, std::string_view text) {
   put_characters(packet, text);
   put(packet, 0);
 }
-/// The first `bytes` of a packet: the firmware answers many requests in the buffer that held them.
+/// The first `bytes` of a packet: the firmware answers many requests in their own buffer.
 inline PacketBytes head_of(std::span<const std::uint8_t> packet, std::size_t bytes) {
   PacketBytes head;
   put_bytes(head, packet.first(bytes));

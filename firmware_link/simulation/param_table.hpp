@@ -23,7 +23,7 @@ enum class ParamType : std::uint8_t {
   kUint64 = 11,
 };
 inline constexpr std::uint8_t kParamPersistent = 0x10;  ///< may be stored: "extended type" on the wire
-inline constexpr std::uint8_t kParamCore = 0x20;        ///< here to stay, says the firmware
+inline constexpr std::uint8_t kParamCore = 0x20;        ///< stable, by the firmware's definition
 inline constexpr std::uint8_t kParamReadOnly = 0x40;
 
 /// Bytes on the wire.
@@ -37,7 +37,7 @@ struct ParamDescription {
   double default_value = 0.0;
 };
 
-/// The parameters of the simulated vehicle; the id of each is its place here.
+/// The parameters of the simulated vehicle; the id of each is its index.
 [[nodiscard]] std::span<const ParamDescription> simulated_param_table();
 
 /// Precondition: there is such a parameter.

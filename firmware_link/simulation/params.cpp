@@ -113,7 +113,7 @@ std::optional<PacketBytes> SimulatedParams::answer_table(std::span<const std::ui
   if (asks_for_toc_info(packet))
     return simulated_toc_info(kParamTocTopic, values_.size(), simulated_param_table_crc());
   const std::optional<std::uint16_t> id = wanted_toc_item(packet);
-  if (!id) return std::nullopt;  // the 8-bit commands left the firmware long ago
+  if (!id) return std::nullopt;  // recent firmware has no 8-bit commands any more
   if (!exists(*id)) return simulated_toc_end(kParamTocTopic);
   const ParamDescription& param = description(*id);
   const auto type = static_cast<std::uint8_t>(static_cast<unsigned>(param.type) | param.flags);
@@ -195,7 +195,7 @@ std::optional<PacketBytes> SimulatedParams::set_by_name(std::span<const std::uin
   const std::string group(packet.begin() + 2, group_end);
   const std::string name(group_end + 1, name_end);
   PacketBytes reply = head_of(packet, static_cast<std::size_t>(name_end + 1 - packet.begin()));
-  if (reply.full()) return std::nullopt;  // no room for a value, nor for an answer
+  if (reply.full()) return std::nullopt;  // no room for a value: no answer
   put(reply, write_by_name(group, name, packet.subspan(reply.size())));
   return reply;
 }

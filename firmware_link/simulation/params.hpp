@@ -20,16 +20,16 @@ class SimulatedParams {
  public:
   SimulatedParams();
 
-  /// Every parameter as after booting: what was stored, else the default.
+  /// Every parameter as after booting: the stored value, else the default.
   void boot();
-  /// The answer to a packet of port 2; nullopt where the firmware keeps silent.
+  /// The answer to a packet of port 2; nullopt: the firmware does not answer.
   [[nodiscard]] std::optional<PacketBytes> handle(std::span<const std::uint8_t> packet);
 
-  /// As kept in the parameter's type.
+  /// As stored in the parameter's type.
   [[nodiscard]] double number(std::uint16_t id) const;
-  /// Sets a parameter aboard, read-only ones too, without telling anybody.
+  /// Sets a parameter aboard, also a read-only one, without a notification.
   void set(std::uint16_t id, double value);
-  /// The same, and the packet that tells the host.
+  /// The same; returns the packet that notifies the host.
   [[nodiscard]] PacketBytes change(std::uint16_t id, double value);
 
  private:

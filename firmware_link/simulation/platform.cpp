@@ -22,10 +22,10 @@ constexpr std::uint8_t kPortAndChannel = 0xF3;
 
 unsigned channel_of(std::span<const std::uint8_t> packet) { return packet[0] & 0x03U; }
 
-/// It arms itself, so it cannot be disarmed.
+/// A vehicle that arms itself cannot be disarmed.
 bool arming_succeeds(std::span<const std::uint8_t> packet) { return packet.size() > 2 && packet[2] != 0; }
 
-/// Each command comes back in its buffer; the firmware cuts the second byte of two of the results off.
+/// Each command is answered in its own buffer; the firmware drops the second byte of two of the results.
 PacketBytes answer_platform_command(std::span<const std::uint8_t> packet) {
   switch (packet[1]) {
     case kPlatformArm:
@@ -47,7 +47,7 @@ std::optional<PacketBytes> answer_link_service(std::span<const std::uint8_t> pac
   if (channel_of(packet) == kEcho) return head_of(packet, packet.size());
   if (channel_of(packet) != kSource) return std::nullopt;
   PacketBytes reply = head_of(packet, 1);
-  put_characters(reply, "Bitcraze Crazyflie");  // by this text clients know what speaks the protocol
+  put_characters(reply, "Bitcraze Crazyflie");  // clients identify a Crazyflie by this text
   while (!reply.full()) put(reply, 0);
   return reply;
 }

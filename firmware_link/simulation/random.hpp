@@ -9,7 +9,7 @@
 namespace swiftlet {
 
 /// The random numbers of one source of noise. Every source has its own generator, derived from the run's seed
-/// and the source's name, so that adding a source, or drawing more from one, leaves the others as they were.
+/// and the source's name, so that a new source, or more numbers drawn from one, does not change the others.
 class NoiseSource {
  public:
   NoiseSource(std::uint64_t seed, std::string_view name) : generator_(mixed(seed ^ hashed(name))) {}
@@ -19,7 +19,7 @@ class NoiseSource {
   }
   [[nodiscard]] double gaussian(double sigma) { return sigma * normal_(generator_); }
   [[nodiscard]] bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  /// `magnitude` or its negative, evenly.
+  /// `magnitude` or its negative, with equal probability.
   [[nodiscard]] double either_sign(double magnitude) { return chance(0.5) ? magnitude : -magnitude; }
 
  private:

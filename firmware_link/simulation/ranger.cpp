@@ -76,7 +76,7 @@ std::optional<ConeReturn> look_through_cone(std::span<const WallSegment> walls, 
 
 std::optional<double> measure_range(std::span<const WallSegment> walls, const Point2& origin,
                                     double direction_rad, const RangerModel& model, NoiseSource& noise) {
-  // Both are drawn whatever happens, so that one lost reading does not shift the noise of the next.
+  // Both are always drawn, so that a lost reading does not shift the noise of the next.
   const double fate = noise.uniform(0.0, 1.0);
   const double unit_error = noise.gaussian(1.0);
   const std::optional<ConeReturn> seen = look_through_cone(walls, origin, direction_rad, model);

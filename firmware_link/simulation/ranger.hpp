@@ -11,8 +11,7 @@
 
 namespace swiftlet {
 
-/// How a VL53L1x ranges indoors: ST datasheet DocID031281 (cone, limits) and what the reference flights show
-/// (noise).
+/// A VL53L1x indoors: ST datasheet DocID031281 (cone, limits) and what the reference flights show (noise).
 struct RangerModel {
   double half_cone_rad = radians(13.5);
   double noise_floor_m = 0.01;  ///< standard deviation = floor + share * distance
@@ -23,7 +22,7 @@ struct RangerModel {
   double lost_anyway = 0.003;   ///< share of readings that fail for no visible reason
 };
 
-/// What comes back from the whole cone, before noise.
+/// The return of the whole cone, before noise.
 struct ConeReturn {
   double distance_m = 0.0;
   /// The distance at which a wall that is met squarely and fills the cone returns as little light: grows with
@@ -31,9 +30,9 @@ struct ConeReturn {
   double dimness_m = 0.0;
 };
 
-/// The light that a wall at that pose returns into the cone around `direction_rad` (world frame); nullopt
-/// when nothing stands within the range limit. The sensor times one pulse: returns that lie closely behind
-/// the nearest merge into it, weighted by the light they send back, those farther behind are hidden by it.
+/// The light that a wall at that pose returns into the cone around `direction_rad` (world frame); nullopt if
+/// nothing is within the range limit. The sensor times one pulse: returns that lie closely behind the nearest
+/// merge into it, weighted by the light they send back, those farther behind are hidden by it.
 [[nodiscard]] std::optional<ConeReturn> look_through_cone(std::span<const WallSegment> walls,
                                                           const Point2& origin, double direction_rad,
                                                           const RangerModel& model);

@@ -14,14 +14,14 @@
 
 namespace swiftlet {
 
-// What the firmware answers about its tables of contents, version 2, on channel 0 of a port. It builds these
+// The firmware's answers about its tables of contents, version 2, on channel 0 of a port. It builds these
 // headers anew, so their link bits are 0; other answers keep those of the request.
 
-/// Whether a packet of channel 0 asks how long the table is.
+/// Whether a packet of channel 0 requests the length of the table.
 inline bool asks_for_toc_info(std::span<const std::uint8_t> packet) {
   return packet.size() >= 2 && packet[1] == static_cast<std::uint8_t>(TocCommand::kInfo);
 }
-/// The item that a packet of channel 0 asks for; nullopt where it asks for none.
+/// The item that a packet of channel 0 requests; nullopt if it requests none.
 inline std::optional<std::uint16_t> wanted_toc_item(std::span<const std::uint8_t> packet) {
   const bool asks = packet.size() >= 4 && packet[1] == static_cast<std::uint8_t>(TocCommand::kItem);
   return asks ? std::optional(load_u16(packet, 2)) : std::nullopt;
@@ -33,7 +33,7 @@ inline PacketBytes simulated_toc_reply(CrtpTopic topic, TocCommand command) {
   put(reply, static_cast<std::uint8_t>(command));
   return reply;
 }
-/// Ports append what is theirs.
+/// Each port appends its own fields.
 inline PacketBytes simulated_toc_info(CrtpTopic topic, std::size_t count, std::uint32_t crc) {
   PacketBytes reply = simulated_toc_reply(topic, TocCommand::kInfo);
   put_little_endian(reply, count, 2);
@@ -50,7 +50,7 @@ inline PacketBytes simulated_toc_item(CrtpTopic topic, std::uint16_t id, std::ui
   put_text(reply, name);
   return reply;
 }
-/// That the table has no such item.
+/// The answer that the table has no such item.
 inline PacketBytes simulated_toc_end(CrtpTopic topic) {
   return simulated_toc_reply(topic, TocCommand::kItem);
 }

@@ -15,7 +15,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::uint8_t kIdle = 0xF3;  // what a vehicle with nothing to say acknowledges with
+constexpr std::uint8_t kIdle = 0xF3;  // the acknowledgement of a vehicle that has nothing to send
 
 sockaddr* generic(sockaddr_in* address) { return std::bit_cast<sockaddr*>(address); }
 const sockaddr* generic(const sockaddr_in* address) { return std::bit_cast<const sockaddr*>(address); }
@@ -127,7 +127,7 @@ void SimulatedUdpServer::send(const PacketBytes& bytes, const sockaddr_in& to) {
   if (noise_.chance(faults_.duplicate_share)) flying_.push_back(flying_.back());
 }
 
-/// A receiver that has gone is nobody's loss: errors are not looked at.
+/// Errors are ignored: the receiver may be gone.
 void SimulatedUdpServer::send_due() {
   while (!flying_.empty() && flying_.front().due <= clock_.now()) {
     const Flying& packet = flying_.front();

@@ -17,7 +17,7 @@
 
 namespace swiftlet {
 
-/// What befalls packets on their way.
+/// Disturbances of the packets on their way.
 struct PacketFaults {
   double loss_share = 0.0;       ///< that never arrive, in each direction
   double duplicate_share = 0.0;  ///< that arrive twice, from the vehicle
@@ -25,10 +25,10 @@ struct PacketFaults {
 };
 
 /// A simulated vehicle on a UDP socket: one datagram is one CRTP packet, a null packet of one byte is
-/// answered with `f3`. Requests are answered to whoever sent them; log data and console text go to the peer:
-/// the last one that sent a request. A null packet from elsewhere is a scan, of which the vehicle learns
-/// nothing: what it says at boot waits for a client. The vehicle lives at the clock's pace. One thread at a
-/// time; allocates.
+/// answered with `f3`. Requests are answered to their sender; log data and console text go to the peer: the
+/// sender of the last request. A null packet from elsewhere is a scan, which the vehicle does not receive:
+/// its console text at boot waits for a client. The vehicle runs at the clock's pace. One thread at a time;
+/// allocates.
 class SimulatedUdpServer {
  public:
   /// `host`: IPv4 address; port 0: any free one. The vehicle and the clock must outlive the server. Noise
@@ -40,21 +40,21 @@ class SimulatedUdpServer {
   SimulatedUdpServer(const SimulatedUdpServer&) = delete;
   SimulatedUdpServer& operator=(const SimulatedUdpServer&) = delete;
 
-  /// To wait on for datagrams.
+  /// For poll(): readable when datagrams wait.
   [[nodiscard]] int socket_fd() const { return socket_; }
   /// `address:port` as bound.
   [[nodiscard]] std::string address() const;
-  /// Who talks to the vehicle: `address:port`, once it sent more than null packets and until the vehicle has
-  /// missed the link's time-out.
+  /// The client of the vehicle: `address:port`, from its first packet that is no null packet until the link
+  /// has timed out.
   [[nodiscard]] std::optional<std::string> client() const;
 
-  /// Hears what has arrived, lets the vehicle live on until now and sends what is due. Never waits; to be
+  /// Receives what has arrived, advances the vehicle until now and sends what is due. Never waits; to be
   /// called every few milliseconds.
   void serve();
 
   void set_faults(const PacketFaults& faults) { faults_ = faults; }
   [[nodiscard]] const PacketFaults& faults() const { return faults_; }
-  /// For that long nothing is received and nothing sent.
+  /// Receives and sends nothing for that long.
   void silence(Duration duration) { silent_until_ = clock_.now() + duration; }
 
  private:

@@ -29,7 +29,7 @@ enum Port : std::uint8_t { kParam = 2, kMemory = 4, kLog = 5, kSupervisor = 9, k
 constexpr std::uint8_t kComplementary = 1;  // stabilizer.estimator
 constexpr std::uint8_t kKalman = 2;
 
-/// The parameters that the simulation obeys.
+/// The parameters that the simulation implements.
 struct ParamIds {
   std::uint16_t flow_deck = simulated_param_id("deck", "bcFlow2");
   std::uint16_t zranger_deck = simulated_param_id("deck", "bcZRanger2");
@@ -76,7 +76,7 @@ SimulatedVehicle::SimulatedVehicle(SimulatedWorld world, const VehicleModel& mod
   const double phase = NoiseSource(seed, "range_phase").uniform(0.0, 1.0);
   next_range_read_ = now_ + std::chrono::duration_cast<Milliseconds>(phase * model_.range_period);
   set_up_parameters();
-  if (model_.tells_of_boot) tell_of_boot();
+  if (model_.prints_boot_text) print_boot_text();
   show(flight_.state(now_));
 }
 
@@ -89,7 +89,7 @@ std::vector<PacketBytes> SimulatedVehicle::handle(std::span<const std::uint8_t> 
   return reply ? std::vector<PacketBytes>{*reply} : std::vector<PacketBytes>{};
 }
 
-/// Setpoints, positions from outside and whatever has no service here are taken without an answer.
+/// Setpoints, external positions and packets without a service here are accepted without an answer.
 std::optional<PacketBytes> SimulatedVehicle::answer(std::span<const std::uint8_t> packet) {
   switch (packet[0] >> 4U) {
     case kParam:
@@ -109,7 +109,7 @@ std::optional<PacketBytes> SimulatedVehicle::answer(std::span<const std::uint8_t
   }
 }
 
-/// The link service, echoes later where a test of the link asked for that.
+/// The link service; echoes are delayed by the parameter crtpsrv.echoDelay.
 std::optional<PacketBytes> SimulatedVehicle::answer_echo(std::span<const std::uint8_t> packet) {
   const Milliseconds delay(static_cast<std::int64_t>(params_.number(ids().echo_delay)));
   const std::optional<PacketBytes> reply = answer_link_service(packet);
@@ -129,13 +129,13 @@ std::vector<SentPacket> SimulatedVehicle::advance(DeviceTime to) {
   return sent;
 }
 
-/// One millisecond of the firmware's life.
+/// One millisecond of the firmware.
 void SimulatedVehicle::tick() {
   now_ += kTick;
   if (boots_at_ && now_ >= *boots_at_) boot();
   if (!is_on_air()) return;
   check_link();
-  obey_parameters();
+  apply_parameters();
   const bool is_step = flight_.is_going() ? flight_.is_at_step(now_) : now_ % kFlightStep == Duration(0);
   if (is_step) move();
   if (now_ >= next_range_read_) read_sensors();
@@ -173,7 +173,7 @@ void SimulatedVehicle::boot() {
   ranges_frozen_until_ = now_;
   next_range_read_ = now_ + whole_milliseconds(model_.range_period);
   show(flight_.state(now_));
-  tell_of_boot();
+  print_boot_text();
 }
 
 void SimulatedVehicle::set_up_parameters() {
@@ -184,7 +184,7 @@ void SimulatedVehicle::set_up_parameters() {
   params_.set(ids().estimator, model_.has_flow_deck ? kKalman : kComplementary);
 }
 
-void SimulatedVehicle::tell_of_boot() {
+void SimulatedVehicle::print_boot_text() {
   console_.print("SYS: swiftlet simulation of a Crazyflie 2.1");
   const int decks = (model_.has_flow_deck ? 1 : 0) + (model_.has_multiranger ? 1 : 0);
   console_.print("DECK_CORE: " + std::to_string(decks) + " deck(s) found");
@@ -208,7 +208,7 @@ void SimulatedVehicle::check_link() {
   flush();
 }
 
-void SimulatedVehicle::obey_parameters() {
+void SimulatedVehicle::apply_parameters() {
   if (params_.number(ids().reset_estimation) == 0.0) return;
   begin_estimate();
   queue_.push_back({now_, params_.change(ids().reset_estimation, 0.0)});
@@ -224,7 +224,7 @@ void SimulatedVehicle::begin_estimate() {
   odometry_.reset(Pose2(bounded(ids().initial_x), bounded(ids().initial_y), bounded(ids().initial_yaw)));
 }
 
-/// As far as the filter believes in it: a host may write anything.
+/// Within the filter's limits: a host may write any value.
 double SimulatedVehicle::bounded(std::uint16_t param) const {
   const double value = params_.number(param);
   return std::isfinite(value) ? std::clamp(value, -kMaxPosition, kMaxPosition) : 0.0;

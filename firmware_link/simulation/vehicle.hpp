@@ -25,10 +25,10 @@ namespace swiftlet {
 
 enum class SimulatedDeck : std::uint8_t { kFlow, kMultiranger };
 
-/// After so much silence the firmware takes the radio for dead.
+/// After that much silence the firmware gives up the radio link.
 inline constexpr Duration kRadioLinkTimeout = std::chrono::seconds(1);
 
-/// How everything aboard errs, and how the vehicle is fitted out.
+/// The errors of the sensors aboard, and the equipment of the vehicle.
 struct VehicleModel {
   PilotModel pilot;
   FlowOdometryModel odometry;
@@ -39,11 +39,11 @@ struct VehicleModel {
   Duration range_age = std::chrono::milliseconds(78);
   Duration battery_endurance = std::chrono::minutes(8);  ///< in flight
   Duration clock_start = std::chrono::seconds(4);        ///< the vehicle's clock when the simulation begins
-  /// Hearing nothing for longer, the vehicle deletes its log blocks; 0: never, as over its own cable.
+  /// After that long without a packet the vehicle deletes its log blocks; 0: never, as over its own cable.
   Duration link_timeout{0};
   bool has_flow_deck = true;
   bool has_multiranger = true;
-  bool tells_of_boot = false;  ///< the console text of its first boot waits for the first packet received
+  bool prints_boot_text = false;  ///< the console text of its first boot waits for the first packet received
 };
 
 /// A packet that the vehicle sends of its own accord.
@@ -52,9 +52,9 @@ struct SentPacket {
   PacketBytes bytes;
 };
 
-/// A Crazyflie with flow and Multiranger deck as its radio shows it: CRTP packets in, CRTP packets out, time
-/// only as it is told. It stands on the ground until a log block runs, then flies its world's script once and
-/// lands. The same seed and calls give the same bytes. One thread at a time; allocates.
+/// A Crazyflie with flow and Multiranger deck, seen through its radio: CRTP packets in, CRTP packets out;
+/// time advances by advance() only. It stands on the ground until a log block runs, then flies its world's
+/// script and lands. The same seed and calls give the same bytes. One thread at a time; allocates.
 class SimulatedVehicle {
  public:
   /// Noise sources: "pilot", "flow", "gyro", "slip", "range_phase", "range_front" .. "range_up",
@@ -65,39 +65,39 @@ class SimulatedVehicle {
   [[nodiscard]] DeviceTime now() const { return DeviceTime(now_); }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return flight_.progress(now_); }
-  /// It has landed again.
+  /// Whether it has landed again.
   [[nodiscard]] bool is_finished() const { return flight_.is_over(now_); }
   [[nodiscard]] bool is_flying() const { return is_on_air() && state_.is_flying; }
   /// The truth, of the last minute in the air (FlightSchedule::kRemembered). Before take-off the starting
-  /// place, after landing the last. A time up to a minute ahead is answered once the flight has begun; until
-  /// then it is taken for the ground.
+  /// place, after landing the last. Once the flight has begun, times up to a minute ahead are known; until
+  /// then they count as on the ground.
   [[nodiscard]] Pose2 T_world_body(DeviceTime at) { return flight_.T_world_body(at.time_since_epoch()); }
 
   /// Whether it answers at all (a radio gets acknowledgements): not while it boots, nor once its battery is
   /// empty, until reboot().
   [[nodiscard]] bool is_on_air() const { return !boots_at_ && !is_off_; }
-  /// It hears somebody, and has not missed the link's time-out since.
+  /// Whether it has received a packet and the link has not timed out since.
   [[nodiscard]] bool is_linked() const { return is_linked_; }
-  /// How often it threw away what it had queued for sending (silence, reboot). Who holds packets of this
-  /// vehicle back, as a radio does, drops them when this changes.
+  /// How often it discarded its transmit queue (silence, reboot). A radio that delays packets of this vehicle
+  /// drops them when this changes.
   [[nodiscard]] unsigned flushes() const { return flushes_; }
 
   /// The answers to one packet, received at now().
   [[nodiscard]] std::vector<PacketBytes> handle(std::span<const std::uint8_t> packet);
-  /// Lives on until `to` and returns what was sent meanwhile, in order. A time already past does nothing.
+  /// Advances to `to` and returns the packets sent meanwhile, in order. A time in the past has no effect.
   [[nodiscard]] std::vector<SentPacket> advance(DeviceTime to);
 
-  // What may befall it.
+  // Faults.
 
-  /// Silent for 2 to 4 s; its clock begins anew near 0; log blocks and changed parameters are gone; an empty
+  /// Silent for 2 to 4 s; its clock restarts near 0; log blocks and changed parameters are gone; an empty
   /// battery is replaced. A flight is interrupted, the vehicle held where it is; when a log block runs again
-  /// it flies on from there, with an estimate that began anew.
+  /// it flies on from there, with a restarted estimate.
   void reboot();
   /// The filter finds its state out of bounds: the estimate jumps to kalman.initialX, initialY, initialYaw.
   void reset_estimator();
   /// A sensor hangs: all of range.* keep their values for that long.
   void freeze_ranges(Duration duration);
-  /// What the deck measures stays as it is; after the next reboot the deck is not there at all.
+  /// The deck's values stay as they are; after the next reboot the deck is missing.
   void unplug(SimulatedDeck deck);
 
  private:
@@ -119,10 +119,10 @@ class SimulatedVehicle {
   [[nodiscard]] std::vector<PacketBytes> send_due();
   void boot();
   void set_up_parameters();
-  void tell_of_boot();
+  void print_boot_text();
   void flush();
   void check_link();
-  void obey_parameters();
+  void apply_parameters();
   void begin_estimate();
   [[nodiscard]] double bounded(std::uint16_t param) const;
   void move();

@@ -50,7 +50,7 @@ struct WorldPlan {
 /// "office, maze, loop"
 [[nodiscard]] std::string simulated_world_names();
 
-/// The world of that name. kNotFound: no such world; the message lists those there are.
+/// The world of that name. kNotFound: no such world; the message lists the worlds.
 [[nodiscard]] Result<SimulatedWorld> make_simulated_world(std::string_view name);
 
 struct RayHit {

@@ -276,7 +276,7 @@ TEST(SimulatedVehicle, KeepsItsBlocksWhileItHearsNullPackets) {
 
 TEST(SimulatedVehicle, TellsOfItsBootOnceSomebodyListens) {
   VehicleModel model = exact();
-  model.tells_of_boot = true;
+  model.prints_boot_text = true;
   SimulatedVehicle vehicle(hop(), model, 1);
   EXPECT_TRUE(vehicle.advance(after(vehicle, 1.0)).empty());
   static_cast<void>(vehicle.handle(Bytes{0xFF}));
