@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Holds the sources to the plan in docs/architecture.md: who may include whom, which libraries appear in one
-source file only, what core must not know, and the two licence lines. Prints one line a fault; exit code 1 if there is any.
+"""Compares the sources with the plan in docs/architecture.md: who may include whom, which libraries appear in one source
+file only, what core must not use, that a name in the namespace is one type, and the two licence lines. Prints a line a
+fault; exit code 1 if there is any.
 
 Usage: check_includes.py [REPOSITORY]
 """
@@ -68,6 +69,7 @@ NOT_IN_CORE = {"thread", "mutex", "shared_mutex", "condition_variable", "future"
 ASKS_FOR_THE_TIME = re.compile(r"\bnow\s*\(\s*\)")
 GENERATED = re.compile(r"^swiftlet/(\w+)\.hpp$")  # by lcm-gen, from proto/
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+TYPE = re.compile(r"(?:struct|class|enum class|enum|union) (\w+)(?: final)?(?: : [^;{]+)? \{")  # in the namespace itself
 SPDX = ("SPDX-License-Identifier: MIT", "SPDX-FileCopyrightText: ")
 
 
@@ -106,6 +108,18 @@ def check_source(path, text, root, users):
                 users[library].add(path)
 
 
+def types_defined(text):
+    """Names of the types that a source defines in the namespace, neither inside another type nor for itself alone."""
+    is_for_itself = False
+    for line in text.splitlines():
+        if line.startswith("namespace {"):
+            is_for_itself = True
+        elif line == "}  // namespace":
+            is_for_itself = False
+        elif not is_for_itself and (found := TYPE.match(line)):
+            yield found[1]
+
+
 def check_script(path, text):
     lines = text.splitlines()[1:3]
     if len(lines) < 2 or not all(mark in line for mark, line in zip(SPDX, lines)):
@@ -114,13 +128,21 @@ def check_script(path, text):
 
 def faults_in(root):
     users = {library: set() for library in ONE_FILE_ONLY}
+    defined_in = {}
     for top in ("core", "firmware_link", "daemon", "tools", "tests"):
         for file in sorted((root / top).rglob("*")):
             path = file.relative_to(root).as_posix()
             if file.suffix in (".hpp", ".cpp", ".h", ".c"):
-                yield from check_source(path, file.read_text(encoding="utf-8"), root, users)
+                text = file.read_text(encoding="utf-8")
+                yield from check_source(path, text, root, users)
+                if top != "tests":
+                    for name in types_defined(text):
+                        defined_in.setdefault(name, []).append(path)
             elif file.is_file() and file.read_bytes()[:2] == b"#!":
                 yield from check_script(path, file.read_text(encoding="utf-8"))
+    for name, paths in defined_in.items():
+        if len(paths) > 1:
+            yield f"{name} is defined {len(paths)} times: in {', '.join(paths)}"
     for library, paths in users.items():
         if len(paths) > 1:
             yield f"{library} belongs in one source file, not in {', '.join(sorted(paths))}"

@@ -65,6 +65,16 @@ class CheckIncludes(unittest.TestCase):
             files["tests/daemon/b.cpp"] = files.pop("daemon/b.cpp")
             self.assertEqual([], self.faults(files))
 
+    def test_refuses_two_types_of_one_name(self):
+        self.assert_fault({"core/base/a.hpp": SPDX + "namespace swiftlet {\nstruct Cell {\n};\n}\n",
+                           "core/base/b.hpp": SPDX + "namespace swiftlet {\nclass Cell final : Base {\n};\n}\n"},
+                          "Cell is defined 2 times: in core/base/a.hpp, core/base/b.hpp")
+
+    def test_accepts_what_a_source_defines_for_itself_or_inside_another_type(self):
+        inner = "namespace swiftlet {\nstruct Outer%s {\n  struct Cell {\n  };\n};\nnamespace {\nstruct Cell {\n};\n}  // namespace\n}\n"
+        self.assertEqual([], self.faults({"core/base/a.cpp": SPDX + inner % "A", "core/base/b.cpp": SPDX + inner % "B",
+                                          "core/base/c.hpp": SPDX + "class Cell;\nstruct Cell {\n};\n"}))
+
     def test_refuses_a_file_without_licence_lines(self):
         self.assert_fault({"core/base/a.hpp": "#pragma once\n"}, "SPDX")
         self.assert_fault({"tools/run": "#!/bin/sh\necho\n"}, "SPDX")
