@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "daemon/config/configuration_fields.hpp"
+#include "daemon/config/configuration.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/run_outputs.hpp"

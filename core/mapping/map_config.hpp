@@ -5,17 +5,30 @@
 #include <string>
 #include <vector>
 
+#include "core/base/settings.hpp"
+
 namespace swiftlet {
 
 /// Settings of the occupancy map that is published and written. One set serves all places and sensors.
 struct MapConfig {
-  double resolution_m = 0.05;   ///< cell size
-  double hit_log_odds = 0.85;   ///< what one beam's end adds to its cell
-  double miss_log_odds = -0.4;  ///< what one beam adds to each cell it traversals through
-  double clear_range_m = 3.0;   ///< beams clear cells up to this distance at most
+  double resolution_m = 0.05;
+  double hit_log_odds = 0.85;
+  double miss_log_odds = -0.4;
+  double clear_range_m = 3.0;
+
+  static constexpr SettingsSection kSection{"map", "The occupancy map that is published and written."};
+  static constexpr Setting<MapConfig> kSettings[] = {
+      {"resolution_m", &MapConfig::resolution_m, "m", "cell size of the map that is published and written",
+       0.01, 1},
+      {"hit_log_odds", &MapConfig::hit_log_odds, "", "what one beam's end adds to its cell", 0.01, 10},
+      {"miss_log_odds", &MapConfig::miss_log_odds, "", "what one beam adds to each cell it passes through",
+       -10, -0.001},
+      {"clear_range_m", &MapConfig::clear_range_m, "m", "beams clear cells up to this distance at most", 0.1,
+       100},
+  };
 
   /// All that is wrong with it, one line each; empty when usable.
-  [[nodiscard]] std::vector<std::string> validate() const;
+  [[nodiscard]] std::vector<std::string> validate() const { return setting_problems(*this); }
 };
 
 }  // namespace swiftlet

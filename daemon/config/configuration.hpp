@@ -2,65 +2,91 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/backend/config/backend_config.hpp"
 #include "core/base/result.hpp"
+#include "core/base/settings.hpp"
 #include "core/frontend/frontend_config.hpp"
 #include "core/mapping/map_config.hpp"
-#include "core/sensing/sensor_model.hpp"
+#include "daemon/config/sensor_overrides.hpp"
 
 namespace swiftlet {
 
-/// What a configuration file may say about the sensor; what it leaves out comes from the input's own kind.
-struct SensorOverrides {
-  std::optional<double> min_range_m;
-  std::optional<double> max_range_m;
-  std::optional<double> range_sigma_m;
-  std::optional<double> range_age_s;
-  std::optional<double> odometry_xy_per_metre;
-  std::optional<double> odometry_yaw_per_radian;
-  std::optional<double> odometry_yaw_per_metre_rad;
-  std::optional<double> drift_yaw_per_metre_rad;
-  std::optional<double> drift_yaw_per_radian;
-  std::optional<double> odometry_forward_scale;
-  std::optional<double> odometry_sideways_scale;
-  std::optional<double> missed_yaw_per_metre_rad;
-  std::optional<double> missed_yaw_per_radian;
-  std::optional<double> missed_yaw_per_second_rad;
-
-  /// The input's model with what is set here put in its place.
-  [[nodiscard]] SensorModel applied_to(SensorModel model) const;
-};
-
 /// How the daemon publishes.
 struct PublishConfig {
-  double status_period_s = 1.0;         ///< between two status messages
-  double tile_refresh_period_s = 10.0;  ///< every tile is sent again at least this often, for late joiners
+  double status_period_s = 1.0;
+  double tile_refresh_period_s = 10.0;
   std::string channel_prefix = "SWIFTLET_";
+
+  static constexpr SettingsSection kSection{"publish", "What the daemon sends and how often."};
+  static constexpr Setting<PublishConfig> kSettings[] = {
+      {"status_period_s", &PublishConfig::status_period_s, "s",
+       "between two status messages; walls and the map's summary go with them", 0.05, 3600},
+      {"tile_refresh_period_s", &PublishConfig::tile_refresh_period_s, "s",
+       "every tile is sent again at least this often, for late joiners", 0.1, 3600},
+      {"channel_prefix", &PublishConfig::channel_prefix, "", "what every channel's name begins with"},
+  };
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
-/// What the daemon keeps of what it hears.
+/// What the daemon records.
 struct RecordConfig {
-  bool enabled = true;      ///< live links are recorded
-  std::string directory;    ///< empty: the state directory
-  int max_file_mb = 64;     ///< beyond this a recording is continued in a new file
-  int max_total_mb = 2000;  ///< beyond this the oldest recordings in the directory are removed
+  bool enabled = true;
+  std::string directory;
+  int max_file_mb = 64;
+  int max_total_mb = 2000;
+
+  static constexpr SettingsSection kSection{"record", "What the daemon records: [recording](recording.md)."};
+  static constexpr Setting<RecordConfig> kSettings[] = {
+      {"enabled", &RecordConfig::enabled, "",
+       "radio, cable and UDP are recorded unless --no-record says otherwise"},
+      {"directory", &RecordConfig::directory, "", "where recordings go; empty: the state directory"},
+      {"max_file_mb", &RecordConfig::max_file_mb, "MB",
+       "a recording that has grown this long is continued in a new file; at most max_total_mb", 1, 4000},
+      {"max_total_mb", &RecordConfig::max_total_mb, "MB",
+       "the oldest recordings in the directory are removed so that no more than this is used", 1, 1000000},
+  };
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// What the daemon asks of the machine so that it keeps time; everything is off unless asked for.
 struct RealtimeConfig {
-  double pose_deadline_s = 0.002;  ///< from radio frame to published pose; what takes longer is counted
-  int radio_priority = 0;          ///< SCHED_FIFO, 1 to 99; 0: like any other program
+  double pose_deadline_s = 0.002;
+  int radio_priority = 0;
   int frontend_priority = 0;
   int publisher_priority = 0;
-  int radio_cpu = -1;  ///< the only processor the thread runs on; -1: any
+  int radio_cpu = -1;
   int frontend_cpu = -1;
   int backend_cpu = -1;
   int publisher_cpu = -1;
-  bool lock_memory = false;  ///< nothing is ever swapped out or read in again
+  bool lock_memory = false;
+
+  static constexpr SettingsSection kSection{
+      "realtime", "What the daemon asks of the machine: [real time](real_time.md)."};
+  static constexpr Setting<RealtimeConfig> kSettings[] = {
+      {"pose_deadline_s", &RealtimeConfig::pose_deadline_s, "s",
+       "from the radio frame to the published pose; what takes longer is counted", 0.00001, 10},
+      {"radio_priority", &RealtimeConfig::radio_priority, "",
+       "SCHED_FIFO priority of the thread; 0: like any other program", 0, 99},
+      {"frontend_priority", &RealtimeConfig::frontend_priority, "", "the same", 0, 99},
+      {"publisher_priority", &RealtimeConfig::publisher_priority, "", "the same", 0, 99},
+      {"radio_cpu", &RealtimeConfig::radio_cpu, "", "the only processor the thread runs on; -1: any", -1,
+       1023},
+      {"frontend_cpu", &RealtimeConfig::frontend_cpu, "", "the same", -1, 1023},
+      {"backend_cpu", &RealtimeConfig::backend_cpu, "", "the same", -1, 1023},
+      {"publisher_cpu", &RealtimeConfig::publisher_cpu, "", "the same", -1, 1023},
+      {"lock_memory", &RealtimeConfig::lock_memory, "",
+       "nothing is ever swapped out or read in again; stacks are touched first"},
+  };
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const { return setting_problems(*this); }
 };
 
 struct Configuration {
@@ -76,8 +102,24 @@ struct Configuration {
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
+/// Calls visit(section) for each section, in the order of the reference page. `config` is a Configuration,
+/// const or not.
+template <typename AnyConfiguration, typename Visitor>
+void for_each_section(AnyConfiguration&& config, Visitor visit) {
+  visit(config.sensor);
+  visit(config.frontend);
+  visit(config.backend);
+  visit(config.map);
+  visit(config.publish);
+  visit(config.record);
+  visit(config.realtime);
+}
+
 /// Reads a TOML file. Unknown and duplicate keys, wrong types and impossible values are refused with file and
 /// line; kNotFound when there is no such file.
 [[nodiscard]] Result<Configuration> load_configuration(const std::string& path);
+
+/// docs/configuration.md, whole.
+[[nodiscard]] std::string configuration_reference();
 
 }  // namespace swiftlet

@@ -9,50 +9,42 @@
 #include <map>
 
 #include "daemon/config/configuration.hpp"
-#include "daemon/config/configuration_fields.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// Puts a TOML value into a field; false when it is of another type. Whole numbers may stand for real ones.
-struct Assign {
-  const toml::node& value;
+template <typename T>
+bool assign_exactly(const toml::node& node, T& value) {
+  const std::optional<T> exact = node.value_exact<T>();
+  if (exact) value = *exact;
+  return exact.has_value();
+}
+template <typename Real>
+bool assign_number(const toml::node& node, Real& value) {
+  if (!node.is_number()) return false;
+  value = *node.value<double>();
+  return true;
+}
 
-  bool operator()(bool* field) const { return take<bool>(field); }
-  bool operator()(std::string* field) const { return take<std::string>(field); }
-  bool operator()(double* field) const { return take_number(field); }
-  bool operator()(std::optional<double>* field) const { return take_number(field); }
-  bool operator()(int* field) const {
-    const std::optional<std::int64_t> number = value.value_exact<std::int64_t>();
-    if (!number) return false;
-    // Beyond int is beyond every field's bounds too, and is reported as that.
-    *field = static_cast<int>(
-        std::clamp<std::int64_t>(*number, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
-    return true;
-  }
+// Put a TOML value into a setting; false when it is of another type. Whole numbers may stand for real ones.
+bool assign(const toml::node& node, bool& value) { return assign_exactly(node, value); }
+bool assign(const toml::node& node, std::string& value) { return assign_exactly(node, value); }
+bool assign(const toml::node& node, double& value) { return assign_number(node, value); }
+bool assign(const toml::node& node, std::optional<double>& value) { return assign_number(node, value); }
+bool assign(const toml::node& node, int& value) {
+  std::int64_t number = 0;
+  if (!assign_exactly(node, number)) return false;
+  // Beyond int is beyond every setting's range too, and is reported as that.
+  value = static_cast<int>(
+      std::clamp<std::int64_t>(number, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+  return true;
+}
 
- private:
-  template <typename T, typename Field>
-  bool take(Field* field) const {
-    const std::optional<T> exact = value.value_exact<T>();
-    if (exact) *field = *exact;
-    return exact.has_value();
-  }
-  template <typename Field>
-  bool take_number(Field* field) const {
-    if (!value.is_number()) return false;
-    *field = *value.value<double>();
-    return true;
-  }
-};
-
-struct TypeName {
-  std::string_view operator()(const bool*) const { return "true or false"; }
-  std::string_view operator()(const int*) const { return "a whole number"; }
-  std::string_view operator()(const double*) const { return "a number"; }
-  std::string_view operator()(const std::optional<double>*) const { return "a number"; }
-  std::string_view operator()(const std::string*) const { return "a text in quotes"; }
-};
+std::string_view type_of(const bool&) { return "true or false"; }
+std::string_view type_of(const int&) { return "a whole number"; }
+std::string_view type_of(const double&) { return "a number"; }
+std::string_view type_of(const std::optional<double>&) { return "a number"; }
+std::string_view type_of(const std::string&) { return "a text in quotes"; }
 
 /// Reads one file into one configuration and remembers all that is wrong with it.
 class Loader {
@@ -84,7 +76,7 @@ class Loader {
     problems_.emplace_back(where.begin.line, fmt::format("{}:{}: {}", path_, where.begin.line, what));
   }
 
-  /// Begins with "section.key"; the line is told where the file has that key.
+  /// Begins with "section.key"; with its line where the file has that key.
   void note_of_whole(std::string_view problem) {
     const auto region = regions_.find(problem.substr(0, problem.find(' ')));
     if (region != regions_.end()) return note(region->second, problem);
@@ -93,37 +85,38 @@ class Loader {
 
   void read_sections(const toml::table& file) {
     for (const auto& [name, node] : file) {
-      const std::string_view section = name.str();
-      if (const toml::table* table = node.as_table(); table != nullptr && is_section(section)) {
-        for (const auto& [key, value] : *table) read_key(section, key, value);
-      } else {
-        note(name.source(), fmt::format("unknown {} \"{}\"; docs/configuration.md lists them all",
-                                        table == nullptr ? "key" : "section", section));
-      }
+      const toml::table* table = node.as_table();
+      if (table != nullptr && read_section(name.str(), *table)) continue;
+      note(name.source(), fmt::format("unknown {} \"{}\"; docs/configuration.md lists them all",
+                                      table == nullptr ? "key" : "section", name.str()));
     }
   }
 
-  void read_key(std::string_view section, const toml::key& key, const toml::node& value) {
-    for (const ConfigurationField& field : configuration_fields()) {
-      if (field.section != section || field.key != key.str()) continue;
-      regions_.emplace(fmt::format("{}.{}", section, field.key), key.source());
-      const FieldPointer target = field.in(config_);
-      if (!std::visit(Assign{value}, target)) {
-        note(key.source(),
-             fmt::format("{}.{} must be {}", section, field.key, std::visit(TypeName{}, target)));
-      } else if (const std::string problem = field_problem(field, config_); !problem.empty()) {
-        note(key.source(), problem);
-      }
-      return;
-    }
-    note(key.source(),
-         fmt::format("unknown key \"{}.{}\"; docs/configuration.md lists them all", section, key.str()));
+  /// False where there is no such section.
+  bool read_section(std::string_view name, const toml::table& table) {
+    bool is_known = false;
+    for_each_section(config_, [&](auto& section) {
+      if (section.kSection.name != name) return;
+      is_known = true;
+      for (const auto& [key, node] : table) read_key(section, key, node);
+    });
+    return is_known;
   }
 
-  static bool is_section(std::string_view name) {
-    const auto fields = configuration_fields();
-    return std::any_of(fields.begin(), fields.end(),
-                       [&](const auto& field) { return field.section == name; });
+  template <typename Section>
+  void read_key(Section& section, const toml::key& key, const toml::node& node) {
+    const std::string name = fmt::format("{}.{}", section.kSection.name, key.str());
+    const auto* setting = std::ranges::find(Section::kSettings, key.str(), &Setting<Section>::key);
+    if (setting == std::end(Section::kSettings))
+      return note(key.source(),
+                  fmt::format("unknown key \"{}\"; docs/configuration.md lists them all", name));
+    regions_.emplace(name, key.source());
+    const auto read = [&](auto member) -> std::string {
+      if (assign(node, section.*member)) return setting_problem(section, *setting);
+      return fmt::format("{} must be {}", name, type_of(section.*member));
+    };
+    if (const std::string problem = std::visit(read, setting->member); !problem.empty())
+      note(key.source(), problem);
   }
 
   std::string all_problems() {

@@ -5,13 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace swiftlet {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -20,7 +17,7 @@ TEST(FrontendConfig, IsUsableAsItComes) { EXPECT_THAT(FrontendConfig().validate(
 TEST(FrontendConfig, NamesTheFieldAndTheRuleItBreaks) {
   FrontendConfig config;
   config.window_keyframes = 1000;
-  EXPECT_THAT(config.validate(), ElementsAre(HasSubstr("window_keyframes must be between 2 and 64")));
+  EXPECT_THAT(config.validate(), ElementsAre("frontend.window_keyframes = 1000: must lie between 2 and 64"));
 }
 
 TEST(FrontendConfig, TellsAllProblemsAtOnce) {
@@ -31,25 +28,11 @@ TEST(FrontendConfig, TellsAllProblemsAtOnce) {
   EXPECT_THAT(config.validate(), SizeIs(3));
 }
 
-TEST(FrontendConfig, RefusesNumbersThatAreNone) {
-  FrontendConfig config;
-  config.split_distance_m = std::numeric_limits<double>::quiet_NaN();
-  config.association_gap_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(config.validate(), SizeIs(2));
-}
-
-TEST(FrontendConfig, RefusesWhatIsNotFinite) {
-  FrontendConfig config;
-  config.keyframe_distance_m = std::numeric_limits<double>::infinity();
-  config.association_gap_m = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(config.validate(), ElementsAre(HasSubstr("keyframe_distance_m must be above 0 and finite"),
-                                             HasSubstr("association_gap_m must be 0 or more and finite")));
-}
-
 TEST(FrontendConfig, RemembersWallsNoLongerThanTheWindow) {
   FrontendConfig config;
   config.association_keyframes = config.window_keyframes + 1;
-  EXPECT_THAT(config.validate(), ElementsAre(HasSubstr("association_keyframes")));
+  EXPECT_THAT(config.validate(),
+              ElementsAre("frontend.association_keyframes must be at most window_keyframes"));
 }
 
 }  // namespace

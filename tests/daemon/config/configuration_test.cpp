@@ -9,11 +9,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
-#include <tuple>
-
-#include "daemon/config/configuration_fields.hpp"
 
 namespace swiftlet {
 namespace {
@@ -59,97 +57,106 @@ consteval std::size_t field_count() {
   }
 }
 
-std::size_t table_count(std::string_view section) {
-  std::size_t count = 0;
-  for (const ConfigurationField& field : configuration_fields()) count += field.section == section ? 1U : 0U;
-  return count;
+constexpr const char* kShippedFile = SWIFTLET_SOURCE_DIR "/daemon/config/swiftletd.toml";
+
+/// Calls visit(section, setting) for each setting of `config`.
+template <typename Visitor>
+void for_each_setting(const Configuration& config, Visitor visit) {
+  for_each_section(config, [&visit](const auto& section) {
+    for (const auto& setting : section.kSettings) visit(section, setting);
+  });
 }
 
-TEST(ConfigurationFields, HoldEveryFieldOfEverySection) {
-  EXPECT_EQ(table_count("sensor"), sizeof(SensorOverrides) / sizeof(std::optional<double>));
-  EXPECT_EQ(table_count("frontend"), field_count<FrontendConfig>());
-  EXPECT_EQ(table_count("backend"), field_count<BackendConfig>());
-  EXPECT_EQ(table_count("map"), field_count<MapConfig>());
-  EXPECT_EQ(table_count("publish"), field_count<PublishConfig>());
-  EXPECT_EQ(table_count("record"), field_count<RecordConfig>());
-  EXPECT_EQ(table_count("realtime"), field_count<RealtimeConfig>());
-  EXPECT_EQ(configuration_fields().size(),
-            table_count("sensor") + table_count("frontend") + table_count("backend") + table_count("map") +
-                table_count("publish") + table_count("record") + table_count("realtime"));
+template <typename Section>
+std::string name_of(const Setting<Section>& setting) {
+  return std::string(Section::kSection.name) + "." + std::string(setting.key);
 }
 
-TEST(ConfigurationFields, NameEachFieldOnce) {
-  Configuration config;
-  std::set<std::pair<std::string_view, std::string_view>> names;
+TEST(ConfigurationTables, HoldEveryMemberOfEverySection) {
+  for_each_section(Configuration(), [](const auto& section) {
+    using Section = std::remove_cvref_t<decltype(section)>;
+    if constexpr (std::is_same_v<Section, SensorOverrides>) {
+      EXPECT_EQ(std::size(Section::kSettings), sizeof(Section) / sizeof(std::optional<double>));
+    } else {
+      EXPECT_EQ(std::size(Section::kSettings), field_count<Section>()) << Section::kSection.name;
+    }
+  });
+}
+
+TEST(ConfigurationTables, NameEachMemberOnce) {
+  std::set<std::string> names;
   std::set<const void*> places;
-  for (const ConfigurationField& field : configuration_fields()) {
-    EXPECT_TRUE(names.emplace(field.section, field.key).second) << field.key;
-    const void* place = std::visit([](auto* at) -> const void* { return at; }, field.in(config));
-    EXPECT_TRUE(places.insert(place).second) << field.key;
-  }
+  for_each_setting(Configuration(), [&](const auto& section, const auto& setting) {
+    EXPECT_TRUE(names.insert(name_of(setting)).second) << name_of(setting);
+    const auto place = [&section](auto member) -> const void* { return &(section.*member); };
+    EXPECT_TRUE(places.insert(std::visit(place, setting.member)).second) << name_of(setting);
+  });
 }
 
-TEST(ConfigurationFields, CanBeSetEachByItsName) {
-  for (const ConfigurationField& field : configuration_fields()) {
-    Configuration defaults;
-    const std::string value = std::visit(
-        [&field](const auto* at) -> std::string {
-          using Field = std::remove_cvref_t<decltype(*at)>;
-          if constexpr (std::is_same_v<Field, bool>) return *at ? "false" : "true";
-          if constexpr (std::is_same_v<Field, std::string>) return "\"OTHER_\"";
-          std::ostringstream text;
-          if constexpr (std::is_same_v<Field, int>) {
-            text << *at;
-          } else {
-            text << (field.lowest + field.highest) / 2.0;
-          }
-          return text.str();
-        },
-        field.in(defaults));
+/// A value of the type of the default, as a file has it.
+struct ValueInFile {
+  double lowest;
+  double highest;
+
+  std::string operator()(bool value) const { return value ? "false" : "true"; }
+  std::string operator()(int value) const { return std::to_string(value); }
+  std::string operator()(double) const { return std::to_string((lowest + highest) / 2.0); }
+  std::string operator()(const std::optional<double>&) const { return (*this)(0.0); }
+  std::string operator()(const std::string&) const { return "\"OTHER_\""; }
+};
+
+TEST(ConfigurationTables, EachSettingIsSetByItsName) {
+  for_each_setting(Configuration(), [](const auto& section, const auto& setting) {
+    const ValueInFile in_file{setting.lowest, setting.highest};
+    const std::string value =
+        std::visit([&](auto member) { return in_file(section.*member); }, setting.member);
     const std::string content =
-        "[" + std::string(field.section) + "]\n" + std::string(field.key) + " = " + value + "\n";
-    // A value in the middle of its bounds may disagree with the others' defaults, but is known and of its
+        "[" + std::string(section.kSection.name) + "]\n" + std::string(setting.key) + " = " + value + "\n";
+    // A value in the middle of its range may disagree with the others' defaults, but is known and of its
     // type.
     EXPECT_THAT(refusal_of(content),
                 testing::Not(testing::AnyOf(HasSubstr("unknown"), HasSubstr("must be a"))))
         << content;
-  }
+  });
 }
 
-/// Puts a number into a field that is one.
-struct SetTo {
-  double value;
+/// Puts a number into a setting that is one.
+template <typename Section>
+void set_number(Section& section, const Setting<Section>& setting, double number) {
+  std::visit(
+      [&](auto member) {
+        auto& value = section.*member;
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, int>) value = static_cast<int>(number);
+        if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>)
+          value = number;
+      },
+      setting.member);
+}
 
-  void operator()(bool*) const {}
-  void operator()(int* field) const { *field = static_cast<int>(value); }
-  void operator()(double* field) const { *field = value; }
-  void operator()(std::optional<double>* field) const { *field = value; }
-  void operator()(std::string*) const {}
-};
-
-/// Each of these bounds the other: whoever moves one far moves both.
+/// Each of these bounds the other: who moves one far moves both.
 constexpr std::pair<std::string_view, std::string_view> kBoundToEachOther[] = {
     {"association_keyframes", "window_keyframes"}, {"max_file_mb", "max_total_mb"}};
 
-const ConfigurationField* bound_to(const ConfigurationField& field) {
+template <typename Section>
+void move_what_is_bound_to(std::string_view key, Section& section, double number) {
   for (const auto& [one, other] : kBoundToEachOther) {
-    const std::string_view key = field.key == one ? other : field.key == other ? one : std::string_view();
-    for (const ConfigurationField& candidate : configuration_fields())
-      if (candidate.section == field.section && candidate.key == key) return &candidate;
+    const std::string_view bound = key == one ? other : key == other ? one : std::string_view();
+    for (const auto& setting : Section::kSettings)
+      if (setting.key == bound)
+        set_number(section, setting, std::clamp(number, setting.lowest, setting.highest));
   }
-  return nullptr;
 }
 
-TEST(ConfigurationFields, CanTakeBothEndsOfTheirRange) {
-  for (const ConfigurationField& field : configuration_fields()) {
-    for (const double end : {field.lowest, field.highest}) {
-      Configuration config;
-      std::visit(SetTo{end}, field.in(config));
-      if (const ConfigurationField* other = bound_to(field))
-        std::visit(SetTo{std::clamp(end, other->lowest, other->highest)}, other->in(config));
-      EXPECT_THAT(config.validate(), IsEmpty()) << field.section << "." << field.key << " = " << end;
+TEST(ConfigurationTables, EachSettingTakesBothEndsOfItsRange) {
+  for_each_setting(Configuration(), [](const auto& section, const auto& setting) {
+    for (const double end : {setting.lowest, setting.highest}) {
+      auto changed = section;
+      set_number(changed, setting, end);
+      move_what_is_bound_to(setting.key, changed, end);
+      EXPECT_THAT(changed.validate(), IsEmpty()) << name_of(setting) << " = " << end;
     }
-  }
+  });
 }
 
 TEST(ConfigurationReference, IsThePageInTheRepository) {
@@ -254,35 +261,35 @@ TEST(LoadConfiguration, NamesAllProblemsInTheOrderOfTheirLines) {
   EXPECT_THAT(refusal, HasSubstr(".toml:4:"));
 }
 
-TEST(ShippedConfigurations, AllLoad) {
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SWIFTLET_SOURCE_DIR "/daemon/config")) {
-    if (entry.path().extension() != ".toml") continue;
-    const Result<Configuration> config = load_configuration(entry.path().string());
-    EXPECT_TRUE(config) << config.error().message;
-    ++files;
-  }
-  EXPECT_GT(files, 0);
+std::vector<std::string> values_of(const Configuration& config) {
+  std::vector<std::string> values;
+  for_each_setting(config, [&values](const auto& section, const auto& setting) {
+    const auto text = [&section](auto member) { return testing::PrintToString(section.*member); };
+    values.push_back(name_of(setting) + " = " + std::visit(text, setting.member));
+  });
+  return values;
 }
 
-TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
-  SensorOverrides overrides;
-  overrides.range_sigma_m = 0.07;
-  overrides.range_age_s = 0.02;
-  overrides.odometry_forward_scale = 0.95;
-  overrides.odometry_sideways_scale = 1.05;
-  overrides.missed_yaw_per_metre_rad = 0.01;
-  overrides.missed_yaw_per_radian = 0.02;
-  overrides.missed_yaw_per_second_rad = 0.03;
-  const SensorModel model = overrides.applied_to(SensorModel::crazyflie());
-  EXPECT_EQ(model.range_sigma_m, 0.07);
-  EXPECT_EQ(model.range_age, std::chrono::milliseconds(20));
-  EXPECT_EQ(model.odometry_calibration.forward_scale, 0.95);
-  EXPECT_EQ(model.odometry_calibration.sideways_scale, 1.05);
-  EXPECT_EQ(model.odometry_calibration.yaw_per_metre_rad, 0.01);
-  EXPECT_EQ(model.odometry_calibration.yaw_per_radian, 0.02);
-  EXPECT_EQ(model.odometry_calibration.yaw_per_second_rad, 0.03);
-  EXPECT_EQ(model.max_range_m, SensorModel::crazyflie().max_range_m);
+TEST(ShippedConfiguration, HoldsDefaultsOnly) {
+  const Result<Configuration> shipped = load_configuration(kShippedFile);
+  ASSERT_TRUE(shipped) << shipped.error().message;
+  EXPECT_EQ(values_of(*shipped), values_of(Configuration()));
+}
+
+TEST(ShippedConfiguration, CommentsEachKeyAsTheTablesDo) {
+  std::map<std::string, std::string_view> texts;
+  for_each_setting(Configuration(), [&texts](const auto&, const auto& setting) {
+    texts.emplace(name_of(setting), setting.text);
+  });
+  std::ifstream file(kShippedFile);
+  std::string section;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("[")) section = line.substr(1, line.find(']') - 1);
+    const std::size_t equals = line.find(" = ");
+    if (line.starts_with("#") || equals == std::string::npos) continue;
+    const std::string name = section + "." + line.substr(0, equals);
+    EXPECT_THAT(line, testing::EndsWith("  # " + std::string(texts[name]))) << name;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/config/sensor_overrides.hpp"
+
+namespace swiftlet {
+
+std::vector<std::string> SensorOverrides::validate() const {
+  std::vector<std::string> problems = setting_problems(*this);
+  if (problems.empty() && min_range_m && max_range_m && *min_range_m >= *max_range_m)
+    problems.emplace_back("sensor.min_range_m must be less than sensor.max_range_m");
+  return problems;
+}
+
+SensorModel SensorOverrides::applied_to(SensorModel model) const {
+  model.min_range_m = min_range_m.value_or(model.min_range_m);
+  model.max_range_m = max_range_m.value_or(model.max_range_m);
+  model.range_sigma_m = range_sigma_m.value_or(model.range_sigma_m);
+  if (range_age_s) model.range_age = from_seconds(*range_age_s);
+  model.odometry.xy_per_metre = odometry_xy_per_metre.value_or(model.odometry.xy_per_metre);
+  model.odometry.yaw_per_radian = odometry_yaw_per_radian.value_or(model.odometry.yaw_per_radian);
+  model.odometry.yaw_per_metre_rad = odometry_yaw_per_metre_rad.value_or(model.odometry.yaw_per_metre_rad);
+  model.odometry.drift_yaw_per_metre_rad =
+      drift_yaw_per_metre_rad.value_or(model.odometry.drift_yaw_per_metre_rad);
+  model.odometry.drift_yaw_per_radian = drift_yaw_per_radian.value_or(model.odometry.drift_yaw_per_radian);
+  OdometryCalibration& calibration = model.odometry_calibration;
+  calibration.forward_scale = odometry_forward_scale.value_or(calibration.forward_scale);
+  calibration.sideways_scale = odometry_sideways_scale.value_or(calibration.sideways_scale);
+  calibration.yaw_per_metre_rad = missed_yaw_per_metre_rad.value_or(calibration.yaw_per_metre_rad);
+  calibration.yaw_per_radian = missed_yaw_per_radian.value_or(calibration.yaw_per_radian);
+  calibration.yaw_per_second_rad = missed_yaw_per_second_rad.value_or(calibration.yaw_per_second_rad);
+  return model;
+}
+
+}  // namespace swiftlet

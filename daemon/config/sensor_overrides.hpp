@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/settings.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// What a configuration file may say about the sensor; what it leaves out comes from the input's own kind.
+struct SensorOverrides {
+  std::optional<double> min_range_m;
+  std::optional<double> max_range_m;
+  std::optional<double> range_sigma_m;
+  std::optional<double> range_age_s;
+  std::optional<double> odometry_xy_per_metre;
+  std::optional<double> odometry_yaw_per_radian;
+  std::optional<double> odometry_yaw_per_metre_rad;
+  std::optional<double> drift_yaw_per_metre_rad;
+  std::optional<double> drift_yaw_per_radian;
+  std::optional<double> odometry_forward_scale;
+  std::optional<double> odometry_sideways_scale;
+  std::optional<double> missed_yaw_per_metre_rad;
+  std::optional<double> missed_yaw_per_radian;
+  std::optional<double> missed_yaw_per_second_rad;
+
+  static constexpr SettingsSection kSection{
+      "sensor", "What is left out comes from the kind of input: Crazyflie or laser log."};
+  static constexpr Setting<SensorOverrides> kSettings[] = {
+      {"min_range_m", &SensorOverrides::min_range_m, "m",
+       "shorter readings are invalid; less than max_range_m", 0, 10},
+      {"max_range_m", &SensorOverrides::max_range_m, "m", "longer readings count as no return", 0.1, 100},
+      {"range_sigma_m", &SensorOverrides::range_sigma_m, "m",
+       "standard deviation of a reading, along the beam", 0.0001, 1},
+      {"range_age_s", &SensorOverrides::range_age_s, "s",
+       "how much older the ranges of a packet are than its stamp", 0, 1},
+      {"odometry_xy_per_metre", &SensorOverrides::odometry_xy_per_metre, "m/m",
+       "standard deviation of a step's position, per metre travelled", 0, 1},
+      {"odometry_yaw_per_radian", &SensorOverrides::odometry_yaw_per_radian, "rad/rad",
+       "standard deviation of a step's heading, per radian turned", 0, 1},
+      {"odometry_yaw_per_metre_rad", &SensorOverrides::odometry_yaw_per_metre_rad, "rad/m",
+       "standard deviation of a step's heading, per metre travelled", 0, 1},
+      {"drift_yaw_per_metre_rad", &SensorOverrides::drift_yaw_per_metre_rad, "rad/m",
+       "standard deviation of the yaw that dead reckoning misses with every metre; 0: none is learnt", 0, 1},
+      {"drift_yaw_per_radian", &SensorOverrides::drift_yaw_per_radian, "rad/rad",
+       "the same with every radian turned", 0, 1},
+      {"odometry_forward_scale", &SensorOverrides::odometry_forward_scale, "m/m",
+       "metres moved per metre of dead reckoning, forward; swiftlet calibrate estimates this and what "
+       "follows",
+       0.5, 2},
+      {"odometry_sideways_scale", &SensorOverrides::odometry_sideways_scale, "m/m", "the same sideways", 0.5,
+       2},
+      {"missed_yaw_per_metre_rad", &SensorOverrides::missed_yaw_per_metre_rad, "rad/m",
+       "yaw that dead reckoning misses with every metre forward", -0.5, 0.5},
+      {"missed_yaw_per_radian", &SensorOverrides::missed_yaw_per_radian, "rad/rad",
+       "the same with every radian turned", -0.5, 0.5},
+      {"missed_yaw_per_second_rad", &SensorOverrides::missed_yaw_per_second_rad, "rad/s",
+       "the same with every second in motion", -0.1, 0.1},
+  };
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const;
+
+  /// The input's model with what is set here put in its place.
+  [[nodiscard]] SensorModel applied_to(SensorModel model) const;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/config/sensor_overrides.hpp"
+
+#include <gtest/gtest.h>
+
+namespace swiftlet {
+namespace {
+
+TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
+  SensorOverrides overrides;
+  overrides.range_sigma_m = 0.07;
+  overrides.range_age_s = 0.02;
+  overrides.odometry_forward_scale = 0.95;
+  overrides.odometry_sideways_scale = 1.05;
+  overrides.missed_yaw_per_metre_rad = 0.01;
+  overrides.missed_yaw_per_radian = 0.02;
+  overrides.missed_yaw_per_second_rad = 0.03;
+  const SensorModel model = overrides.applied_to(SensorModel::crazyflie());
+  EXPECT_EQ(model.range_sigma_m, 0.07);
+  EXPECT_EQ(model.range_age, std::chrono::milliseconds(20));
+  EXPECT_EQ(model.odometry_calibration.forward_scale, 0.95);
+  EXPECT_EQ(model.odometry_calibration.sideways_scale, 1.05);
+  EXPECT_EQ(model.odometry_calibration.yaw_per_metre_rad, 0.01);
+  EXPECT_EQ(model.odometry_calibration.yaw_per_radian, 0.02);
+  EXPECT_EQ(model.odometry_calibration.yaw_per_second_rad, 0.03);
+  EXPECT_EQ(model.max_range_m, SensorModel::crazyflie().max_range_m);
+}
+
+}  // namespace
+}  // namespace swiftlet
