@@ -18,6 +18,7 @@
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/publish/lcm_publisher.hpp"
+#include "daemon/publish/lcm_transport.hpp"
 #include "daemon/recording/recorder.hpp"
 #include "daemon/recording/recording_plan.hpp"
 #include "daemon/system/log_file.hpp"
@@ -35,7 +36,7 @@ constexpr int kBadInput = 2;
 struct Options {
   std::string config_path;
   std::string input_uri;
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string lcm_url = kDefaultLcmUrl;
   double rate = 1.0;
   std::optional<int> beams;
   std::string output_directory;

@@ -5,13 +5,14 @@
 #include <string>
 
 #include "core/base/result.hpp"
+#include "daemon/publish/lcm_transport.hpp"
 
 namespace swiftlet {
 
 /// What `swiftlet doctor` was asked to do.
 struct DoctorCommand {
   std::string input = "radio://0/80/2M/E7E7E7E7E7";  ///< a live input, see InputUri
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string lcm_url = kDefaultLcmUrl;
   bool json = false;  ///< for programs
 };
 

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/base/result.hpp"
+#include "daemon/config/configuration.hpp"
+#include "daemon/publish/lcm_transport.hpp"
 
 namespace swiftlet {
 
@@ -14,8 +16,8 @@ struct LatencyCommand {
   std::filesystem::path report_file;
   std::filesystem::path picture_file;  ///< empty: none
   bool listen = false;                 ///< to a running swiftletd
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
-  std::string channel_prefix = "SWIFTLET_";
+  std::string lcm_url = kDefaultLcmUrl;
+  std::string channel_prefix = PublishConfig().channel_prefix;
 };
 
 /// Prints how a run kept time as a table on stdout, and draws it. Listening it prints a table for each

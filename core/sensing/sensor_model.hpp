@@ -39,6 +39,9 @@ struct OdometryNoise {
   double drift_yaw_per_radian = 0.0;  ///< ... and with every radian turned
 };
 
+/// Ranges that are older than this when their packet is stamped are no sensor's.
+inline constexpr Duration kMaxRangeAge = std::chrono::seconds(1);
+
 /// All that is particular to a sensor and its vehicle; the algorithm's settings are the same for all of them.
 struct SensorModel {
   double min_range_m = 0.05;    ///< shorter readings are invalid

@@ -37,7 +37,7 @@ struct SensorOverrides {
       {"range_sigma_m", &SensorOverrides::range_sigma_m, "m",
        "standard deviation of a reading, along the beam", 0.0001, 1},
       {"range_age_s", &SensorOverrides::range_age_s, "s",
-       "how much older the ranges of a packet are than its stamp", 0, 1},
+       "how much older the ranges of a packet are than its stamp", 0, to_seconds(kMaxRangeAge)},
       {"odometry_xy_per_metre", &SensorOverrides::odometry_xy_per_metre, "m/m",
        "standard deviation of a step's position, per metre travelled", 0, 1},
       {"odometry_yaw_per_radian", &SensorOverrides::odometry_yaw_per_radian, "rad/rad",

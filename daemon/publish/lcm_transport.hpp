@@ -13,6 +13,9 @@
 
 namespace swiftlet {
 
+/// This machine only, as LCM's own default.
+inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
+
 /// Bytes to and from LCM. One thread at a time.
 class LcmTransport {
  public:

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/input/open_sample_source.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "core/base/settings.hpp"
 #include "firmware_link/capture/replay_link.hpp"
 #include "firmware_link/file/input_file.hpp"
 #include "firmware_link/input/input_uri.hpp"
@@ -22,10 +22,10 @@ Status check_options(const SampleSourceOptions& options) {
   if (options.beam_count && (*options.beam_count < 2 || *options.beam_count > static_cast<int>(kMaxBeams)))
     return Error{ErrorCode::kInvalidInput, "--beams " + std::to_string(*options.beam_count) +
                                                ": must be from 2 to " + std::to_string(kMaxBeams)};
-  if (options.range_age &&
-      (*options.range_age < Duration::zero() || *options.range_age > std::chrono::seconds(1)))
-    return Error{ErrorCode::kInvalidInput,
-                 "range age " + std::to_string(to_seconds(*options.range_age)) + " s: must be from 0 to 1 s"};
+  if (options.range_age && (*options.range_age < Duration::zero() || *options.range_age > kMaxRangeAge))
+    return Error{ErrorCode::kInvalidInput, "range age " + std::to_string(to_seconds(*options.range_age)) +
+                                               " s: must be from 0 to " +
+                                               shortest_text(to_seconds(kMaxRangeAge)) + " s"};
   if (options.max_range_m && !(*options.max_range_m > 0.0 && std::isfinite(*options.max_range_m)))
     return Error{ErrorCode::kInvalidInput,
                  "maximum range " + std::to_string(*options.max_range_m) + " m: must be positive"};

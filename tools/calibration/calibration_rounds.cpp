@@ -16,7 +16,6 @@ namespace {
 // paired with dead reckoning anew.
 constexpr int kMaxRounds = 3;
 constexpr Duration kSettledAge = std::chrono::milliseconds(5);
-constexpr Duration kMaxAge = std::chrono::seconds(1);
 
 /// The work is done in this many parts: two for each round, one for the check.
 constexpr int kParts = 2 * kMaxRounds + 1;
@@ -101,7 +100,8 @@ Result<CalibrationReport> Calibration::run() {
   Round last = first;
   for (int round = 1; round < kMaxRounds && last.estimate; ++round) {
     const double shift_s = last.estimate->errors(index_of(SystematicError::kRangeAge));
-    const Duration age = std::clamp(last.sensor.range_age + from_seconds(shift_s), Duration::zero(), kMaxAge);
+    const Duration age =
+        std::clamp(last.sensor.range_age + from_seconds(shift_s), Duration::zero(), kMaxRangeAge);
     if (std::chrono::abs(age - last.sensor.range_age) < kSettledAge) break;
     const Result<Round> again = run_round(age);
     if (!again) return again.error();

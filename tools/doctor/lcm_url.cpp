@@ -11,12 +11,13 @@
 #include <optional>
 #include <string_view>
 
+#include "daemon/publish/lcm_transport.hpp"
+
 namespace swiftlet {
 namespace {
 
 Error invalid(const std::string& url, const std::string& what) {
-  return {ErrorCode::kInvalidInput,
-          "LCM URL '" + url + "': " + what + "; the default is udpm://239.255.76.67:7667?ttl=0"};
+  return {ErrorCode::kInvalidInput, "LCM URL '" + url + "': " + what + "; the default is " + kDefaultLcmUrl};
 }
 
 std::optional<int> as_number(std::string_view text, int lowest, int highest) {
