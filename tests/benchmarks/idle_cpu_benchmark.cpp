@@ -43,7 +43,7 @@ class QuietVehicle {
   void run() {
     constexpr std::array<std::uint8_t, 1> kNullPacket{0xF3};
     while (!stop_)
-      if (peer_.on_frame(50)) peer_.say(kNullPacket);
+      if (peer_.receive(50)) peer_.send(kNullPacket);
   }
 
   UdpPeer peer_;

@@ -56,7 +56,7 @@ enum class Fate {
   kDelivered,
   kPacketLost,
   kAcknowledgementLost,
-  kAnsweredLate,  ///< after the host has given up
+  kAnsweredLate,  ///< after the host's time-out
   kNeverAnswered,
   kOutStalls,
   kInStalls,
@@ -90,7 +90,7 @@ class FakeDongle final : public UsbBus {
   ManualLinkClock& clock;
   std::vector<UsbIdentity> plugged_in;
   std::vector<UsbOutcome> opening;  ///< how opening the n-th of them ends; kDone beyond
-  bool has_news = false;            ///< what has_changed() says, once
+  bool has_news = false;            ///< what has_changed() returns, once
   UsbOutcome reset_outcome = UsbOutcome::kDone;
   UsbOutcome request_outcome = UsbOutcome::kDone;
   FakeRadioVehicle vehicle;
@@ -98,7 +98,7 @@ class FakeDongle final : public UsbBus {
   std::deque<Fate> fates;                  ///< of the next packets; delivered beyond
   std::optional<std::uint8_t> raw_status;  ///< instead of the usual 0x01
   Duration exchange_time = std::chrono::milliseconds(1);
-  int lateness = 1;           ///< of late answers: reads that wait in vain before
+  int lateness = 1;           ///< of late answers: reads that time out before
   std::deque<Bytes> answers;  ///< wait in the dongle to be read
   std::vector<Request> requests;
   std::vector<Packet> packets;

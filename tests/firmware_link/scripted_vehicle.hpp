@@ -45,7 +45,7 @@ class ScriptedVehicle {
   std::vector<Param> params{{"deck", "bcMultiranger", 1}, {"deck", "bcFlow2", 1}};
   std::uint8_t protocol = 12;
   std::string source = "Bitcraze Crazyflie";
-  bool knows_its_type = true;  ///< firmware before 2019 does not answer that question
+  bool knows_its_type = true;  ///< firmware before 2019 does not answer that request
   std::map<std::uint8_t, Block> blocks;
   std::size_t room = 128;  ///< variables in all blocks
 
@@ -62,7 +62,7 @@ class ScriptedVehicle {
             {"radio", "rssi", LogType::kUint8}};
   }
 
-  /// The reply to a request; nullopt when the firmware gives none.
+  /// The reply to a request; nullopt: the firmware does not answer.
   std::optional<Bytes> answer(std::span<const std::uint8_t> request) {
     if (is_on(request, kLinkSourceTopic)) {
       Bytes reply{0xFD};

@@ -18,7 +18,7 @@
 
 namespace swiftlet {
 
-/// The other end of a UDP link, on a loopback port of its own; answers whoever sent last.
+/// The other end of a UDP link, on its own loopback port; sends to the sender of the last datagram.
 class UdpPeer {
  public:
   /// Port 0: any that is free.
@@ -40,7 +40,7 @@ class UdpPeer {
   [[nodiscard]] std::uint16_t port() const { return port_; }
 
   /// The next datagram, if one comes within the time.
-  std::optional<std::vector<std::uint8_t>> on_frame(int timeout_ms) {
+  std::optional<std::vector<std::uint8_t>> receive(int timeout_ms) {
     pollfd watched{.fd = socket_, .events = POLLIN, .revents = 0};
     if (::poll(&watched, 1, timeout_ms) <= 0) return std::nullopt;
     std::array<std::uint8_t, 2048> bytes{};
@@ -50,8 +50,8 @@ class UdpPeer {
     if (length < 0) return std::nullopt;
     return std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + length);
   }
-  /// Precondition: somebody was received.
-  void say(std::span<const std::uint8_t> bytes) const {
+  /// Precondition: a datagram was received.
+  void send(std::span<const std::uint8_t> bytes) const {
     const ssize_t sent = ::sendto(socket_, bytes.data(), bytes.size(), 0,
                                   reinterpret_cast<const sockaddr*>(&client_), sizeof(client_));
     SWIFTLET_CHECK(sent == static_cast<ssize_t>(bytes.size()), "loopback takes every datagram");

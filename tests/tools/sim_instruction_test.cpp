@@ -23,7 +23,7 @@ std::string refusal(std::string_view line) {
   return instruction.ok() ? "accepted" : instruction.error().message;
 }
 
-TEST(SimInstruction, IsAWordOfItsOwnOrWithAValue) {
+TEST(SimInstruction, IsAWordWithOrWithoutAValue) {
   EXPECT_EQ(parsed("reboot").kind, Kind::kReboot);
   EXPECT_EQ(parsed("  reset-estimator ").kind, Kind::kResetEstimator);
   EXPECT_EQ(parsed("help").kind, Kind::kHelp);
@@ -42,7 +42,7 @@ TEST(SimInstruction, MayBeAnEmptyLine) {
   EXPECT_EQ(parsed(" \t\r").kind, Kind::kNothing);
 }
 
-TEST(SimInstruction, IsRefusedWithWhatItTakes) {
+TEST(SimInstruction, IsRefusedWithItsSyntax) {
   EXPECT_THAT(refusal("explode"), HasSubstr("explode"));
   EXPECT_THAT(refusal("reboot now"), HasSubstr("stands alone"));
   EXPECT_THAT(refusal("loss"), HasSubstr("one value"));

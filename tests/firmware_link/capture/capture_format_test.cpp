@@ -7,7 +7,7 @@
 namespace swiftlet {
 namespace {
 
-TEST(CaptureVehicle, ReadsAsInAUri) {
+TEST(CaptureVehicle, PrintsItsAddressAsInAUri) {
   CaptureVehicle vehicle;
   vehicle.address = {0xE7, 0xE7, 0xE7, 0xE7, 0x01};
   vehicle.channel = 80;

@@ -81,7 +81,7 @@ TEST(CaptureReader, ReadsBigEndianAndNanoseconds) {
   EXPECT_EQ(reading.records[0].frame.at, HostTime(std::chrono::nanoseconds(1'627'252'321'515'062'663)));
 }
 
-TEST(CaptureReader, PassesOverRecordsWithoutAPacket) {
+TEST(CaptureReader, SkipsRecordsWithoutAPacket) {
   const TemporaryFile file(
       "a.pcap", as_text(hex(std::string(kHeader) + "00 00 00 00 00 00 00 00 03 00 00 00 03 00 00 00"
                                                    "07 01 02"
@@ -96,7 +96,7 @@ TEST(CaptureReader, PassesOverRecordsWithoutAPacket) {
   EXPECT_EQ(reader->next().error().code, ErrorCode::kEndOfRecording);
 }
 
-TEST(CaptureReader, CutAnywhereItYieldsAllThatPrecedesTheCut) {
+TEST(CaptureReader, TruncatedAnywhereItYieldsAllThatPrecedesTheEnd) {
   SyntheticCapture capture;
   capture.packets = 3;
   const std::vector<LinkFrame> frames = capture.frames();
@@ -128,7 +128,7 @@ TEST(CaptureReader, CutAnywhereItYieldsAllThatPrecedesTheCut) {
   }
 }
 
-TEST(CaptureReader, ImpossibleRecordsAreDamage) {
+TEST(CaptureReader, ReportsImpossibleRecordsAsDamage) {
   const std::vector<std::pair<const char*, const char*>> cases{
       {"00 00 00 00 00 00 00 00 0b 00 00 00 0a 00 00 00", "length"},
       {"00 00 00 00 00 00 00 00 00 00 01 00 00 00 01 00", "length"},
@@ -161,7 +161,7 @@ TEST(CaptureReader, NoCorruptionMakesItFail) {
   }
 }
 
-TEST(CaptureReader, SaysWhatIsWrongWithAFileThatIsNoCapture) {
+TEST(CaptureReader, ReportsWhyAFileIsNoCapture) {
   const TemporaryFile text("notes.txt", "These are not the bytes of a capture.");
   EXPECT_THAT(read_all(text.path()).end.message, HasSubstr("not a classic pcap"));
   const TemporaryFile ethernet(

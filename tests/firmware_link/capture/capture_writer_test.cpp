@@ -35,14 +35,14 @@ TEST(CaptureWriter, WritesTheMeasuredLayoutOfARadioRecord) {
                                      "01 01 e7 e7 e7 e7 e7 50 00 52 01 8e 11 00")));
 }
 
-TEST(CaptureWriter, SaysWhereItCannotWrite) {
+TEST(CaptureWriter, ReportsWhereItCannotWrite) {
   const Result<CaptureWriter> writer = CaptureWriter::create("/nonexistent/a.pcap", radio_vehicle(0xE7));
   ASSERT_FALSE(writer.ok());
   EXPECT_EQ(writer.error().code, ErrorCode::kInvalidInput);
   EXPECT_EQ(writer.error().message, "/nonexistent/a.pcap: cannot be written: No such file or directory");
 }
 
-TEST(CaptureWriter, RefusesAFileThatIsThereAndLeavesItAsItIs) {
+TEST(CaptureWriter, RefusesAnExistingFileAndDoesNotChangeIt) {
   const TemporaryFile file("there.pcap", "mine");
   const Result<CaptureWriter> writer =
       CaptureWriter::create(file.path(), radio_vehicle(0xE7), CaptureWriter::Existing::kRefuse);
@@ -96,7 +96,7 @@ TEST(CaptureWriter, WritesMoreThanItsBufferHolds) {
   EXPECT_EQ(frames_in(file.path()), 10'000U);
 }
 
-TEST(CaptureWriter, CutsHalfARecordOffWhenTheDiskIsFull) {
+TEST(CaptureWriter, TruncatesAPartialRecordWhenTheDiskIsFull) {
   constexpr rlim_t kRecord = 16 + 9 + 5;
   for (rlim_t spare = 0; spare < kRecord; ++spare) {  // wherever in a record the disk ends
     const TemporaryFile file("full.pcap");
@@ -117,7 +117,7 @@ TEST(CaptureWriter, CutsHalfARecordOffWhenTheDiskIsFull) {
   }
 }
 
-TEST(CaptureWriter, ItsFileIsKnownToBeInUseUntilItIsClosed) {
+TEST(CaptureWriter, LocksItsFileUntilItIsClosed) {
   const TemporaryFile file("used.pcap");
   EXPECT_FALSE(is_being_written(file.path()));
   Result<CaptureWriter> writer = CaptureWriter::create(file.path(), radio_vehicle(0xE7));

@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(ReplayLink, PlaysBothDirectionsInOrderToTheEnd) {
+TEST(ReplayLink, ReplaysBothDirectionsInOrderToTheEnd) {
   const TemporaryFile file("a.pcap");
   const std::vector<LinkFrame> frames = SyntheticCapture{}.frames();
   write_capture(file.path(), frames);
@@ -35,7 +35,7 @@ TEST(ReplayLink, PlaysBothDirectionsInOrderToTheEnd) {
   EXPECT_TRUE((*link)->send(hex("ff")).ok());
 }
 
-TEST(ReplayLink, FollowsTheVehicleThatSendsLogDataFirstAndNamesTheOthers) {
+TEST(ReplayLink, ReplaysTheVehicleThatSendsLogDataFirstAndReportsTheOthers) {
   const TemporaryFile file("a.pcap");
   {
     auto writer = CaptureWriter::create(file.path(), radio_vehicle(0x01));

@@ -48,7 +48,7 @@ TEST(SessionPreamble, AFreshSessionReadsTheSameRecordsAfterIt) {
   EXPECT_TRUE(fresh.blocks()[1].running);
 }
 
-TEST(SessionPreamble, BearsTheGivenTimeAndNamesOnlyWhatIsInUse) {
+TEST(SessionPreamble, HasTheGivenTimeAndNamesOnlyVariablesInUse) {
   LogSession live;
   feed_all(live, SyntheticCapture().handshake());
   static_cast<void>(live.on_frame(received(toc_item_reply(6'000, LogType::kUint8, "pm", "state"))));
@@ -60,7 +60,7 @@ TEST(SessionPreamble, BearsTheGivenTimeAndNamesOnlyWhatIsInUse) {
   EXPECT_FALSE(fresh.toc().has(6'000));
 }
 
-TEST(SessionPreamble, MetInTheMiddleOfASessionItChangesNothing) {
+TEST(SessionPreamble, ChangesNothingInTheMiddleOfASession) {
   const SyntheticCapture flight;
   LogSession undisturbed;
   LogSession disturbed;
@@ -71,7 +71,7 @@ TEST(SessionPreamble, MetInTheMiddleOfASessionItChangesNothing) {
   EXPECT_EQ(decoded(disturbed, flight.data(1)), decoded(undisturbed, flight.data(1)));
 }
 
-TEST(SessionPreamble, MakesABlockOfMoreThanNineVariablesAndItsFinePeriod) {
+TEST(SessionPreamble, CreatesABlockOfMoreThanNineVariablesWithAPeriodInMilliseconds) {
   LogSession live;
   for (std::uint16_t id = 0; id < 12; ++id)
     static_cast<void>(live.on_frame(
@@ -94,7 +94,7 @@ TEST(SessionPreamble, MakesABlockOfMoreThanNineVariablesAndItsFinePeriod) {
   EXPECT_EQ(fresh.blocks()[3].period, milliseconds(25));
 }
 
-TEST(SessionPreamble, KeepsTheDoubtAboutABlockThatWasMadeInPart) {
+TEST(SessionPreamble, KeepsAPartlyCreatedBlockUncertain) {
   LogSession live;
   for (std::uint16_t id = 0; id < 2; ++id)
     static_cast<void>(

@@ -19,14 +19,14 @@ TEST(TocItem, ReadsTheRepliesOfTheWireDocument) {
   EXPECT_EQ(*item, (TocItem{9, 2, "range.front"}));
 }
 
-TEST(TocItem, RefusesWhatIsCutOffOrAnotherReply) {
+TEST(TocItem, RefusesATruncatedOrOtherReply) {
   EXPECT_FALSE(read_toc_info(hex("50 03 8b 01 8c")).has_value());
   EXPECT_FALSE(read_toc_info(hex("50 02 8b 01 8c a1 4c 71")).has_value());
   EXPECT_FALSE(read_toc_item(hex("50 02")).has_value());
   EXPECT_FALSE(read_toc_item(hex("50 02 09 00 02 72 61")).has_value());
 }
 
-TEST(TocItem, AReplyReadsAsTheItemItWasMadeOf) {
+TEST(TocItem, AReplyReadsAsItsItem) {
   const TocItem item{300, 7, "stateEstimate.x"};
   const auto reply = toc_item_reply(kLogTocTopic, item);
   ASSERT_TRUE(reply.has_value());

@@ -53,7 +53,7 @@ TEST(GzipLines, ReadsPlainTextWithAnyLineEnd) {
   EXPECT_EQ(read.end.code, ErrorCode::kEndOfRecording);
 }
 
-TEST(GzipLines, TellsGzipByContentNotByName) {
+TEST(GzipLines, DetectsGzipByContentNotByName) {
   const TemporaryFile file("plain.txt");
   write_gzip(file.path(), "one\ntwo\n");
   EXPECT_THAT(read_all(file.path()).lines, ElementsAre("one", "two"));
@@ -65,7 +65,7 @@ TEST(GzipLines, LinesMayBeLongerThanItsBuffer) {
   EXPECT_THAT(read_all(file.path()).lines, ElementsAre("a", longest, "b"));
 }
 
-TEST(GzipLines, DeliversWholeLinesBeforeACutAndNamesTheByte) {
+TEST(GzipLines, DeliversWholeLinesBeforeDamageAndReportsTheByte) {
   std::mt19937 random(3);
   std::string text;
   for (int i = 0; i < 20'000; ++i) text += std::to_string(random()) + "\n";

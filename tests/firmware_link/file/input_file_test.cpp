@@ -13,14 +13,14 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(InputFile, TellsTheSizeOfAFile) {
+TEST(InputFile, ReturnsTheSizeOfAFile) {
   const TemporaryFile file("a", "12345");
   const auto size = size_of_input_file(file.path());
   ASSERT_TRUE(size.ok());
   EXPECT_EQ(*size, 5U);
 }
 
-TEST(InputFile, SaysWhyAPathCannotBeRead) {
+TEST(InputFile, ReportsWhyAPathCannotBeRead) {
   EXPECT_EQ(size_of_input_file("/nonexistent/a").error().code, ErrorCode::kNotFound);
   EXPECT_THAT(size_of_input_file("/nonexistent/a").error().message,
               HasSubstr("/nonexistent/a: no such file"));
@@ -30,7 +30,7 @@ TEST(InputFile, SaysWhyAPathCannotBeRead) {
   EXPECT_THAT(size_of_input_file(empty.path()).error().message, HasSubstr("is empty"));
 }
 
-TEST(InputFile, TellsACaptureByItsFirstBytes) {
+TEST(InputFile, DetectsACaptureByItsFirstBytes) {
   EXPECT_TRUE(begins_like_capture(TemporaryFile("classic", "\xD4\xC3\xB2\xA1 and more").path()));
   EXPECT_TRUE(begins_like_capture(TemporaryFile("next_generation", "\n\r\r\n").path()));
   EXPECT_FALSE(begins_like_capture(TemporaryFile("laser_log", "FLASER 180").path()));
@@ -38,7 +38,7 @@ TEST(InputFile, TellsACaptureByItsFirstBytes) {
   EXPECT_FALSE(begins_like_capture("/nonexistent/a.pcap"));
 }
 
-TEST(InputFile, SaysThatItMayNotRead) {
+TEST(InputFile, ReportsMissingPermission) {
   if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const TemporaryFile secret("secret", "x");
   std::filesystem::permissions(secret.path(), std::filesystem::perms::none);

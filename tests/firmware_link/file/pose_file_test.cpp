@@ -18,7 +18,7 @@ StampedPose pose_number(int i) {
   return {HostTime(std::chrono::milliseconds(100) * i), Pose2(0.1 * i, -0.2 * i, 0.01 * (i % 300))};
 }
 
-TEST(PoseFile, GivesBackEveryPoseToTheLastBit) {
+TEST(PoseFile, ReturnsEveryPoseToTheLastBit) {
   PoseFile file = std::move(PoseFile::open()).value();
   for (int i = 0; i < 10'000; ++i) file.push_back(pose_number(i));
   EXPECT_TRUE(file.is_complete());
@@ -31,7 +31,7 @@ TEST(PoseFile, GivesBackEveryPoseToTheLastBit) {
   }
 }
 
-TEST(PoseFile, TakesMorePosesAfterItWasRead) {
+TEST(PoseFile, AcceptsMorePosesAfterItWasRead) {
   PoseFile file = std::move(PoseFile::open()).value();
   EXPECT_TRUE(file.read().empty());
   file.push_back(pose_number(1));
@@ -41,14 +41,14 @@ TEST(PoseFile, TakesMorePosesAfterItWasRead) {
   EXPECT_EQ(file.read()[1].stamp, pose_number(2).stamp);
 }
 
-TEST(PoseFile, SaysWhenTheDiskWasFull) {
+TEST(PoseFile, ReportsAFullDisk) {
   PoseFile file = std::move(PoseFile::open()).value();
   const FileSizeLimit full_disk(100'000);
   for (int i = 0; i < 10'000; ++i) file.push_back(pose_number(i));
   EXPECT_FALSE(file.is_complete());
 }
 
-TEST(PoseFile, TakesNothingFromTheHeapWhileItGrows) {
+TEST(PoseFile, AllocatesNothingWhileItGrows) {
   if (!test::counts_allocations()) GTEST_SKIP() << "sanitizers bring a malloc of their own";
   PoseFile file = std::move(PoseFile::open()).value();
   const test::AllocationCounter allocations;

@@ -47,10 +47,10 @@ TEST(InputKinds, UdpReceivesTheVehicleInTheTimeOfItsClock) {
   ASSERT_TRUE(opened.ok());
   const LinkInput input = std::move(opened).value();
   EXPECT_EQ(input.usb_bus, nullptr);
-  EXPECT_FALSE(input.link->receive(Duration::zero()).ok());  // greets
-  ASSERT_TRUE(peer.on_frame(1000).has_value());
+  EXPECT_FALSE(input.link->receive(Duration::zero()).ok());  // registers
+  ASSERT_TRUE(peer.receive(1000).has_value());
   const HostTime before = input.clock->now();
-  peer.say(hex("52 01 00 00 00"));
+  peer.send(hex("52 01 00 00 00"));
   const Result<LinkFrame> frame = input.link->receive(std::chrono::seconds(1));
   ASSERT_TRUE(frame.ok());
   EXPECT_GE(frame->at, before);

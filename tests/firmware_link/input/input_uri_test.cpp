@@ -21,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(InputUri, TakesReplaysAndPlainPathsAsFiles) {
+TEST(InputUri, AcceptsReplaysAndPlainPathsAsFiles) {
   EXPECT_EQ(parse_input_uri("replay:a b/flight.pcap")->as<InputFile>()->path, "a b/flight.pcap");
   EXPECT_EQ(parse_input_uri("replay:what?.pcap")->as<InputFile>()->path, "what?.pcap");
   EXPECT_EQ(parse_input_uri("/data/intel.clf.gz")->as<InputFile>()->path, "/data/intel.clf.gz");
@@ -29,7 +29,7 @@ TEST(InputUri, TakesReplaysAndPlainPathsAsFiles) {
   EXPECT_TRUE(parse_input_uri("radio.pcap")->is(InputNature::kFile));
 }
 
-TEST(InputUri, TakesASimulationWithAndWithoutSeedAndLaps) {
+TEST(InputUri, AcceptsASimulationWithAndWithoutSeedAndLaps) {
   const auto parsed = parse_input_uri("sim://office");
   ASSERT_TRUE(parsed.ok());
   const auto* plain = parsed->as<SimulationAddress>();
@@ -47,7 +47,7 @@ struct RadioCase {
   RadioAddress expected;
 };
 
-TEST(InputUri, TakesARadioAddressAndFillsInWhatIsMissing) {
+TEST(InputUri, AcceptsARadioAddressAndFillsInMissingParts) {
   constexpr std::array<std::uint8_t, 5> kFactory{0xE7, 0xE7, 0xE7, 0xE7, 0xE7};
   constexpr std::array<std::uint8_t, 5> kLast{0, 0, 0, 0, 1};
   constexpr std::array<std::uint8_t, 5> kOther{0xAB, 0xCD, 0xEF, 0x01, 0x23};
@@ -78,7 +78,7 @@ TEST(InputUri, TakesARadioAddressAndFillsInWhatIsMissing) {
   }
 }
 
-TEST(InputUri, TakesAVehicleOnACable) {
+TEST(InputUri, AcceptsAVehicleOnACable) {
   EXPECT_EQ(parse_input_uri("usb://0")->as<UsbCableAddress>()->index, 0);
   EXPECT_EQ(parse_input_uri("usb://99")->as<UsbCableAddress>()->index, 99);
 }
@@ -89,7 +89,7 @@ struct UdpCase {
   std::uint16_t port;
 };
 
-TEST(InputUri, TakesAHostWithAndWithoutAPort) {
+TEST(InputUri, AcceptsAHostWithAndWithoutAPort) {
   const std::vector<UdpCase> cases{
       {"udp://127.0.0.1:19851", "127.0.0.1", 19851},
       {"udp://sim-1.local_net", "sim-1.local_net", 19850},
@@ -107,7 +107,7 @@ TEST(InputUri, TakesAHostWithAndWithoutAPort) {
   }
 }
 
-TEST(InputUri, SaysWhatIsWrongAndShowsWhatIsRight) {
+TEST(InputUri, ReportsWhatIsWrongAndShowsAnExample) {
   const std::vector<std::pair<const char*, const char*>> cases{
       {"replay:", "names no file"},
       {"sim:office", "two slashes follow 'sim:'"},
@@ -166,7 +166,7 @@ TEST(InputUri, SaysWhatIsWrongAndShowsWhatIsRight) {
   }
 }
 
-TEST(InputUri, NamesTheFormsThereAreWhenItKnowsNoOther) {
+TEST(InputUri, ListsTheFormsForAnUnknownScheme) {
   for (const auto& [uri, expected] : std::vector<std::pair<const char*, const char*>>{
            {"", "is empty"}, {"http://x.org/a.pcap", "unknown scheme 'http'"}, {"RADIO://0", "'RADIO'"}}) {
     const auto parsed = parse_input_uri(uri);

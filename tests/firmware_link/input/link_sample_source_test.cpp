@@ -21,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Plays frames, then ends as told.
+/// Replays frames, then returns an error.
 class FrameLink final : public Link {
  public:
   FrameLink(std::vector<LinkFrame> frames, Error end) : frames_(std::move(frames)), end_(std::move(end)) {}
@@ -84,7 +84,7 @@ TEST(LinkSampleSource, TurnsFramesIntoSamples) {
   EXPECT_EQ(source.beams().count, 4);
 }
 
-TEST(LinkSampleSource, RunsOnWhenTheDeviceClockWraps) {
+TEST(LinkSampleSource, ContinuesWhenTheDeviceClockWraps) {
   SyntheticCapture capture;
   capture.packets = 40;
   capture.first_ms = 0xFFFFFF - 1950;
@@ -114,13 +114,13 @@ TEST(LinkSampleSource, DeliversWhatPrecedesDamageAndReportsIt) {
   EXPECT_THAT(source.report().problems, ElementsAre("damaged at byte 77"));
 }
 
-TEST(LinkSampleSource, PassesOnALostDevice) {
+TEST(LinkSampleSource, ReportsALostDevice) {
   LinkSampleSource source(input_of(SyntheticCapture{}.frames(), {ErrorCode::kDeviceLost, "unplugged"}));
   EXPECT_EQ(read_all(source).size(), 7U);
   EXPECT_EQ(source.next().error().code, ErrorCode::kDeviceLost);
 }
 
-TEST(LinkSampleSource, ALiveLinkThatNeverYieldsASampleDoesNotHoldItsCaller) {
+TEST(LinkSampleSource, ALiveLinkThatNeverYieldsASampleDoesNotBlockItsCaller) {
   SyntheticCapture capture;
   capture.packets = 1000;
   std::vector<LinkFrame> frames = capture.frames();
@@ -165,7 +165,7 @@ TEST(LinkSampleSource, DoesNotAllocateForASample) {
   EXPECT_EQ(counter.count(), 0U);
 }
 
-TEST(LinkSampleSource, FallsBackToADescriptionAndSaysSo) {
+TEST(LinkSampleSource, FallsBackToADescriptionAndReportsIt) {
   SyntheticCapture capture;
   capture.with_toc = false;
   LinkInput input = input_of(capture.frames());
@@ -182,7 +182,7 @@ TEST(LinkSampleSource, FallsBackToADescriptionAndSaysSo) {
   EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("taken from flight.pcap.toml")));
 }
 
-TEST(LinkSampleSource, SaysWhyARecordingHoldsNoSample) {
+TEST(LinkSampleSource, ReportsWhyARecordingHoldsNoSample) {
   const auto reason = [](const std::vector<LinkFrame>& frames) {
     LinkSampleSource source(input_of(frames));
     const Status found = source.find_first_sample();
@@ -198,7 +198,7 @@ TEST(LinkSampleSource, SaysWhyARecordingHoldsNoSample) {
   EXPECT_THAT(reason(capture.frames()), HasSubstr("describe them in flight.pcap.toml"));
 }
 
-TEST(LinkSampleSource, DeliversTheFirstSampleItLookedForOnce) {
+TEST(LinkSampleSource, DeliversTheFirstSampleOnceAfterFindingIt) {
   LinkSampleSource source(input_of(SyntheticCapture{}.frames()));
   ASSERT_TRUE(source.find_first_sample().ok());
   const std::vector<RangeSample> samples = read_all(source);
@@ -207,7 +207,7 @@ TEST(LinkSampleSource, DeliversTheFirstSampleItLookedForOnce) {
   EXPECT_EQ(samples[1].sequence, 1U);
 }
 
-TEST(LinkSampleSource, BringsALiveVehicleToSendSamples) {
+TEST(LinkSampleSource, StartsTheLogOfALiveVehicle) {
   auto link = std::make_unique<ScriptedLink>();
   link->vehicle.variables = ScriptedVehicle::modern_variables();
   link->last_ms = 5000;
@@ -246,7 +246,7 @@ TEST(LinkSampleSource, NotesEachKindOfWarningOnceHoweverLongTheFlight) {
   EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("no log data for a second")));
 }
 
-TEST(LinkSampleSource, PassesOnWhyAVehicleCannotBeUsed) {
+TEST(LinkSampleSource, ReportsWhyAVehicleCannotBeUsed) {
   auto link = std::make_unique<ScriptedLink>();
   link->vehicle.protocol = 2;
   LinkInput input;

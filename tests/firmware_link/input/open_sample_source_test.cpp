@@ -34,7 +34,7 @@ std::string refusal(const std::string& uri, const SampleSourceOptions& options =
   return source ? "opened" : source.error().message;
 }
 
-TEST(OpenSampleSource, TellsCapturesAndLaserLogsByContent) {
+TEST(OpenSampleSource, DetectsCapturesAndLaserLogsByContent) {
   const TemporaryFile capture("flight");
   write_capture(capture.path(), SyntheticCapture{}.frames());
   for (const std::string& uri : {capture.path(), "replay:" + capture.path()}) {
@@ -86,7 +86,7 @@ TEST(OpenSampleSource, UsesATruncatedCaptureUpToTheDamage) {
   EXPECT_THAT(refusal(capture.path()), HasSubstr("it holds no sample"));
 }
 
-TEST(OpenSampleSource, PassesOptionsOnAndSaysWhenOneMeansNothing) {
+TEST(OpenSampleSource, AppliesOptionsAndReportsWhenOneHasNoEffect) {
   const TemporaryFile capture("flight.pcap");
   write_capture(capture.path(), SyntheticCapture{}.frames());
   SampleSourceOptions options;
@@ -136,7 +136,7 @@ TEST(OpenSampleSource, RefusesLimitsThatLeaveNoRange) {
   EXPECT_THAT(refusal(log.path(), near), HasSubstr("minimum range"));
 }
 
-TEST(OpenSampleSource, RefusesWhatIsNoInputWithOneLine) {
+TEST(OpenSampleSource, RefusesAnInvalidInputWithOneLine) {
   const TemporaryFile empty("empty.pcap", "");
   const TemporaryFile text("notes.txt", "nothing of use\n");
   const TemporaryFile fake("fake.pcap", "not a capture, only called so");

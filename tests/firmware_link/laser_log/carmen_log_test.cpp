@@ -78,7 +78,7 @@ TEST(CarmenLog, SortsByTimeAndDropsScansThatRepeat) {
   EXPECT_LT(log->odometry[0].stamp, log->odometry[1].stamp);
 }
 
-TEST(CarmenLog, NamesMalformedLinesAndReadsOn) {
+TEST(CarmenLog, ReportsMalformedLinesAndContinues) {
   const std::string good = flaser_line(180, 0.0, "5");
   const std::string cut = good.substr(0, good.size() / 2) + "\n";
   std::string text = good + cut + "ODOM 1 2 x 0 0 0 5\n" + flaser_line(361, 0.0, "6") + "FLASER\n" +
@@ -96,7 +96,7 @@ TEST(CarmenLog, NamesMalformedLinesAndReadsOn) {
   EXPECT_THAT(log->problems.back(), HasSubstr("14 more malformed lines"));
 }
 
-TEST(CarmenLog, SaysWhyThereIsNothingToRead) {
+TEST(CarmenLog, ReportsWhyThereIsNothingToRead) {
   const TemporaryFile other("a.clf", "hello\n");
   EXPECT_THAT(read_carmen_log(other.path(), 4).error().message,
               HasSubstr("neither a capture (pcap) nor a CARMEN laser log"));

@@ -75,7 +75,7 @@ TEST(CarmenSampleSource, TakesThePoseInTheScanWhenThereIsNoOdometryOrTooLittle) 
               ElementsAre(HasSubstr("do not span")));
 }
 
-TEST(CarmenSampleSource, TakesRangesForOlderByALineWhereTheScansTurnWithThePosesOfTheLineBefore) {
+TEST(CarmenSampleSource, TakesRangesForOneLineOlderIfTheScansTurnWithThePosesOfTheLineBefore) {
   // A scanner that turns to and fro before a wall of slanting steps; each line has the pose of the next one.
   std::string text;
   const auto reading_at = [](int line) { return static_cast<int>(std::lround(12.0 * std::sin(0.8 * line))); };
@@ -113,7 +113,7 @@ TEST(CarmenSampleSource, CapsRangesAndPicksBeams) {
   EXPECT_EQ(read_all(**source).at(0).status[1], RangeStatus::kNoReturn);
 }
 
-TEST(CarmenSampleSource, ARobotStandingStillAndScansOfOneStampAreFine) {
+TEST(CarmenSampleSource, AcceptsARobotThatStandsStillAndScansOfOneStamp) {
   const TemporaryFile file("a.clf", flaser_line(180, 0, "1", 1.0) + flaser_line(180, 0, "1", 2.0) +
                                         flaser_line(180, 0, "1", 2.0) + flaser_line(180, 0, "1.00001", 2.0));
   auto source = CarmenSampleSource::open(file.path(), {});

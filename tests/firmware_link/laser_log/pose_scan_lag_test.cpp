@@ -46,25 +46,25 @@ TEST(TurnedRad, FindsTheTurnToAFractionOfTheStep) {
   }
 }
 
-TEST(TurnedRad, FindsNothingWhereNothingAgrees) {
+TEST(TurnedRad, FindsNothingIfNoTurnAgrees) {
   EXPECT_FALSE(turned_rad(std::vector<float>(180, 3.0F), std::vector<float>(180, 6.0F), kStepRad));
   EXPECT_FALSE(turned_rad(std::vector<float>(180, 81.0F), std::vector<float>(180, 81.0F), kStepRad))
       << "all out of range";
   EXPECT_FALSE(turned_rad(scan_at(0.0), scan_at(radians(60.0)), kStepRad)) << "too wide a turn";
 }
 
-TEST(PoseScanLag, SeesPosesALineAhead) {
+TEST(PoseScanLag, DetectsPosesALineAhead) {
   EXPECT_TRUE(lag_of(400, kIntervalS).runs_a_line_ahead());
   EXPECT_TRUE(lag_of(400, 1.3 * kIntervalS).runs_a_line_ahead()) << "or more";
 }
 
-TEST(PoseScanLag, LeavesPosesAlongsideAlone) {
+TEST(PoseScanLag, DoesNotReportPosesOfTheSameLine) {
   EXPECT_FALSE(lag_of(400, 0.0).runs_a_line_ahead());
   EXPECT_FALSE(lag_of(400, 0.3 * kIntervalS).runs_a_line_ahead());
   EXPECT_FALSE(lag_of(400, -kIntervalS).runs_a_line_ahead()) << "that lag behind, too";
 }
 
-TEST(PoseScanLag, SaysNothingOfAShortLogOrOneThatNeverTurns) {
+TEST(PoseScanLag, ReportsNothingForAShortLogOrOneThatNeverTurns) {
   EXPECT_FALSE(lag_of(60, kIntervalS).runs_a_line_ahead());
   PoseScanLag still;
   for (int i = 0; i < 400; ++i) still.add(scan_at(0.3), 0.3, kStepRad);

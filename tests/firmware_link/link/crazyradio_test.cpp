@@ -68,7 +68,7 @@ TEST_F(CrazyradioTest, SendsSettingsOnlyWhenTheyChange) {
   EXPECT_EQ(dongle_.requests, wanted);
 }
 
-TEST_F(CrazyradioTest, SendsASettingAgainThatDidNotArrive) {
+TEST_F(CrazyradioTest, RepeatsASettingThatFailed) {
   Crazyradio radio = open();
   dongle_.request_outcome = UsbOutcome::kTimeout;
   EXPECT_EQ(radio.set_channel(81), UsbOutcome::kTimeout);
@@ -78,7 +78,7 @@ TEST_F(CrazyradioTest, SendsASettingAgainThatDidNotArrive) {
   EXPECT_EQ(dongle_.requests.size(), 1U);
 }
 
-TEST_F(CrazyradioTest, IsOpenedAnewWhenItComesBackFromTheResetAsAnother) {
+TEST_F(CrazyradioTest, IsReopenedWhenItIsAnotherDeviceAfterTheReset) {
   dongle_.reset_outcome = UsbOutcome::kNoDevice;
   Crazyradio radio = open();
   EXPECT_EQ(dongle_.opened, (std::vector<std::size_t>{0, 0}));
@@ -86,7 +86,7 @@ TEST_F(CrazyradioTest, IsOpenedAnewWhenItComesBackFromTheResetAsAnother) {
   EXPECT_TRUE(radio.exchange(kPoll).acknowledged);
 }
 
-TEST_F(CrazyradioTest, SaysWhyItCannotBeOpened) {
+TEST_F(CrazyradioTest, ReportsWhyItCannotBeOpened) {
   for (const UsbOutcome outcome : {UsbOutcome::kAccessDenied, UsbOutcome::kBusy, UsbOutcome::kFault}) {
     dongle_.opening = {outcome};
     EXPECT_EQ(failure(), outcome);
@@ -102,7 +102,7 @@ TEST_F(CrazyradioTest, SaysWhyItCannotBeOpened) {
   EXPECT_EQ(dongle_.open_devices, 0);
 }
 
-TEST_F(CrazyradioTest, NeedsFirmwareThatKnowsTheRequests) {
+TEST_F(CrazyradioTest, RequiresFirmwareThatKnowsTheRequests) {
   dongle_.plugged_in[0].release_bcd = 0x0039;
   EXPECT_EQ(failure(), UsbOutcome::kFault);
   for (const int release : {0x0040, 0x0053, 0x0504, 0x9955}) {
@@ -111,7 +111,7 @@ TEST_F(CrazyradioTest, NeedsFirmwareThatKnowsTheRequests) {
   }
 }
 
-TEST_F(CrazyradioTest, IsFoundByIndexSerialNumberOrAtAll) {
+TEST_F(CrazyradioTest, IsFoundByIndexSerialNumberOrWildcard) {
   plug_in("0123456789");
   plug_in("00112233AABBCCDD");
   for (const auto& [name, index] : std::vector<std::pair<std::string, std::size_t>>{
@@ -127,7 +127,7 @@ TEST_F(CrazyradioTest, IsFoundByIndexSerialNumberOrAtAll) {
   }
 }
 
-TEST_F(CrazyradioTest, AnyMeansTheFirstThatIsFree) {
+TEST_F(CrazyradioTest, WildcardSelectsTheFirstThatIsFree) {
   plug_in("0123456789");
   address_.dongle = "*";
   dongle_.opening = {UsbOutcome::kBusy};
@@ -137,7 +137,7 @@ TEST_F(CrazyradioTest, AnyMeansTheFirstThatIsFree) {
   EXPECT_EQ(failure(), UsbOutcome::kBusy);
 }
 
-TEST_F(CrazyradioTest, ThatMayNotTellItsSerialNumberIsNotMissing) {
+TEST_F(CrazyradioTest, IsNotMissingIfItsSerialNumberMayNotBeRead) {
   dongle_.plugged_in[0].serial.clear();
   dongle_.plugged_in[0].access = UsbOutcome::kAccessDenied;
   address_.dongle = "A1B2C3D4E5";
@@ -146,7 +146,7 @@ TEST_F(CrazyradioTest, ThatMayNotTellItsSerialNumberIsNotMissing) {
   EXPECT_EQ(failure(), UsbOutcome::kNoDevice);
 }
 
-TEST_F(CrazyradioTest, ThatMayBeAnotherThanTheOneAskedForIsNotOpened) {
+TEST_F(CrazyradioTest, IsNotOpenedIfItMayNotBeTheRequestedOne) {
   dongle_.plugged_in[0].serial.clear();
   dongle_.plugged_in[0].access = UsbOutcome::kAccessDenied;  // as it was listed; opening it would work by now
   plug_in("0123456789");
@@ -159,7 +159,7 @@ TEST_F(CrazyradioTest, ThatMayBeAnotherThanTheOneAskedForIsNotOpened) {
   EXPECT_EQ(dongle_.opened, std::vector<std::size_t>{1});
 }
 
-TEST_F(CrazyradioTest, TellsWhatBecameOfAPacket) {
+TEST_F(CrazyradioTest, ReportsTheOutcomeOfAPacket) {
   Crazyradio radio = open();
   dongle_.vehicle.waiting.push_back({0x52, 1, 0x8E, 0x11, 0});
   dongle_.raw_status = 0x23;
@@ -197,7 +197,7 @@ TEST_F(CrazyradioTest, NeverTakesALateAnswerForTheNextOne) {
   EXPECT_EQ(clock_.now() - back_at, milliseconds(1)) << "all is as usual again";
 }
 
-TEST_F(CrazyradioTest, FindsOutThatAnAnswerIsTheLateOneByTheNextBehindIt) {
+TEST_F(CrazyradioTest, RecognisesALateAnswerByTheNextOneBehindIt) {
   Crazyradio radio = open();
   dongle_.vehicle.waiting = {{0x50, 1}, {0x50, 2}, {0x50, 3}};
   dongle_.fates = {Fate::kAnsweredLate};
@@ -209,7 +209,7 @@ TEST_F(CrazyradioTest, FindsOutThatAnAnswerIsTheLateOneByTheNextBehindIt) {
   EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 3}));
 }
 
-TEST_F(CrazyradioTest, GoesOnAfterAnAnswerThatNeverComes) {
+TEST_F(CrazyradioTest, ContinuesAfterAMissingAnswer) {
   Crazyradio radio = open();
   dongle_.fates = {Fate::kNeverAnswered, Fate::kPacketLost};
   EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kTimeout);
@@ -218,7 +218,7 @@ TEST_F(CrazyradioTest, GoesOnAfterAnAnswerThatNeverComes) {
   EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 4}));
 }
 
-TEST_F(CrazyradioTest, ThrowsAwayWhatAnEarlierProgramDidNotRead) {
+TEST_F(CrazyradioTest, DiscardsAnswersToAnEarlierProgram) {
   dongle_.answers = {{0x01, 0xF3}, {0x01, 0x50, 9}};
   Crazyradio radio = open();
   dongle_.vehicle.waiting = {{0x50, 1}};
@@ -227,7 +227,7 @@ TEST_F(CrazyradioTest, ThrowsAwayWhatAnEarlierProgramDidNotRead) {
   EXPECT_EQ(failure(), UsbOutcome::kFault) << "it never stops talking";
 }
 
-TEST_F(CrazyradioTest, GoesOnAfterAStall) {
+TEST_F(CrazyradioTest, ContinuesAfterAStall) {
   Crazyradio radio = open();
   dongle_.fates = {Fate::kOutStalls, Fate::kInStalls};
   EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kStall);
@@ -238,7 +238,7 @@ TEST_F(CrazyradioTest, GoesOnAfterAStall) {
   EXPECT_EQ(payload_of(radio.exchange(kPoll)), (Bytes{0x50, 2}));
 }
 
-TEST_F(CrazyradioTest, PassesOnWhatItCannotMend) {
+TEST_F(CrazyradioTest, ReportsErrorsThatItCannotRecoverFrom) {
   Crazyradio radio = open();
   dongle_.fates = {Fate::kOverflows, Fate::kFails};
   EXPECT_EQ(radio.exchange(kPoll).outcome, UsbOutcome::kOverflow);

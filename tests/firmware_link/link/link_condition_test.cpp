@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(LinkCondition, IsToldInOneLineThatSaysWhatToDo) {
+TEST(LinkCondition, IsDescribedInOneLineWithARemedy) {
   EXPECT_THAT(std::string(describe(LinkCondition::kSilent)), HasSubstr("channel"));
   EXPECT_THAT(std::string(describe(LinkCondition::kDeviceMissing)), HasSubstr("plug it in"));
   EXPECT_THAT(std::string(describe(LinkCondition::kAccessDenied)), HasSubstr("plugdev"));
@@ -26,7 +26,7 @@ TEST(LinkCondition, IsToldInOneLineThatSaysWhatToDo) {
   }
 }
 
-TEST(LinkCondition, FollowsFromHowTheDeviceFailed) {
+TEST(LinkCondition, FollowsFromTheFailureOfTheDevice) {
   EXPECT_EQ(condition_of(UsbOutcome::kNoDevice), LinkCondition::kDeviceMissing);
   EXPECT_EQ(condition_of(UsbOutcome::kAccessDenied), LinkCondition::kAccessDenied);
   EXPECT_EQ(condition_of(UsbOutcome::kBusy), LinkCondition::kDeviceBusy);

@@ -24,7 +24,7 @@ class RadioLinkTest : public testing::Test {
     if (!link_) link_.emplace(dongle_, clock_, address_);
     return *link_;
   }
-  /// Everything that is handed back in that time.
+  /// Everything that is delivered in that time.
   std::vector<LinkFrame> listen(Duration duration) {
     std::vector<LinkFrame> frames;
     const HostTime end = clock_.now() + duration;
@@ -39,7 +39,7 @@ class RadioLinkTest : public testing::Test {
     ASSERT_EQ(link().statistics().condition, LinkCondition::kConnected);
     dongle_.packets.clear();
   }
-  /// Times between the packets that went out in that time.
+  /// Times between the packets sent in that time.
   std::vector<Duration> pauses_in(Duration duration) {
     dongle_.packets.clear();
     static_cast<void>(listen(duration));
@@ -123,7 +123,7 @@ std::vector<Bytes> packets_of(const std::vector<LinkFrame>& frames, LinkDirectio
   return packets;
 }
 
-TEST_F(RadioLinkTest, AsksForSafelinkAndIsConnected) {
+TEST_F(RadioLinkTest, RequestsSafelinkAndIsConnected) {
   EXPECT_EQ(condition(), LinkCondition::kSilent);
   EXPECT_TRUE(listen(milliseconds(50)).empty()) << "null packets are not handed back";
   EXPECT_EQ(sent()[0], (Bytes{0xFF, 0x05, 0x01}));
@@ -138,7 +138,7 @@ TEST_F(RadioLinkTest, AsksForSafelinkAndIsConnected) {
   EXPECT_EQ(statistics.silences, 0U);
 }
 
-TEST_F(RadioLinkTest, AsksAgainWithAPollBetweenWhenTheEchoIsLost) {
+TEST_F(RadioLinkTest, RequestsSafelinkAgainWithAPollBetweenWhenTheEchoIsLost) {
   dongle_.fates = {Fate::kAcknowledgementLost};
   static_cast<void>(listen(milliseconds(50)));
   ASSERT_GE(dongle_.packets.size(), 3U);
@@ -147,7 +147,7 @@ TEST_F(RadioLinkTest, AsksAgainWithAPollBetweenWhenTheEchoIsLost) {
   EXPECT_TRUE(link().statistics().safelink);
 }
 
-TEST_F(RadioLinkTest, DoesWithoutSafelinkAfterTenAnswersThatAreNoEcho) {
+TEST_F(RadioLinkTest, GivesUpSafelinkAfterTenAnswersThatAreNoEcho) {
   dongle_.vehicle.knows_safelink = false;
   static_cast<void>(listen(milliseconds(500)));
   EXPECT_EQ(safelink_requests(), 10);
@@ -157,7 +157,7 @@ TEST_F(RadioLinkTest, DoesWithoutSafelinkAfterTenAnswersThatAreNoEcho) {
   EXPECT_EQ(packets_of(listen(milliseconds(20)), LinkDirection::kFromVehicle).size(), 2U);
 }
 
-TEST_F(RadioLinkTest, NeverAsksWhereTheUserWantsNoSafelink) {
+TEST_F(RadioLinkTest, NeverRequestsSafelinkIfTheUserSwitchedItOff) {
   address_.safelink = false;
   static_cast<void>(listen(milliseconds(100)));
   dongle_.receives_us = [] { return false; };
@@ -169,7 +169,7 @@ TEST_F(RadioLinkTest, NeverAsksWhereTheUserWantsNoSafelink) {
   EXPECT_TRUE(std::ranges::all_of(sent(), [](const Bytes& packet) { return packet == Bytes{0xFF}; }));
 }
 
-TEST_F(RadioLinkTest, HandsBackARequestOnceAndBeforeItsAnswer) {
+TEST_F(RadioLinkTest, DeliversARequestOnceAndBeforeItsAnswer) {
   connect();
   const HostTime asked_at = clock_.now();
   dongle_.vehicle.waiting = {{0x50, 3}};
@@ -190,7 +190,7 @@ TEST_F(RadioLinkTest, HandsBackARequestOnceAndBeforeItsAnswer) {
   EXPECT_EQ(dongle_.vehicle.accepted.size(), 1U);
 }
 
-TEST_F(RadioLinkTest, LosesAndDoublesNothingWithSafelink) {
+TEST_F(RadioLinkTest, LosesAndDuplicatesNothingWithSafelink) {
   connect();
   std::mt19937 random(7);
   const std::vector<Fate> kinds{Fate::kDelivered,           Fate::kDelivered, Fate::kPacketLost,
@@ -245,7 +245,7 @@ TEST_F(RadioLinkTest, SendsARequestOnceThatIsRepeatedWhileItWaits) {
   EXPECT_EQ(dongle_.vehicle.accepted.size(), 1U);
 }
 
-TEST_F(RadioLinkTest, SendsOnlyWhatIsAPacketAndNoNullPacket) {
+TEST_F(RadioLinkTest, RefusesInvalidPacketsAndNullPackets) {
   EXPECT_EQ(link().send({}).error().code, ErrorCode::kInvalidInput);
   EXPECT_EQ(link().send(Bytes(32, 0x5C)).error().code, ErrorCode::kInvalidInput);
   EXPECT_EQ(link().send(Bytes{0xFF, 0xFE, 0x01}).error().code, ErrorCode::kInvalidInput)
@@ -255,9 +255,9 @@ TEST_F(RadioLinkTest, SendsOnlyWhatIsAPacketAndNoNullPacket) {
   EXPECT_EQ(listen(milliseconds(200)).size(), RequestQueue::kCapacity);
 }
 
-TEST_F(RadioLinkTest, AsksAgainAfterARunOfRepeats) {
+TEST_F(RadioLinkTest, RequestsSafelinkAgainAfterARunOfRepeats) {
   connect();
-  dongle_.vehicle.has_safelink = false;  // it has rebooted faster than anyone noticed
+  dongle_.vehicle.has_safelink = false;  // it has rebooted without a silence
   for (std::uint8_t i = 0; i < 100; ++i) dongle_.vehicle.waiting.push_back({0x50, i});
   const std::size_t received = listen(milliseconds(500)).size();
   EXPECT_EQ(safelink_requests(), 1);
@@ -266,7 +266,7 @@ TEST_F(RadioLinkTest, AsksAgainAfterARunOfRepeats) {
   EXPECT_EQ(received, 95U);
 }
 
-TEST_F(RadioLinkTest, AsksAgainWhenRepeatsAreMixedWithIdleAnswers) {
+TEST_F(RadioLinkTest, RequestsSafelinkAgainWhenRepeatsAreMixedWithIdleAnswers) {
   connect();
   dongle_.vehicle.has_safelink = false;
   for (std::uint8_t i = 0; i < 50 && safelink_requests() == 0; ++i) {
@@ -277,7 +277,7 @@ TEST_F(RadioLinkTest, AsksAgainWhenRepeatsAreMixedWithIdleAnswers) {
   EXPECT_TRUE(link().statistics().safelink);
 }
 
-TEST_F(RadioLinkTest, TellsSilenceAfterASecondAndPollsOnSlowly) {
+TEST_F(RadioLinkTest, ReportsSilenceAfterASecondAndContinuesToPollSlowly) {
   connect();
   dongle_.receives_us = [] { return false; };
   static_cast<void>(listen(milliseconds(900)));
@@ -308,11 +308,11 @@ TEST_F(RadioLinkTest, ConnectsAgainAfterASilenceWithoutTheRequestsFromBefore) {
   EXPECT_EQ(condition(), LinkCondition::kConnected);
 }
 
-TEST_F(RadioLinkTest, HearsWhatItHeardBeforeASilenceOnlyOnce) {
+TEST_F(RadioLinkTest, DeliversAPacketRepeatedAfterASilenceOnce) {
   connect();
   dongle_.vehicle.waiting = {{0x52, 1}};
   EXPECT_EQ(listen(milliseconds(20)).size(), 1U);
-  dongle_.vehicle.last = {0x52, 1};  // and says it again after the silence
+  dongle_.vehicle.last = {0x52, 1};  // and repeats it after the silence
   dongle_.vehicle.down = 1;
   dongle_.receives_us = [] { return false; };
   static_cast<void>(listen(milliseconds(1100)));
@@ -321,7 +321,7 @@ TEST_F(RadioLinkTest, HearsWhatItHeardBeforeASilenceOnlyOnce) {
   EXPECT_EQ(link().statistics().duplicates, 1U);
 }
 
-TEST_F(RadioLinkTest, PollsAtOnceWhileThereIsContentElseAtEase) {
+TEST_F(RadioLinkTest, PollsWithoutPauseWhileThereIsContentElseSlowly) {
   connect();
   for (const Duration pause : pauses_in(milliseconds(900))) EXPECT_EQ(pause, milliseconds(5));
   static_cast<void>(listen(milliseconds(200)));
@@ -355,7 +355,7 @@ TEST_F(RadioLinkTest, KeepsToTheRateLimitButNeverFallsSilent) {
   EXPECT_EQ(link().statistics().silences, 0U);
 }
 
-TEST_F(RadioLinkTest, WaitsForTheDongleWithoutHaste) {
+TEST_F(RadioLinkTest, WaitsForAMissingDongle) {
   const std::vector<UsbIdentity> dongles = std::exchange(dongle_.plugged_in, {});
   const HostTime asked_at = clock_.now();
   const Result<LinkFrame> frame = link().receive(milliseconds(730));
@@ -371,7 +371,7 @@ TEST_F(RadioLinkTest, WaitsForTheDongleWithoutHaste) {
   EXPECT_EQ(link().statistics().device_losses, 0U);
 }
 
-TEST_F(RadioLinkTest, SaysWhyTheDongleCannotBeOpened) {
+TEST_F(RadioLinkTest, ReportsWhyTheDongleCannotBeOpened) {
   for (const auto& [outcome, wanted] : std::vector<std::pair<UsbOutcome, LinkCondition>>{
            {UsbOutcome::kAccessDenied, LinkCondition::kAccessDenied},
            {UsbOutcome::kBusy, LinkCondition::kDeviceBusy},
@@ -385,7 +385,7 @@ TEST_F(RadioLinkTest, SaysWhyTheDongleCannotBeOpened) {
   EXPECT_EQ(condition(), LinkCondition::kConnected);
 }
 
-TEST_F(RadioLinkTest, OpensTheDongleAnewAfterItWasUnplugged) {
+TEST_F(RadioLinkTest, ReopensTheDongleAfterItWasUnplugged) {
   connect();
   const std::vector<UsbIdentity> dongles = std::exchange(dongle_.plugged_in, {});
   dongle_.has_news = true;
@@ -404,7 +404,7 @@ TEST_F(RadioLinkTest, OpensTheDongleAnewAfterItWasUnplugged) {
   EXPECT_EQ(link().statistics().silences, 1U) << "the vehicle has deleted its log blocks";
 }
 
-TEST_F(RadioLinkTest, OpensAFaultyDongleAnewBeforeTheVehicleForgets) {
+TEST_F(RadioLinkTest, ReopensAFaultyDongleBeforeTheVehicleDeletesItsBlocks) {
   for (const auto& [fate, wanted] : {std::pair(Fate::kOverflows, LinkCondition::kDeviceOverflows),
                                      std::pair(Fate::kFails, LinkCondition::kDeviceFault)}) {
     static_cast<void>(listen(seconds(2)));
@@ -418,7 +418,7 @@ TEST_F(RadioLinkTest, OpensAFaultyDongleAnewBeforeTheVehicleForgets) {
   EXPECT_EQ(link().statistics().silences, 0U);
 }
 
-TEST_F(RadioLinkTest, OpensADongleAnewThatNeverAnswers) {
+TEST_F(RadioLinkTest, ReopensADongleThatNeverAnswers) {
   connect();
   dongle_.fates.assign(10, Fate::kNeverAnswered);
   static_cast<void>(listen(seconds(5)));
@@ -427,7 +427,7 @@ TEST_F(RadioLinkTest, OpensADongleAnewThatNeverAnswers) {
   EXPECT_EQ(condition(), LinkCondition::kConnected);
 }
 
-TEST_F(RadioLinkTest, TellsAFaultForAsLongAsTheDongleFailsAfterEachOpening) {
+TEST_F(RadioLinkTest, ReportsAFaultWhileTheDongleFailsAfterEachOpening) {
   connect();
   dongle_.fates.assign(10'000, Fate::kOutStalls);
   static_cast<void>(listen(seconds(2)));
@@ -438,7 +438,7 @@ TEST_F(RadioLinkTest, TellsAFaultForAsLongAsTheDongleFailsAfterEachOpening) {
   dongle_.fates.clear();
   dongle_.receives_us = [] { return false; };
   static_cast<void>(listen(milliseconds(1500)));
-  EXPECT_EQ(condition(), LinkCondition::kSilent) << "the dongle works again, nobody answers";
+  EXPECT_EQ(condition(), LinkCondition::kSilent) << "the dongle works again, no vehicle answers";
 }
 
 TEST_F(RadioLinkTest, AllocatesNothingOnceItIsConnected) {

@@ -50,7 +50,7 @@ TEST_F(RadioScanTest, FindsEachRateAndChannelThatAnswers) {
   for (const FakeDongle::Packet& packet : dongle_.packets) EXPECT_EQ(packet.bytes, Bytes{0xFF});
 }
 
-TEST_F(RadioScanTest, FindsNobodyWhereNobodyIs) {
+TEST_F(RadioScanTest, FindsNothingWithoutAVehicle) {
   dongle_.receives_us = [] { return false; };
   dongle_.fates = {Fate::kNeverAnswered, Fate::kInStalls};
   const auto scanned = scan_radio(dongle_, wanted_);
@@ -58,7 +58,7 @@ TEST_F(RadioScanTest, FindsNobodyWhereNobodyIs) {
   EXPECT_TRUE(std::get<0>(scanned).empty());
 }
 
-TEST_F(RadioScanTest, SaysWhyTheDongleCannotBeUsed) {
+TEST_F(RadioScanTest, ReportsWhyTheDongleCannotBeUsed) {
   dongle_.fates = {Fate::kDelivered, Fate::kFails};
   EXPECT_EQ(std::get<UsbOutcome>(scan_radio(dongle_, wanted_)), UsbOutcome::kFault);
   dongle_.opening = {UsbOutcome::kBusy};

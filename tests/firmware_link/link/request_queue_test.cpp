@@ -14,7 +14,7 @@ Bytes next(RequestQueue& queue) {
   return {packet.begin(), packet.end()};
 }
 
-TEST(RequestQueue, HandsRequestsOutInTheirOrder) {
+TEST(RequestQueue, ReturnsRequestsInTheirOrder) {
   RequestQueue queue;
   ASSERT_TRUE(queue.push(hex("5c 03")).ok());
   ASSERT_TRUE(queue.push(hex("5c 02 00 00")).ok());
@@ -23,7 +23,7 @@ TEST(RequestQueue, HandsRequestsOutInTheirOrder) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(RequestQueue, KeepsARequestThatWaitsAlreadyOnceOnly) {
+TEST(RequestQueue, QueuesARequestThatWaitsAlreadyOnce) {
   RequestQueue queue;
   ASSERT_TRUE(queue.push(hex("5c 03")).ok());
   ASSERT_TRUE(queue.push(hex("50 03")).ok());  // other link bits
@@ -38,7 +38,7 @@ TEST(RequestQueue, DropsTheNewestWhenItIsFull) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(RequestQueue, RefusesWhatIsNoRequest) {
+TEST(RequestQueue, RefusesAnInvalidRequest) {
   RequestQueue queue;
   for (const Bytes& packet : {Bytes{}, Bytes(32, 0x5C), hex("f3"), hex("ff fe 01")}) {
     const Status pushed = queue.push(packet);

@@ -27,7 +27,7 @@ TEST(Safelink, KeepsTheHeadersBitsUntilThePacketIsAcknowledged) {
   EXPECT_EQ(safelink.header(0xFF), 0xF3);
 }
 
-TEST(Safelink, TakesOnlyTheEchoForAYes) {
+TEST(Safelink, AcceptsOnlyTheEchoAsConfirmation) {
   EXPECT_TRUE(is_safelink_echo(kSafelinkRequest));
   EXPECT_TRUE(is_safelink_echo(Bytes{0xF3, 5, 1})) << "newer radios overwrite the link bits";
   EXPECT_FALSE(is_safelink_echo(Bytes{0xFF, 5, 0}));
@@ -59,7 +59,7 @@ void expect_each_packet_once(unsigned fates, int count) {
   ASSERT_EQ(received, (Bytes{0, 1, 2, 3, 4}));
 }
 
-TEST(Safelink, LosesAndDoublesNothingWhateverGetsLost) {
+TEST(Safelink, LosesAndDuplicatesNothingWhateverIsLost) {
   constexpr int kCount = 8;
   for (unsigned fates = 0; fates < 6561; ++fates) {  // 3 to the 8th: each way in which eight packets can fare
     SCOPED_TRACE(fates);

@@ -41,7 +41,7 @@ struct Pair {
   ManualLinkClock clock;
   std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
 
-  /// What the link hands back now.
+  /// What the link delivers now.
   [[nodiscard]] std::optional<LinkFrame> look() const {
     const Result<LinkFrame> frame = link->receive(Duration::zero());
     if (frame) return *frame;
@@ -51,14 +51,14 @@ struct Pair {
   /// As many datagrams as are expected, and whatever else is there then.
   std::vector<Bytes> received(std::size_t expected) {
     std::vector<Bytes> all;
-    while (const std::optional<Bytes> one = peer.on_frame(all.size() < expected ? kPatienceMs : 0))
+    while (const std::optional<Bytes> one = peer.receive(all.size() < expected ? kPatienceMs : 0))
       all.push_back(*one);
     return all;
   }
   void connect() {
     EXPECT_FALSE(look().has_value());
     EXPECT_THAT(received(2), ElementsAre(kRegistration, kNull));
-    peer.say(hex("f3"));
+    peer.send(hex("f3"));
     EXPECT_FALSE(look().has_value());
     EXPECT_EQ(link->statistics().condition, LinkCondition::kConnected);
   }
@@ -66,7 +66,7 @@ struct Pair {
 
 Bytes bytes_of(const LinkFrame& frame) { return {frame.packet().begin(), frame.packet().end()}; }
 
-TEST(UdpLink, GreetsEvery200MillisecondsWhileNothingIsHeard) {
+TEST(UdpLink, RegistersEvery200MillisecondsWhileNothingIsReceived) {
   Pair pair;
   EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kSilent);
   EXPECT_FALSE(pair.look().has_value());
@@ -97,13 +97,13 @@ TEST(UdpLink, SendsANullPacketAfter100MillisecondsOfSendingNothing) {
   EXPECT_THAT(pair.received(1), ElementsAre(kNull));
 }
 
-TEST(UdpLink, HandsBackWhatItSentBeforeTheAnswer) {
+TEST(UdpLink, DeliversARequestBeforeItsAnswer) {
   Pair pair;
   pair.connect();
   ASSERT_TRUE(pair.link->send(hex("5d 05")).ok());
   ASSERT_TRUE(pair.link->send(hex("5c 03")).ok());
   EXPECT_THAT(pair.received(0), ElementsAre()) << "only receive() sends";
-  pair.peer.say(hex("5d 05 00 00"));
+  pair.peer.send(hex("5d 05 00 00"));
   std::vector<LinkFrame> frames;
   while (const std::optional<LinkFrame> frame = pair.look()) {
     frames.push_back(*frame);
@@ -121,7 +121,7 @@ TEST(UdpLink, HandsBackWhatItSentBeforeTheAnswer) {
   EXPECT_THAT(pair.received(2), ElementsAre(hex("5d 05"), hex("5c 03")));
 }
 
-TEST(UdpLink, RefusesWhatIsNoRequest) {
+TEST(UdpLink, RefusesAnInvalidRequest) {
   Pair pair;
   pair.connect();
   for (const Bytes& packet : {Bytes{}, Bytes(32, 0x5C), hex("ff fe 01")}) {
@@ -131,7 +131,7 @@ TEST(UdpLink, RefusesWhatIsNoRequest) {
   }
 }
 
-TEST(UdpLink, DropsWhatItHasNoRoomFor) {
+TEST(UdpLink, DropsRequestsWithoutRoom) {
   Pair pair;
   pair.connect();
   for (std::uint8_t i = 0; i < 9; ++i) EXPECT_TRUE(pair.link->send(Bytes{0x5C, i}).ok());
@@ -144,15 +144,15 @@ TEST(UdpLink, DropsWhatItHasNoRoomFor) {
   EXPECT_EQ(pair.received(8).size(), 8U);
 }
 
-TEST(UdpLink, KeepsNullPacketsAndWrongSizesToItself) {
+TEST(UdpLink, DoesNotDeliverNullPacketsAndWrongSizes) {
   Pair pair;
   pair.connect();
-  pair.peer.say({});
-  pair.peer.say(hex("f7"));
-  pair.peer.say(hex("f3 01 2d"));
-  pair.peer.say(Bytes(32, 0x52));
-  pair.peer.say(Bytes(1500, 0x52));
-  pair.peer.say(Bytes(31, 0x52));
+  pair.peer.send({});
+  pair.peer.send(hex("f7"));
+  pair.peer.send(hex("f3 01 2d"));
+  pair.peer.send(Bytes(32, 0x52));
+  pair.peer.send(Bytes(1500, 0x52));
+  pair.peer.send(Bytes(31, 0x52));
   const std::optional<LinkFrame> frame = pair.look();
   ASSERT_TRUE(frame.has_value());
   EXPECT_EQ(bytes_of(*frame), Bytes(31, 0x52));
@@ -162,14 +162,14 @@ TEST(UdpLink, KeepsNullPacketsAndWrongSizesToItself) {
   EXPECT_EQ(pair.link->statistics().packets_received, 1U);
 }
 
-TEST(UdpLink, StampsAFrameWithTheTimeItCameHoweverLateItIsRead) {
+TEST(UdpLink, StampsAFrameWithItsTimeOfArrivalHoweverLateItIsRead) {
   SystemLinkClock clock;
   UdpPeer peer;
   const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
   EXPECT_FALSE(link->receive(Duration::zero()).ok());
-  EXPECT_TRUE(peer.on_frame(kPatienceMs).has_value());
+  EXPECT_TRUE(peer.receive(kPatienceMs).has_value());
   std::this_thread::sleep_for(milliseconds(60));  // the kernel may take a while until it stamps what comes
-  peer.say(hex("52 01 00 00 00"));
+  peer.send(hex("52 01 00 00 00"));
   const HostTime said_at = clock.now();
   std::this_thread::sleep_for(milliseconds(60));
   const Result<LinkFrame> frame = link->receive(milliseconds(kPatienceMs));
@@ -178,7 +178,7 @@ TEST(UdpLink, StampsAFrameWithTheTimeItCameHoweverLateItIsRead) {
   EXPECT_LT(frame->at - said_at, milliseconds(10));
 }
 
-TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndComesBack) {
+TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndReconnects) {
   Pair pair;
   pair.connect();
   pair.clock.sleep_for(milliseconds(999));
@@ -193,7 +193,7 @@ TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndComesBack) {
   EXPECT_FALSE(pair.look().has_value());
   EXPECT_EQ(pair.link->statistics().silences, 1U);
 
-  pair.peer.say(hex("52 01 00 00 00"));
+  pair.peer.send(hex("52 01 00 00 00"));
   EXPECT_TRUE(pair.look().has_value());
   EXPECT_EQ(pair.link->statistics().condition, LinkCondition::kConnected);
   pair.clock.sleep_for(std::chrono::seconds(1));
@@ -201,7 +201,7 @@ TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndComesBack) {
   EXPECT_EQ(pair.link->statistics().silences, 2U);
 }
 
-TEST(UdpLink, WaitsPatientlyWhereNobodyListensUntilSomebodyDoes) {
+TEST(UdpLink, WaitsUntilAVehicleListens) {
   SystemLinkClock clock;
   auto peer = std::make_unique<UdpPeer>();
   const std::uint16_t port = peer->port();
@@ -221,34 +221,34 @@ TEST(UdpLink, WaitsPatientlyWhereNobodyListensUntilSomebodyDoes) {
 
   peer = std::make_unique<UdpPeer>(port);
   EXPECT_FALSE(link->receive(milliseconds(250)).ok());
-  EXPECT_EQ(peer->on_frame(kPatienceMs), kRegistration);
-  peer->say(hex("52 01 00 00 00"));
+  EXPECT_EQ(peer->receive(kPatienceMs), kRegistration);
+  peer->send(hex("52 01 00 00 00"));
   EXPECT_TRUE(link->receive(milliseconds(kPatienceMs)).ok());
 }
 
-TEST(UdpLink, LosesNoRequestToARefusalOfWhatItSentBefore) {
+TEST(UdpLink, LosesNoRequestToARefusalOfAnEarlierDatagram) {
   ManualLinkClock clock;
   auto peer = std::make_unique<UdpPeer>();
   const std::uint16_t port = peer->port();
   const std::unique_ptr<UdpLink> link = open_link(port, clock);
   peer.reset();
-  EXPECT_FALSE(link->receive(Duration::zero()).ok());  // greets nobody
+  EXPECT_FALSE(link->receive(Duration::zero()).ok());  // no vehicle answers
   peer = std::make_unique<UdpPeer>(port);
   ASSERT_TRUE(link->send(hex("5c 03")).ok());
   EXPECT_TRUE(link->receive(Duration::zero()).ok());
-  EXPECT_EQ(peer->on_frame(kPatienceMs), hex("5c 03"));
+  EXPECT_EQ(peer->receive(kPatienceMs), hex("5c 03"));
 }
 
-TEST(UdpLink, WakesWhenADatagramComes) {
+TEST(UdpLink, WakesWhenADatagramArrives) {
   SystemLinkClock clock;
   UdpPeer peer;
   const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
   EXPECT_FALSE(link->receive(Duration::zero()).ok());
-  EXPECT_TRUE(peer.on_frame(kPatienceMs).has_value());
+  EXPECT_TRUE(peer.receive(kPatienceMs).has_value());
   std::thread speaker([&peer] {
     std::this_thread::sleep_for(milliseconds(30));
-    peer.say(hex("f3"));
-    peer.say(hex("52 01 00 00 00"));
+    peer.send(hex("f3"));
+    peer.send(hex("52 01 00 00 00"));
   });
   const HostTime start = clock.now();
   const Result<LinkFrame> frame = link->receive(std::chrono::minutes(1));
@@ -258,16 +258,16 @@ TEST(UdpLink, WakesWhenADatagramComes) {
   EXPECT_LT(frame->at - start, std::chrono::seconds(30));
 }
 
-TEST(UdpLink, KeepsTheVehicleAwakeWithinOneLongReceive) {
+TEST(UdpLink, KeepsTheVehicleConnectedWithinOneLongReceive) {
   SystemLinkClock clock;
   UdpPeer peer;
   const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
   EXPECT_FALSE(link->receive(Duration::zero()).ok());
-  EXPECT_EQ(peer.on_frame(kPatienceMs), kRegistration);
-  EXPECT_EQ(peer.on_frame(kPatienceMs), kNull);
-  peer.say(hex("f3"));
+  EXPECT_EQ(peer.receive(kPatienceMs), kRegistration);
+  EXPECT_EQ(peer.receive(kPatienceMs), kNull);
+  peer.send(hex("f3"));
   EXPECT_FALSE(link->receive(milliseconds(350)).ok());
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(peer.on_frame(kPatienceMs), kNull);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(peer.receive(kPatienceMs), kNull);
 }
 
 TEST(UdpLink, TakesTheIpv4AddressOfANameWithBoth) {
@@ -276,12 +276,12 @@ TEST(UdpLink, TakesTheIpv4AddressOfANameWithBoth) {
   const auto link = UdpLink::open("localhost", peer.port(), clock);
   ASSERT_TRUE(link.ok()) << link.error().message;
   EXPECT_FALSE((*link)->receive(Duration::zero()).ok());
-  EXPECT_EQ(peer.on_frame(kPatienceMs), kRegistration);
+  EXPECT_EQ(peer.receive(kPatienceMs), kRegistration);
 }
 
-TEST(UdpLink, SaysThatThereIsNoSuchHost) {
+TEST(UdpLink, ReportsAnUnknownHost) {
   ManualLinkClock clock;
-  const std::string name(64, 'x');  // longer than a name may be: refused without asking anybody
+  const std::string name(64, 'x');  // longer than a name may be: refused without a name server
   const auto link = UdpLink::open(name, 19850, clock);
   ASSERT_FALSE(link.ok());
   EXPECT_EQ(link.error().code, ErrorCode::kNotFound);
@@ -299,7 +299,7 @@ TEST(UdpLink, AllocatesNothingOnceOpen) {
   for (int i = 0; i < 20; ++i) {
     pair.clock.sleep_for(milliseconds(i < 10 ? 100 : 2000));
     static_cast<void>(pair.link->send(request));
-    pair.peer.say(answer);
+    pair.peer.send(answer);
     for (int look = 0; look < 3; ++look) frames += pair.link->receive(Duration::zero()).ok() ? 1U : 0U;
   }
   EXPECT_EQ(counter.count(), 0U);

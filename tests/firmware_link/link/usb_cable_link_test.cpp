@@ -143,7 +143,7 @@ TEST_F(UsbCableLinkTest, SwitchesTheVehicleToTheCableAndBack) {
   EXPECT_EQ(cable_.switches, (std::vector<FakeCable::Switch>{{1, 1, 1}, {1, 1, 0}}));
 }
 
-TEST_F(UsbCableLinkTest, HandsBackEachPacketInOrderAndNoNullPackets) {
+TEST_F(UsbCableLinkTest, DeliversEachPacketInOrderAndNoNullPackets) {
   cable_.waiting = {{0xF3}, {0x50, 3, 1}, {}, Bytes(40, 0x50), {0x52, 1}};
   const HostTime asked_at = clock_.now();
   ASSERT_TRUE(link_->send(Bytes{0x5C, 3}).ok());
@@ -162,13 +162,13 @@ TEST_F(UsbCableLinkTest, HandsBackEachPacketInOrderAndNoNullPackets) {
   EXPECT_EQ(link_->statistics().packets_received, 2U);
 }
 
-TEST_F(UsbCableLinkTest, SendsOnlyWhatIsAPacketAndNoNullPacket) {
+TEST_F(UsbCableLinkTest, RefusesInvalidPacketsAndNullPackets) {
   EXPECT_EQ(link_->send({}).error().code, ErrorCode::kInvalidInput);
   EXPECT_EQ(link_->send(Bytes(32, 0x5C)).error().code, ErrorCode::kInvalidInput);
   EXPECT_EQ(link_->send(Bytes{0xFF, 0xFE, 0x01}).error().code, ErrorCode::kInvalidInput);
 }
 
-TEST_F(UsbCableLinkTest, LeavesOtherDevicesOfThatNumberAlone) {
+TEST_F(UsbCableLinkTest, IgnoresOtherDevicesWithThatNumber) {
   cable_.plugged_in.clear();
   cable_.plug_in("STMicroelectronics");
   static_cast<void>(listen(milliseconds(100)));
@@ -185,7 +185,7 @@ TEST_F(UsbCableLinkTest, LeavesOtherDevicesOfThatNumberAlone) {
   EXPECT_EQ(condition(), LinkCondition::kDeviceMissing);
 }
 
-TEST_F(UsbCableLinkTest, SaysWhyTheVehicleCannotBeOpened) {
+TEST_F(UsbCableLinkTest, ReportsWhyTheVehicleCannotBeOpened) {
   cable_.opening = UsbOutcome::kBusy;
   static_cast<void>(listen(milliseconds(100)));
   EXPECT_EQ(condition(), LinkCondition::kDeviceBusy);
@@ -195,20 +195,20 @@ TEST_F(UsbCableLinkTest, SaysWhyTheVehicleCannotBeOpened) {
   EXPECT_EQ(condition(), LinkCondition::kAccessDenied);
 }
 
-TEST_F(UsbCableLinkTest, TellsSilence) {
+TEST_F(UsbCableLinkTest, ReportsSilence) {
   cable_.waiting = {{0x52, 1}};
   static_cast<void>(listen(milliseconds(900)));
   EXPECT_EQ(condition(), LinkCondition::kConnected);
   static_cast<void>(listen(milliseconds(300)));
   EXPECT_EQ(condition(), LinkCondition::kSilent);
   EXPECT_EQ(link_->statistics().silences, 1U);
-  EXPECT_EQ(link_->statistics().usb_timeouts, 0U) << "having nothing to say is no fault";
+  EXPECT_EQ(link_->statistics().usb_timeouts, 0U) << "having nothing to send is no fault";
   cable_.waiting = {{0x52, 2}};
   static_cast<void>(listen(milliseconds(100)));
   EXPECT_EQ(condition(), LinkCondition::kConnected);
 }
 
-TEST_F(UsbCableLinkTest, OpensTheVehicleAnewAfterItWasUnplugged) {
+TEST_F(UsbCableLinkTest, ReopensTheVehicleAfterItWasUnplugged) {
   static_cast<void>(listen(milliseconds(100)));
   const std::vector<UsbIdentity> vehicles = std::exchange(cable_.plugged_in, {});
   const HostTime asked_at = clock_.now();
@@ -222,7 +222,7 @@ TEST_F(UsbCableLinkTest, OpensTheVehicleAnewAfterItWasUnplugged) {
   EXPECT_EQ(link_->statistics().device_losses, 1U);
 }
 
-TEST_F(UsbCableLinkTest, GoesOnAfterStallsAndGivesUpAfterTen) {
+TEST_F(UsbCableLinkTest, ContinuesAfterStallsAndGivesUpAfterTen) {
   static_cast<void>(listen(milliseconds(100)));
   cable_.in_outcomes = {UsbOutcome::kStall, UsbOutcome::kStall};
   cable_.waiting = {{0x52, 1}};
@@ -235,7 +235,7 @@ TEST_F(UsbCableLinkTest, GoesOnAfterStallsAndGivesUpAfterTen) {
   EXPECT_EQ(condition(), LinkCondition::kDeviceStalls);
 }
 
-TEST_F(UsbCableLinkTest, DropsARequestThatTheVehicleDoesNotTake) {
+TEST_F(UsbCableLinkTest, DropsARequestThatTheVehicleDoesNotAccept) {
   cable_.out_outcomes = {UsbOutcome::kTimeout, UsbOutcome::kStall};
   ASSERT_TRUE(link_->send(Bytes{0x5C, 1}).ok());
   ASSERT_TRUE(link_->send(Bytes{0x5C, 2}).ok());

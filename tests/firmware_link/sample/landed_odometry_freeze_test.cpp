@@ -29,7 +29,7 @@ void expect_pose(const Reading& reading, const Pose2& expected) {
   EXPECT_NEAR(wrap_angle(pose.yaw_rad() - expected.yaw_rad()), 0.0, 1e-9);
 }
 
-TEST(LandedOdometryFreeze, LeavesAFlightAsItIs) {
+TEST(LandedOdometryFreeze, DoesNotChangeAFlight) {
   LandedOdometryFreeze ground;
   expect_pose(ground.hold(reading_of({0.0, 0.0, 0.0}, false)), {0.0, 0.0, 0.0});
   const Reading flown = ground.hold(reading_of({3.0, 1.0, 2.0}, true));
@@ -38,7 +38,7 @@ TEST(LandedOdometryFreeze, LeavesAFlightAsItIs) {
   EXPECT_FALSE(flown.odometry_restarted);
 }
 
-TEST(LandedOdometryFreeze, StandsStillAfterLandingWhileTheYawIsPulledBackAndSeesNothing) {
+TEST(LandedOdometryFreeze, FreezesAfterLandingWhileTheYawIsPulledBackAndDropsTheRanges) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 2.0}, true)));
   for (double yaw_rad = 2.0; yaw_rad > 0.1; yaw_rad *= 0.9) {
@@ -48,19 +48,19 @@ TEST(LandedOdometryFreeze, StandsStillAfterLandingWhileTheYawIsPulledBackAndSees
   }
 }
 
-TEST(LandedOdometryFreeze, TheNextTakeOffGoesOnFromWhereItStood) {
+TEST(LandedOdometryFreeze, TheNextTakeOffContinuesFromWhereItStood) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, kPi / 2.0}, true)));
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, kPi / 2.0}, false)));
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 0.0}, false)));
-  // It believes to fly along x; its nose has pointed along y all the time.
+  // By its estimate it flies along x; its nose points along y all the time.
   const Reading flown = ground.hold(reading_of({3.7, 1.0, 0.0}, true));
   expect_pose(flown, {3.0, 1.7, kPi / 2.0});
   EXPECT_EQ(flown.distance_m[0], 1.F);
   EXPECT_FALSE(flown.odometry_restarted);
 }
 
-TEST(LandedOdometryFreeze, CarriedElsewhereItBeginsAnew) {
+TEST(LandedOdometryFreeze, CarriedElsewhereItRestarts) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, true)));
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, false)));
@@ -71,14 +71,14 @@ TEST(LandedOdometryFreeze, CarriedElsewhereItBeginsAnew) {
   EXPECT_FALSE(ground.hold(reading_of({3.7, 1.0, 0.8}, false)).odometry_restarted);
 }
 
-TEST(LandedOdometryFreeze, LeavesAloneWhatHasNotFlownOrDoesNotTell) {
+TEST(LandedOdometryFreeze, IgnoresAVehicleThatHasNotFlownOrDoesNotReportIt) {
   LandedOdometryFreeze ground;
   expect_pose(ground.hold(reading_of({2.0, 0.0, 0.5}, false)), {2.0, 0.0, 0.5});
   EXPECT_EQ(ground.hold(reading_of({2.0, 0.0, 0.5}, false)).distance_m[0], 1.F);
   expect_pose(ground.hold(reading_of({2.0, 0.0, 0.1}, std::nullopt)), {2.0, 0.0, 0.1});
 }
 
-TEST(LandedOdometryFreeze, ARebootForgetsTheLanding) {
+TEST(LandedOdometryFreeze, ARebootDiscardsTheLanding) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 2.0}, true)));
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, false)));

@@ -34,7 +34,7 @@ TEST(OdometryTimeline, InterpolatesBetweenNeighbours) {
   EXPECT_EQ(positions.at(device_ms(100)).value.x_m, 0.2);
 }
 
-TEST(OdometryTimeline, TurnsTheShortWayRound) {
+TEST(OdometryTimeline, InterpolatesYawTheShorterWay) {
   Yaws yaws(limits());
   yaws.add(device_ms(0), {3.1});
   yaws.add(device_ms(100), {-3.1});
@@ -43,7 +43,7 @@ TEST(OdometryTimeline, TurnsTheShortWayRound) {
   EXPECT_NEAR(std::abs(answer.value.yaw_rad), kPi, 1e-12);
 }
 
-TEST(OdometryTimeline, AsksToWaitForWhatIsStillToCome) {
+TEST(OdometryTimeline, AsksToWaitForReadingsStillToCome) {
   Positions positions(limits());
   EXPECT_EQ(positions.at(device_ms(0)).outcome, Positions::Outcome::kTooEarly);
   positions.add(device_ms(100), {});
@@ -51,7 +51,7 @@ TEST(OdometryTimeline, AsksToWaitForWhatIsStillToCome) {
   EXPECT_EQ(positions.at(device_ms(99)).outcome, Positions::Outcome::kNever);
 }
 
-TEST(OdometryTimeline, NeverBridgesAHoleButMotionGoesOnBehindIt) {
+TEST(OdometryTimeline, NeverInterpolatesAcrossAHoleButContinuesBehindIt) {
   Positions positions(limits());
   positions.add(device_ms(0), {0.0, 0.0});
   positions.add(device_ms(200), {0.1, 0.0});
@@ -66,7 +66,7 @@ TEST(OdometryTimeline, ALongSilenceBeginsANewRun) {
   EXPECT_NE(positions.at(device_ms(0)).run, positions.at(device_ms(1001)).run);
 }
 
-TEST(OdometryTimeline, ALeapNoVehicleFliesBeginsANewRun) {
+TEST(OdometryTimeline, AnImpossibleJumpBeginsANewRun) {
   Positions positions(limits());
   positions.add(device_ms(0), {0.0, 0.0});
   positions.add(device_ms(100), {0.55, 0.0});  // 5.5 m/s, within speed and slack

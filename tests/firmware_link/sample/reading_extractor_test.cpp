@@ -40,7 +40,7 @@ class ReadingExtractorTest : public testing::Test {
   LinkFrame frame_;
 };
 
-TEST_F(ReadingExtractorTest, TakesPositionYawAndRangesOfOneBlock) {
+TEST_F(ReadingExtractorTest, ExtractsPositionYawAndRangesOfOneBlock) {
   describe(1, {{"stateEstimate.x", LogType::kFloat},
                {"stateEstimate.y", LogType::kFloat},
                {"stateEstimate.yaw", LogType::kFloat},
@@ -61,7 +61,7 @@ TEST_F(ReadingExtractorTest, TakesPositionYawAndRangesOfOneBlock) {
   EXPECT_TRUE(extractor_.missing_ranges().empty());
 }
 
-TEST_F(ReadingExtractorTest, TakesThemFromDifferentBlocks) {
+TEST_F(ReadingExtractorTest, ExtractsThemFromDifferentBlocks) {
   describe(1, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});
   describe(2, {{"stateEstimate.qw", LogType::kFloat},
                {"stateEstimate.qx", LogType::kFloat},
@@ -94,13 +94,13 @@ TEST_F(ReadingExtractorTest, KnowsTheOtherNamesOfPositionAndYaw) {
   EXPECT_DOUBLE_EQ(*extract(LogPacket(2, 10).u32(0xC0000000U))->yaw_odom_rad, 0.0);
 }
 
-TEST_F(ReadingExtractorTest, TellsWhetherItFlies) {
+TEST_F(ReadingExtractorTest, ExtractsWhetherTheVehicleFlies) {
   describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"supervisor.info", LogType::kUint16}});
   EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u16(0x0018))->is_flying, true);
   EXPECT_EQ(extract(LogPacket(1, 20).f32(0.F).u16(0x000F))->is_flying, false);
 }
 
-TEST_F(ReadingExtractorTest, TellsWhetherItFliesOnOlderFirmware) {
+TEST_F(ReadingExtractorTest, ExtractsWhetherTheVehicleFliesFromOlderFirmware) {
   describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"sys.isFlying", LogType::kUint8}});
   EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u8(1))->is_flying, true);
   EXPECT_EQ(extract(LogPacket(1, 20).f32(0.F).u8(0))->is_flying, false);
@@ -121,7 +121,7 @@ TEST_F(ReadingExtractorTest, KeepsToTheFirstBlockThatOffersAPosition) {
   EXPECT_TRUE(extract(LogPacket(1, 20).f32(0.5F).f32(0.F)).has_value());
 }
 
-TEST_F(ReadingExtractorTest, MillimetresRunOnBeyondSixteenBits) {
+TEST_F(ReadingExtractorTest, UnwrapsMillimetresBeyondSixteenBits) {
   describe(1, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});
   EXPECT_NEAR(extract(LogPacket(1, 10).i16(32'700).i16(-32'700))->position_odom->x_m, 32.7, 1e-12);
   const auto wrapped = extract(LogPacket(1, 20).i16(-32'736).i16(32'736));
@@ -129,7 +129,7 @@ TEST_F(ReadingExtractorTest, MillimetresRunOnBeyondSixteenBits) {
   EXPECT_NEAR(wrapped->position_odom->y_m, -32.8, 1e-12);
 }
 
-TEST_F(ReadingExtractorTest, HasNothingToSayAboutOtherVariables) {
+TEST_F(ReadingExtractorTest, ExtractsNothingFromOtherVariables) {
   describe(1, {{"pm.vbatMV", LogType::kUint16}, {"stateEstimate.x", LogType::kHalf}});
   EXPECT_FALSE(extract(LogPacket(1, 10).u16(4000).u16(0)).has_value());
   EXPECT_FALSE(extractor_.finds_position());

@@ -114,16 +114,16 @@ TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
   EXPECT_FALSE(assembler.take().has_value());
 }
 
-TEST_F(SampleAssemblerTest, DoesNotWaitForEver) {
+TEST_F(SampleAssemblerTest, WaitsForALimitedTime) {
   position(0, 0.0);
   for (int i = 1; i <= 20; ++i) ranges(100L * i);
-  EXPECT_GE(counters_.unpaired, 15U);  // the position is lost: 0.3 s of ranges may still hope
+  EXPECT_GE(counters_.unpaired, 15U);  // the position is lost: 0.3 s of ranges still wait
   EXPECT_EQ(samples_.size(), 0U + (counters_.samples));
   end();
   EXPECT_EQ(counters_.unpaired + counters_.samples, 20U);
 }
 
-TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndGoesOnBehindIt) {
+TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndContinuesBehindIt) {
   for (int i = 0; i < 10; ++i) {
     if (i != 4) position(100L * i, 0.1 * i);
     ranges(100L * i + 4);
@@ -155,7 +155,7 @@ TEST_F(SampleAssemblerTest, DropsAndCountsDuplicatesAndLatePackets) {
   EXPECT_EQ(counters_.range_packets, 5U);
 }
 
-TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
+TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningRestarts) {
   for (int i = 0; i < 5; ++i) {
     position(60'000 + 100L * i, 3.0 + 0.01 * i);
     ranges(60'004 + 100L * i);
@@ -176,7 +176,7 @@ TEST_F(SampleAssemblerTest, AfterARebootTheDeadReckoningBeginsAnew) {
   EXPECT_EQ(counters_.out_of_order, 0U);
 }
 
-TEST_F(SampleAssemblerTest, TimeGoesOnWhenTheRangesChangeTheirBlock) {
+TEST_F(SampleAssemblerTest, TimeContinuesWhenTheRangesChangeTheirBlock) {
   const std::vector<float> distances{1.F, 1.F, 1.F, 1.F};
   for (int ms = 0; ms <= 500; ms += 100) position(ms, 0.0);
   for (int ms = 200; ms <= 500; ms += 100) ranges(ms);
@@ -190,7 +190,7 @@ TEST_F(SampleAssemblerTest, TimeGoesOnWhenTheRangesChangeTheirBlock) {
     EXPECT_GT(samples_[i].measured_at, samples_[i - 1].measured_at);
 }
 
-TEST_F(SampleAssemblerTest, AfterARebootIntoOtherBlocksTheDeadReckoningBeginsAnew) {
+TEST_F(SampleAssemblerTest, AfterARebootIntoOtherBlocksTheDeadReckoningRestarts) {
   const std::vector<float> distances{1.F, 1.F, 1.F, 1.F};
   for (int ms = 60'000; ms <= 60'500; ms += 100) {
     position(ms, 0.0);
@@ -207,7 +207,7 @@ TEST_F(SampleAssemblerTest, AfterARebootIntoOtherBlocksTheDeadReckoningBeginsAne
   EXPECT_EQ(counters_.out_of_order, 0U);
 }
 
-TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) {
+TEST_F(SampleAssemblerTest, AfterALongSilenceOrAJumpTheDeadReckoningRestarts) {
   std::int64_t ms = 0;
   const auto fly = [&](double from_x_m) {
     for (int i = 0; i < 5; ++i, ms += 100) {
@@ -228,7 +228,7 @@ TEST_F(SampleAssemblerTest, AfterALongSilenceOrALeapTheDeadReckoningBeginsAnew) 
   EXPECT_NEAR(samples_[starts[1]].T_odom_body.x_m(), 20.0, 0.05);
 }
 
-TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningOutlivesBeginsASegmentWithAGuess) {
+TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningSurvivesBeginsASegmentWithAGuess) {
   AssemblyConfig watched = config();
   watched.continuity.longest_silence = std::chrono::seconds(30);
   watched.unwatched_after = std::chrono::seconds(1);
@@ -262,7 +262,7 @@ TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningOutlivesBeginsASegmentWi
   EXPECT_EQ(counters_.segments, 3U);
 }
 
-TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByOurClock) {
+TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByTheHostsClock) {
   Reading reading;
   reading.stream = 2;
   for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
@@ -274,13 +274,13 @@ TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByOurClock) {
   };
   on_frame(0, 10'000'000, 0);
   on_frame(0, 10'000'100, 100);
-  on_frame(1, 4000, 5100);  // forward or back: another boot's time says nothing
+  on_frame(1, 4000, 5100);  // forward or back: the time of another boot is unrelated
   on_frame(1, 4100, 5200);
   EXPECT_EQ(counters_.gaps, 1U);
   EXPECT_EQ(counters_.missing_packets, 49U);
 }
 
-TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
+TEST_F(SampleAssemblerTest, ClassifiesHitsNoReturnsAndInvalidReadings) {
   for (int i = 0; i < 3; ++i) {
     position(100L * i, 0.0);
     ranges(100L * i + 4, 0.0, {2.999F, 32.766F, 0.0F, std::numeric_limits<float>::quiet_NaN()});
@@ -299,7 +299,7 @@ TEST_F(SampleAssemblerTest, TellsHitsFromNoReturnsFromNonsense) {
   EXPECT_EQ(counters_.invalid, 4U);
 }
 
-TEST_F(SampleAssemblerTest, IgnoresDeadReckoningThatIsNoNumber) {
+TEST_F(SampleAssemblerTest, IgnoresDeadReckoningThatIsNotANumber) {
   position(0, 0.0);
   position(50, std::numeric_limits<double>::quiet_NaN());
   ranges(4);

@@ -9,14 +9,14 @@
 namespace swiftlet {
 namespace {
 
-TEST(DeviceClockUnwrapper, RunsOnWhenTheCounterWraps) {
+TEST(DeviceClockUnwrapper, ContinuesWhenTheCounterWraps) {
   DeviceClockUnwrapper clock;
   EXPECT_EQ(clock.unwrap(0xFFFFF0), device_ms(0xFFFFF0));
   EXPECT_EQ(clock.unwrap(0x000054), device_ms(0x1000054));
   EXPECT_EQ(clock.unwrap(0x0000B8), device_ms(0x10000B8));
 }
 
-TEST(DeviceClockUnwrapper, TakesACrossedPacketAsEarlierAlsoAcrossTheWrap) {
+TEST(DeviceClockUnwrapper, TakesAnOvertakenPacketAsEarlierAlsoAcrossTheWrap) {
   DeviceClockUnwrapper clock;
   static_cast<void>(clock.unwrap(0xFFFFF8));
   EXPECT_EQ(clock.unwrap(0x000002), device_ms(0x1000002));
@@ -24,7 +24,7 @@ TEST(DeviceClockUnwrapper, TakesACrossedPacketAsEarlierAlsoAcrossTheWrap) {
   EXPECT_EQ(clock.unwrap(0x000066), device_ms(0x1000066));
 }
 
-TEST(DeviceClockUnwrapper, CallsAStepOfLessThanHalfTheSpanForward) {
+TEST(DeviceClockUnwrapper, TakesAStepOfLessThanHalfTheSpanAsForward) {
   DeviceClockUnwrapper forward;
   static_cast<void>(forward.unwrap(0));
   EXPECT_EQ(forward.unwrap(0x7FFFFF), device_ms(0x7FFFFF));

@@ -86,7 +86,7 @@ TEST_F(LiveSessionTest, AShortSilenceChangesNothing) {
   EXPECT_THAT(events_, ElementsAre(Kind::kConnected));
 }
 
-TEST_F(LiveSessionTest, ARebootedVehicleLogsAgainAndIsRecognised) {
+TEST_F(LiveSessionTest, RecognisesARebootedVehicleAndRestartsItsLog) {
   run_until(5000);
   reboot();
   link_.reaches = [](std::int64_t ms) { return ms < 5000 || ms >= 8000; };
@@ -95,7 +95,7 @@ TEST_F(LiveSessionTest, ARebootedVehicleLogsAgainAndIsRecognised) {
   EXPECT_THAT(events_, ElementsAre(Kind::kConnected, Kind::kDataStopped, Kind::kConnected, Kind::kRebooted));
 }
 
-TEST_F(LiveSessionTest, AQuickRebootIsRecognisedTooAlthoughTheVehicleAnswersAllAlong) {
+TEST_F(LiveSessionTest, RecognisesAQuickRebootWithoutASilence) {
   run_until(5000);
   reboot();
   run_until(9000);
@@ -103,7 +103,7 @@ TEST_F(LiveSessionTest, AQuickRebootIsRecognisedTooAlthoughTheVehicleAnswersAllA
   EXPECT_LT(first_data_after(5000), 7000);
 }
 
-TEST_F(LiveSessionTest, ReconnectingAsksForNoTableOfContentsAgain) {
+TEST_F(LiveSessionTest, ReconnectingDownloadsNoTableOfContentsAgain) {
   run_until(5000);
   reboot();
   link_.requests.clear();
@@ -112,7 +112,7 @@ TEST_F(LiveSessionTest, ReconnectingAsksForNoTableOfContentsAgain) {
   EXPECT_THAT(link_.requests, Contains(hex("5c 03")));
 }
 
-TEST_F(LiveSessionTest, TheSlowBlockAloneIsNoLife) {
+TEST_F(LiveSessionTest, RestartsWhenOnlyTheSlowBlockArrives) {
   run_until(5000);
   link_.vehicle.blocks.erase(1);
   run_until(9000);
@@ -120,7 +120,7 @@ TEST_F(LiveSessionTest, TheSlowBlockAloneIsNoLife) {
   EXPECT_LT(first_data_after(5000), 7000);
 }
 
-TEST_F(LiveSessionTest, OfTwoBlocksBothHaveToLive) {
+TEST_F(LiveSessionTest, RestartsWhenOneOfTwoBlocksStops) {
   std::erase_if(link_.vehicle.variables, [](const auto& variable) { return variable.name == "info"; });
   run_until(5000);
   ASSERT_TRUE(link_.vehicle.blocks.contains(2));
@@ -142,7 +142,7 @@ TEST_F(LiveSessionTest, AfterASilenceInTheHandshakeAnotherVehicleMayAnswer) {
   EXPECT_GT(data_ms_.size(), 10U);
 }
 
-TEST_F(LiveSessionTest, TheRoundTripOfALostConnectionIsForgotten) {
+TEST_F(LiveSessionTest, DiscardsTheRoundTripOfALostConnection) {
   link_.reaches = [](std::int64_t ms) { return ms < 5000; };
   run_until(8000);
   EXPECT_EQ(live_.round_trip(), Duration::zero());
@@ -155,13 +155,13 @@ TEST_F(LiveSessionTest, NamesMissingDecks) {
   EXPECT_THAT(events_, ElementsAre(Kind::kConnected, Kind::kNoMultiranger, Kind::kNoFlowDeck));
 }
 
-TEST_F(LiveSessionTest, TheFirstVehicleThatCannotBeUsedEndsIt) {
+TEST_F(LiveSessionTest, FailsIfTheFirstVehicleCannotBeUsed) {
   link_.vehicle.protocol = 3;
   run_until(500);
   ASSERT_TRUE(live_.failure().has_value());
 }
 
-TEST_F(LiveSessionTest, ALaterOneIsTriedAgain) {
+TEST_F(LiveSessionTest, RetriesALaterVehicleThatCannotBeUsed) {
   run_until(3000);
   reboot();
   link_.vehicle.protocol = 3;

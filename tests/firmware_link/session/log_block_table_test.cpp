@@ -46,7 +46,7 @@ TEST_F(LogBlockTableTest, ReadsThePeriodOfTheSecondStartCommandInMilliseconds) {
   EXPECT_EQ(table_[1].period, milliseconds(300));
 }
 
-TEST_F(LogBlockTableTest, StopKeepsTheLayoutDeleteAndResetForgetIt) {
+TEST_F(LogBlockTableTest, StopKeepsTheLayoutDeleteAndResetDiscardIt) {
   exchange("5d 06 01 77 3e 00", "5d 06 01 00");
   exchange("5d 06 02 77 3e 00", "5d 06 02 00");
   exchange("5d 06 03 77 3e 00", "5d 06 03 00");
@@ -62,20 +62,20 @@ TEST_F(LogBlockTableTest, StopKeepsTheLayoutDeleteAndResetForgetIt) {
   EXPECT_FALSE(table_[3].exists);
 }
 
-TEST_F(LogBlockTableTest, ABlockTheVehicleDoesNotKnowIsGone) {
+TEST_F(LogBlockTableTest, DropsABlockThatTheVehicleDoesNotKnow) {
   exchange("5d 06 01 77 3e 00", "5d 06 01 00");
   exchange("5d 03 01 0a", "5d 03 01 02");
   EXPECT_FALSE(table_[1].exists);
 }
 
-TEST_F(LogBlockTableTest, AnExistingBlockKeepsWhatItHeld) {
+TEST_F(LogBlockTableTest, AnExistingBlockKeepsItsContents) {
   exchange("5d 06 01 77 3e 00", "5d 06 01 00");
   exchange("5d 06 01 22 3f 00", "5d 06 01 11");
   ASSERT_EQ(table_[1].entries.size(), 1U);
   EXPECT_EQ(table_[1].entries[0].variable, 0x3E);
 }
 
-TEST_F(LogBlockTableTest, AnExistingBlockNobodySawMadeIsTheOneAskedFor) {
+TEST_F(LogBlockTableTest, AnExistingBlockOfUnknownOriginIsTheRequestedOne) {
   exchange("5d 06 01 77 3e 00", "5d 06 01 11");
   EXPECT_EQ(table_.entries_in(1, 4), 1U);
 }
@@ -101,7 +101,7 @@ TEST_F(LogBlockTableTest, AnUnknownCommandChangesNothing) {
   EXPECT_EQ(table_.entries_in(1, 6), 0U);
 }
 
-TEST_F(LogBlockTableTest, ARepeatedAppendReplyLeavesItToTheSizeHowOftenItRan) {
+TEST_F(LogBlockTableTest, AfterARepeatedAppendReplyTheSizeDecidesHowOftenItRan) {
   exchange("5d 06 01 77 3e 00", "5d 06 01 00");
   exchange("5d 07 01 22 3f 00", "5d 07 01 00");
   table_.on_reply(hex("5d 07 01 00"));
@@ -109,7 +109,7 @@ TEST_F(LogBlockTableTest, ARepeatedAppendReplyLeavesItToTheSizeHowOftenItRan) {
   EXPECT_EQ(table_.entries_in(1, 8), 3U);
 }
 
-TEST_F(LogBlockTableTest, ARequestWithoutAReplyIsBelievedWhenTheSizeConfirmsIt) {
+TEST_F(LogBlockTableTest, ARequestWithoutAReplyIsAcceptedWhenTheSizeConfirmsIt) {
   table_.on_request(hex("5d 06 01 77 3e 00"));
   EXPECT_FALSE(table_[1].exists);
   EXPECT_EQ(table_.entries_in(1, 6), 0U);
@@ -132,7 +132,7 @@ TEST_F(LogBlockTableTest, NeverHoldsMoreThanAPacketCarries) {
   EXPECT_EQ(table_.entries_in(1, 24), 6U);
 }
 
-TEST_F(LogBlockTableTest, RevisionTellsOfEveryChange) {
+TEST_F(LogBlockTableTest, RevisionChangesWithEveryChange) {
   const std::uint32_t before = table_.revision();
   exchange("5d 06 01 77 3e 00", "5d 06 01 00");
   EXPECT_NE(table_.revision(), before);

@@ -57,7 +57,7 @@ class LogHandshakeTest : public testing::Test {
   LogHandshake handshake_{session_, cache_};
 };
 
-TEST_F(LogHandshakeTest, AsksInTheOrderOfTheWireDocument) {
+TEST_F(LogHandshakeTest, SendsRequestsInTheOrderOfTheWireDocument) {
   run();
   ASSERT_TRUE(handshake_.finished());
   ASSERT_EQ(link_.requests.size(), 4 + link_.vehicle.variables.size() + 5);
@@ -72,7 +72,7 @@ TEST_F(LogHandshakeTest, AsksInTheOrderOfTheWireDocument) {
   EXPECT_EQ(handshake_.protocol(), 12);
 }
 
-TEST_F(LogHandshakeTest, StartsOneBlockWithEverythingWhereTheFirmwareHasIt) {
+TEST_F(LogHandshakeTest, StartsOneBlockWithAllVariablesIfTheFirmwareHasThem) {
   run();
   ASSERT_TRUE(handshake_.finished());
   ASSERT_EQ(link_.vehicle.blocks.size(), 2U);
@@ -98,7 +98,7 @@ TEST_F(LogHandshakeTest, StartsTwoBlocksOnOlderFirmware) {
                           "range.front", "range.back", "range.left", "range.right", "range.zrange"));
 }
 
-TEST_F(LogHandshakeTest, AsksForTheHealthByTheNamesThatTheFirmwareHasForIt) {
+TEST_F(LogHandshakeTest, RequestsTheHealthByTheNamesOfTheFirmware) {
   remove("pm.vbatMV");
   remove("supervisor.info");
   remove("radio.rssi");
@@ -110,7 +110,7 @@ TEST_F(LogHandshakeTest, AsksForTheHealthByTheNamesThatTheFirmwareHasForIt) {
                                        "sys.isFlying"));
 }
 
-TEST_F(LogHandshakeTest, AsksForNoVariableOfAnUnknownType) {
+TEST_F(LogHandshakeTest, RequestsNoVariableOfAnUnknownType) {
   const auto x = std::ranges::find(link_.vehicle.variables, "x", &ScriptedVehicle::Variable::name);
   x->type = LogType{};  // stateEstimate.x
   run();
@@ -119,7 +119,7 @@ TEST_F(LogHandshakeTest, AsksForNoVariableOfAnUnknownType) {
     for (const auto& [type, variable] : block.entries) EXPECT_NE(variable, 0) << int{id};
 }
 
-TEST_F(LogHandshakeTest, NamesWhatTheFirmwareLacks) {
+TEST_F(LogHandshakeTest, ReportsMissingLogVariables) {
   remove("stateEstimate.x");
   remove("stateEstimateZ.x");
   remove("range.left");
@@ -128,7 +128,7 @@ TEST_F(LogHandshakeTest, NamesWhatTheFirmwareLacks) {
   EXPECT_THAT(handshake_.failure()->message, HasSubstr("log variables stateEstimateZ.x range.left"));
 }
 
-TEST_F(LogHandshakeTest, RefusesFirmwareThatIsTooOldAndGoesOnWithOneThatIsNewer) {
+TEST_F(LogHandshakeTest, RefusesFirmwareThatIsTooOldAndAcceptsNewer) {
   link_.vehicle.protocol = 3;
   run();
   ASSERT_TRUE(handshake_.failure().has_value());
@@ -143,7 +143,7 @@ TEST_F(LogHandshakeTest, RefusesFirmwareThatIsTooOldAndGoesOnWithOneThatIsNewer)
   EXPECT_EQ(newer.protocol(), 13);
 }
 
-TEST_F(LogHandshakeTest, RefusesWhatIsNoCrazyflie) {
+TEST_F(LogHandshakeTest, RefusesAVehicleThatIsNoCrazyflie) {
   link_.vehicle.source = "Something else";
   run();
   ASSERT_TRUE(handshake_.failure().has_value());
@@ -173,14 +173,14 @@ TEST_F(LogHandshakeTest, IgnoresRepliesToOtherItemsAndBlocks) {
   EXPECT_EQ((*handshake.next_request(host_ms(0)))[0], 0xFD);
 }
 
-TEST_F(LogHandshakeTest, TellsWhenTheLogIsFull) {
+TEST_F(LogHandshakeTest, ReportsAFullLog) {
   link_.vehicle.room = 3;
   run();
   ASSERT_TRUE(handshake_.failure().has_value());
   EXPECT_THAT(handshake_.failure()->message, HasSubstr("its log is full"));
 }
 
-TEST_F(LogHandshakeTest, MakesABlockAnewThatVanishedBeforeItsStart) {
+TEST_F(LogHandshakeTest, RemakesABlockThatVanishedBeforeItsStart) {
   bool rebooted = false;
   link_.fate = [this, &rebooted](std::span<const std::uint8_t> request) {
     if (request[0] == 0x5D && request[1] == 3 && !rebooted) {
@@ -206,7 +206,7 @@ TEST_F(LogHandshakeTest, ASecondSessionTakesTheTableOfContentsFromTheCache) {
   EXPECT_EQ(session.blocks()[1].entries.size(), 10U);
 }
 
-TEST_F(LogHandshakeTest, ACacheThatIsWrongIsForgotten) {
+TEST_F(LogHandshakeTest, DiscardsAWrongCacheEntry) {
   std::vector<TocItem> wrong;
   for (std::uint16_t id = 0; id < link_.vehicle.variables.size(); ++id) {
     const ScriptedVehicle::Variable& v = link_.vehicle.variables[id];
@@ -219,7 +219,7 @@ TEST_F(LogHandshakeTest, ACacheThatIsWrongIsForgotten) {
   EXPECT_EQ(names_of(1).size(), 10U);
 }
 
-TEST_F(LogHandshakeTest, DoesWithoutTheSlowBlockWhereThereIsNoRoom) {
+TEST_F(LogHandshakeTest, LeavesOutTheSlowBlockIfThereIsNoRoom) {
   link_.fate = [this](std::span<const std::uint8_t> request) {
     if (request[0] == 0x5D && request[1] == 6 && request[2] == 3) link_.vehicle.room = 0;
     return Fate::kArrives;
@@ -230,7 +230,7 @@ TEST_F(LogHandshakeTest, DoesWithoutTheSlowBlockWhereThereIsNoRoom) {
   EXPECT_FALSE(link_.vehicle.blocks[3].running);
 }
 
-TEST_F(LogHandshakeTest, EveryRequestMayBeLostOnceOrItsAnswer) {
+TEST_F(LogHandshakeTest, SurvivesTheLossOfEachRequestOrAnswer) {
   run();
   const std::size_t requests = link_.requests.size();
   for (const Fate fate : {Fate::kRequestLost, Fate::kAnswerLost}) {
@@ -251,7 +251,7 @@ TEST_F(LogHandshakeTest, EveryRequestMayBeLostOnceOrItsAnswer) {
   }
 }
 
-TEST_F(LogHandshakeTest, AnswersMayTakeLongerThanTheRepetitionWaits) {
+TEST_F(LogHandshakeTest, AcceptsAnswersThatTakeLongerThanTheRepetitionPeriod) {
   for (const int delay_ms : {210, 390, 700}) {
     ScriptedVehicle vehicle = link_.vehicle;
     LogSession session;
@@ -275,7 +275,7 @@ TEST_F(LogHandshakeTest, AnswersMayTakeLongerThanTheRepetitionWaits) {
   }
 }
 
-TEST_F(LogHandshakeTest, NoLossIsAVerdictOnTheVehicle) {
+TEST_F(LogHandshakeTest, DoesNotRefuseAVehicleForPacketLoss) {
   link_.fate = [this](std::span<const std::uint8_t> request) {
     const bool is_append = request[0] == 0x5D && request[1] == 7;
     return is_append && link_.now_ms < 15'000 ? Fate::kAnswerLost : Fate::kArrives;
@@ -285,7 +285,7 @@ TEST_F(LogHandshakeTest, NoLossIsAVerdictOnTheVehicle) {
   EXPECT_TRUE(handshake_.finished());
 }
 
-TEST_F(LogHandshakeTest, GetsThroughABadLink) {
+TEST_F(LogHandshakeTest, SucceedsOverABadLink) {
   std::mt19937 random(5);
   link_.fate = [&random](auto) {
     const auto draw = random() % 10;

@@ -48,7 +48,7 @@ TEST(LogSession, DecodesTheMeasuredPacketByWhatTheBlockHolds) {
   EXPECT_NEAR(record->value(3), 0.0, 1e-5);
 }
 
-TEST(LogSession, HeedsOnlyTheDirectionThatMayTell) {
+TEST(LogSession, LearnsFromTheRightDirectionOnly) {
   LogSession session;
   const SyntheticCapture capture;
   std::vector<LinkFrame> reversed = capture.handshake();
@@ -62,7 +62,7 @@ TEST(LogSession, HeedsOnlyTheDirectionThatMayTell) {
   EXPECT_TRUE(session.on_frame(capture.data(0)).has_value());
 }
 
-TEST(LogSession, HearingARequestTwiceIsHarmless) {
+TEST(LogSession, ARequestReceivedTwiceIsHarmless) {
   LogSession session;
   for (const LinkFrame& frame : SyntheticCapture{}.handshake()) {
     if (frame.direction == LinkDirection::kToVehicle) session.on_request(frame.packet());
@@ -82,7 +82,7 @@ TEST(LogSession, CountsWhatItCannotRead) {
   EXPECT_EQ(session.unreadable().unknown_block, 1U);
 }
 
-TEST(LogSession, TakesTheDescriptionOnlyForBlocksWithoutNames) {
+TEST(LogSession, UsesTheDescriptionOnlyForBlocksWithoutNames) {
   BlockDescription description;
   description.blocks[1].variables = {{"described.a", LogType::kFloat}};
   description.blocks[2].variables = {{"described.b", LogType::kUint16}};
@@ -103,7 +103,7 @@ TEST(LogSession, TakesTheDescriptionOnlyForBlocksWithoutNames) {
   EXPECT_EQ(session.unreadable().misfit, 1U);
 }
 
-TEST(LogSession, NamesComingAfterTheBlocksAreGoodEnough) {
+TEST(LogSession, AcceptsNamesAfterTheBlocks) {
   const std::vector<LinkFrame> frames = SyntheticCapture{}.handshake();
   LogSession session;
   for (std::size_t i = frames.size() - 4; i < frames.size(); ++i)
@@ -116,7 +116,7 @@ TEST(LogSession, NamesComingAfterTheBlocksAreGoodEnough) {
   EXPECT_TRUE(session.on_frame(SyntheticCapture{}.data(1)).has_value());
 }
 
-TEST(LogSession, PacketsThatWaitedThroughASilenceDoNotMakeARebootOfIt) {
+TEST(LogSession, PacketsThatWaitedThroughASilenceAreNoReboot) {
   const SyntheticCapture capture;
   LogSession session;
   feed_all(session, capture.handshake());
@@ -136,7 +136,7 @@ TEST(LogSession, PacketsThatWaitedThroughASilenceDoNotMakeARebootOfIt) {
   EXPECT_EQ(boot_of(10, 20'000), 1U);
 }
 
-TEST(LogSession, NoTrafficKeepsItFromLearningAnew) {
+TEST(LogSession, NoTrafficKeepsItFromLearningAgain) {
   std::mt19937 random(11);
   LogSession session;
   const std::vector<std::uint8_t> headers{0x50, 0x5C, 0x51, 0x5D, 0x52, 0x5E};

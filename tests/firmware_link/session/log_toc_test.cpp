@@ -22,7 +22,7 @@ TEST(LogToc, LearnsFromRepliesAsMeasured) {
   EXPECT_EQ(toc.size(), 1U);
 }
 
-TEST(LogToc, SaysNothingAboutTheUnknown) {
+TEST(LogToc, HasNoNameForAnUnknownItem) {
   LogToc toc;
   EXPECT_FALSE(toc.on_reply(hex("50 02")));
   EXPECT_FALSE(toc.on_reply(hex("50 02 09 00 0f 72 00 66 00")));
@@ -32,7 +32,7 @@ TEST(LogToc, SaysNothingAboutTheUnknown) {
   EXPECT_EQ(toc.find("range.front"), std::nullopt);
 }
 
-TEST(LogToc, ForgetsAllWhenTheChecksumChanges) {
+TEST(LogToc, ClearsAllWhenTheChecksumChanges) {
   LogToc toc;
   toc.on_reply(hex("50 03 8b 01 8c a1 4c 71 10 80"));
   toc.on_reply(toc_item_reply(3, LogType::kFloat, "stateEstimate", "x"));

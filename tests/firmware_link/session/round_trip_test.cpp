@@ -23,7 +23,7 @@ TEST(RoundTrip, TimesTheEchoOfItsOwnPacketOnceASecond) {
   EXPECT_EQ(round_trip.last(), std::chrono::milliseconds(7));
 }
 
-TEST(RoundTrip, AnEchoThatComesAfterTheNextPingSaysNothing) {
+TEST(RoundTrip, IgnoresAnEchoThatComesAfterTheNextPing) {
   RoundTrip round_trip;
   const auto first = round_trip.next_request(host_ms(0));
   const auto second = round_trip.next_request(host_ms(1000));

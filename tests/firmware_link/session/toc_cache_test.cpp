@@ -37,7 +37,7 @@ TEST_F(TocCacheTest, RemembersAcrossRuns) {
   EXPECT_EQ(later.load(5, info_), items_);
 }
 
-TEST_F(TocCacheTest, TellsPortsLengthsAndCrcsApart) {
+TEST_F(TocCacheTest, DistinguishesPortsLengthsAndCrcs) {
   TocCache cache(directory_);
   cache.store(5, info_, items_);
   EXPECT_FALSE(cache.load(2, info_).has_value());
@@ -45,7 +45,7 @@ TEST_F(TocCacheTest, TellsPortsLengthsAndCrcsApart) {
   EXPECT_FALSE(cache.load(5, {2, info_.crc + 1}).has_value());
 }
 
-TEST_F(TocCacheTest, WithoutADirectoryItRemembersWhileItLives) {
+TEST_F(TocCacheTest, RemembersInMemoryWithoutADirectory) {
   TocCache cache;
   EXPECT_FALSE(cache.load(5, info_).has_value());
   cache.store(5, info_, items_);
@@ -72,13 +72,13 @@ TEST_F(TocCacheTest, ForgettingRemovesTheFile) {
   EXPECT_TRUE(std::filesystem::is_empty(directory_));
 }
 
-TEST_F(TocCacheTest, ADirectoryThatCannotBeWrittenCostsNothingButTheFile) {
+TEST_F(TocCacheTest, ADirectoryThatCannotBeWrittenCostsOnlyTheFile) {
   TocCache cache("/proc/swiftlet");
   cache.store(5, info_, items_);
   EXPECT_EQ(cache.load(5, info_), items_);
 }
 
-TEST_F(TocCacheTest, LivesWhereTheUsersCachesDo) {
+TEST_F(TocCacheTest, DefaultsToTheUsersCacheDirectory) {
   const char* xdg = std::getenv("XDG_CACHE_HOME");
   const std::string before = xdg == nullptr ? "" : xdg;
   ::unsetenv("CACHE_DIRECTORY");

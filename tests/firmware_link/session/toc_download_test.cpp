@@ -28,7 +28,7 @@ class TocDownloadTest : public testing::Test {
   const Bytes x_ = toc_item_reply(1, LogType::kFloat, "stateEstimate", "x");
 };
 
-TEST_F(TocDownloadTest, FetchesItemByItemAndLeavesTheTableInTheCache) {
+TEST_F(TocDownloadTest, DownloadsItemByItemAndStoresTheTableInTheCache) {
   EXPECT_EQ(request(0), hex("5c 03"));
   download_.on_frame(info_);
   EXPECT_EQ(request(1), hex("5c 02 0000"));
@@ -69,14 +69,14 @@ TEST_F(TocDownloadTest, RepeatsARequestUntilItsOwnAnswerComes) {
   EXPECT_EQ(request(402), hex("5c 02 0100"));
 }
 
-TEST_F(TocDownloadTest, HearsItsOwnPortOnly) {
+TEST_F(TocDownloadTest, ReadsItsOwnPortOnly) {
   Bytes of_params = info_;
   of_params[0] = 0x20;
   download_.on_frame(of_params);
   EXPECT_EQ(request(0), hex("5c 03"));
 }
 
-TEST_F(TocDownloadTest, FailsWhereTheTableEndsBeforeItsCount) {
+TEST_F(TocDownloadTest, FailsIfTheTableEndsBeforeItsCount) {
   download_.on_frame(info_);
   download_.on_frame(front_);
   download_.on_frame(hex("50 02"));

@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using Kind = VehicleEvent::Kind;
 
-TEST(VehicleEvent, SaysWhatAndWhatToDo) {
+TEST(VehicleEvent, DescribesTheEventAndARemedy) {
   EXPECT_THAT(describe({Kind::kConnected, 12}), HasSubstr("protocol 12"));
   EXPECT_THAT(describe({Kind::kNoMultiranger, 0}), HasSubstr("deck.bcMultiranger is 0"));
   EXPECT_THAT(describe({Kind::kBatteryLow, 3150}), HasSubstr("3150 mV"));
@@ -19,7 +19,7 @@ TEST(VehicleEvent, SaysWhatAndWhatToDo) {
     EXPECT_FALSE(describe({static_cast<Kind>(kind), 0}).empty());
 }
 
-TEST(VehicleEvent, ABeginningIsNoWarning) {
+TEST(VehicleEvent, AConnectionIsNoWarning) {
   EXPECT_FALSE(is_warning({Kind::kConnected, 12}));
   EXPECT_TRUE(is_warning({Kind::kYawTrap, 0}));
 }

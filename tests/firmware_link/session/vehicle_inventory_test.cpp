@@ -20,7 +20,7 @@ void ask(VehicleInventory& inventory, ScriptedVehicle& vehicle) {
   }
 }
 
-TEST(VehicleInventory, TellsFirmwareTypeAndDecks) {
+TEST(VehicleInventory, ReportsFirmwareTypeAndDecks) {
   ScriptedVehicle vehicle;
   TocCache cache;
   VehicleInventory inventory(cache);
@@ -32,7 +32,7 @@ TEST(VehicleInventory, TellsFirmwareTypeAndDecks) {
   EXPECT_EQ(inventory.has_flow_deck(), true);
 }
 
-TEST(VehicleInventory, TellsWhichDeckIsMissing) {
+TEST(VehicleInventory, ReportsAMissingDeck) {
   ScriptedVehicle vehicle;
   vehicle.params = {
       {"pm", "lowVoltage", 3}, {"deck", "bcFlow2", 0}, {"deck", "bcFlow", 0}, {"deck", "bcMultiranger", 0}};
@@ -44,7 +44,7 @@ TEST(VehicleInventory, TellsWhichDeckIsMissing) {
   EXPECT_EQ(inventory.has_flow_deck(), false);
 }
 
-TEST(VehicleInventory, EitherGenerationOfTheFlowDeckWillDo) {
+TEST(VehicleInventory, AcceptsEitherGenerationOfTheFlowDeck) {
   ScriptedVehicle vehicle;
   vehicle.params = {{"deck", "bcFlow2", 0}, {"deck", "bcFlow", 1}};
   TocCache cache;
@@ -54,7 +54,7 @@ TEST(VehicleInventory, EitherGenerationOfTheFlowDeckWillDo) {
   EXPECT_FALSE(inventory.has_multiranger().has_value());
 }
 
-TEST(VehicleInventory, AsksForTheDecksOfAVehicleThatDoesNotKnowItsType) {
+TEST(VehicleInventory, RequestsTheDecksOfAVehicleThatDoesNotReportItsType) {
   ScriptedVehicle vehicle;
   vehicle.knows_its_type = false;
   vehicle.params = {{"deck", "bcFlow2", 0}, {"deck", "bcMultiranger", 1}};
@@ -68,7 +68,7 @@ TEST(VehicleInventory, AsksForTheDecksOfAVehicleThatDoesNotKnowItsType) {
   EXPECT_EQ(inventory.has_flow_deck(), false);
 }
 
-TEST(VehicleInventory, AsksForTheTableOfContentsOnce) {
+TEST(VehicleInventory, DownloadsTheTableOfContentsOnce) {
   ScriptedVehicle vehicle;
   TocCache cache;
   VehicleInventory first(cache);

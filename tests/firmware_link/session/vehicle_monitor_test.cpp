@@ -47,7 +47,7 @@ class VehicleMonitorTest : public testing::Test {
 
 constexpr std::uint16_t kFlying = 1U << 4U;
 
-TEST_F(VehicleMonitorTest, ReadsWhatTheLogSays) {
+TEST_F(VehicleMonitorTest, ReadsTheHealthFromTheLog) {
   EXPECT_FALSE(monitor_.health().is_flying.has_value());
   on_state(kFlying, 3870);
   on_frame(LogPacket(3, 100).u16(0x2D01).bytes());
@@ -91,7 +91,7 @@ class FrozenRangesTest : public VehicleMonitorTest {
   int now_ms_ = 1000;
 };
 
-TEST_F(FrozenRangesTest, AreToldOnceUntilTheyMoveAgain) {
+TEST_F(FrozenRangesTest, AreReportedOnceUntilTheyMoveAgain) {
   on_state(kFlying, 3800);
   EXPECT_FALSE(warns_within(5000, 1));
   EXPECT_FALSE(warns_within(1900));
@@ -101,7 +101,7 @@ TEST_F(FrozenRangesTest, AreToldOnceUntilTheyMoveAgain) {
   EXPECT_TRUE(warns_within(2500));
 }
 
-TEST_F(FrozenRangesTest, AreNoneOnTheGroundNorWhereThereIsNothingInReach) {
+TEST_F(FrozenRangesTest, AreNotReportedOnTheGroundOrWithNothingInReach) {
   on_state(0, 3800);
   EXPECT_FALSE(warns_within(5000));
   on_state(kFlying, 3800);

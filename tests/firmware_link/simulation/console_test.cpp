@@ -30,7 +30,7 @@ TEST(SimulatedConsole, CutsALineIntoPacketsOf30Characters) {
   EXPECT_FALSE(console.next().has_value());
 }
 
-TEST(SimulatedConsole, LosesWhatExceedsTheQueue) {
+TEST(SimulatedConsole, LosesTextThatExceedsTheQueue) {
   SimulatedConsole console;
   for (int i = 0; i < 300; ++i) console.print("line");
   int packets = 0;
@@ -38,7 +38,7 @@ TEST(SimulatedConsole, LosesWhatExceedsTheQueue) {
   EXPECT_EQ(packets, 200);
 }
 
-TEST(SimulatedConsole, ForgetsWhatWasNotSentWhenCleared) {
+TEST(SimulatedConsole, DiscardsUnsentTextWhenCleared) {
   SimulatedConsole console;
   console.print("line");
   console.clear();

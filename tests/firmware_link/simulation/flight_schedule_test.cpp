@@ -51,7 +51,7 @@ TEST(FlightSchedule, IsOverAtTheLastState) {
   EXPECT_EQ(flight.T_world_body(seconds(100)).vector(), states_of_hop().back().T_world_body.vector());
 }
 
-TEST(FlightSchedule, HoldsTheVehicleWhileInterruptedAndGoesOnFromThere) {
+TEST(FlightSchedule, HoldsTheVehicleWhileInterruptedAndContinuesFromThere) {
   const std::vector<FlightState> states = states_of_hop();
   FlightSchedule flight = hop();
   flight.go(seconds(0));
@@ -67,7 +67,7 @@ TEST(FlightSchedule, HoldsTheVehicleWhileInterruptedAndGoesOnFromThere) {
   EXPECT_TRUE(flight.is_over(seconds(5) + duration_of_hop()));
 }
 
-TEST(FlightSchedule, GoesNoFurtherWhenOver) {
+TEST(FlightSchedule, StaysInItsLastStateWhenOver) {
   FlightSchedule flight = hop();
   flight.go(seconds(0));
   flight.halt(seconds(60));
@@ -76,7 +76,7 @@ TEST(FlightSchedule, GoesNoFurtherWhenOver) {
   EXPECT_EQ(flight.progress(seconds(71)), 1.0);
 }
 
-TEST(FlightSchedule, RemembersAMinuteAlsoOnceItWasAskedForOneAhead) {
+TEST(FlightSchedule, RemembersAMinuteAlsoAfterAQueryOneMinuteAhead) {
   PilotModel pilot;
   pilot.laps = 30;
   const std::vector<FlightState> states = fly(kHop, pilot, 1);

@@ -48,7 +48,7 @@ TEST(Fly, TurnsTheNoseIntoTheDirectionOfTravel) {
   EXPECT_NEAR(fly(world, steady_pilot(), 1).back().T_world_body.yaw_rad(), kPi / 2.0, 0.02);
 }
 
-TEST(Fly, KeepsTheNoseWhereItPointsWhenTold) {
+TEST(Fly, KeepsTheHeadingWhereTheScriptSaysSo) {
   const SimulatedWorld world{{}, {{{0.0, 0.0}}, {{3.0, 0.0}}, {{0.0, 0.0}, PilotHeading::kKeep}}};
   const std::vector<FlightState> flight = fly(world, steady_pilot(), 1);
   EXPECT_NEAR(flight.back().T_world_body.yaw_rad(), 0.0, 0.02);
@@ -93,7 +93,7 @@ TEST(Fly, IsTheSameForTheSameSeedOnly) {
   EXPECT_NE(flight[5000].T_world_body.vector(), other[5000].T_world_body.vector());
 }
 
-TEST(Fly, FliesAClosedScriptAsOftenAsTold) {
+TEST(Fly, RepeatsAClosedScriptAsOftenAsRequested) {
   const SimulatedWorld square{{}, {{{0.0, 0.0}}, {{2.0, 0.0}}, {{2.0, 2.0}}, {{0.0, 2.0}}, {{0.0, 0.0}}}};
   PilotModel pilot = steady_pilot();
   const std::size_t once = fly(square, pilot, 1).size();
@@ -125,7 +125,7 @@ TEST(Fly, StaysOnTheGroundWhenItIsOver) {
   EXPECT_EQ(flight.state().height_m, 0.0);
 }
 
-TEST(RepeatedScript, BeginsAgainAtTheEndOfAClosedScript) {
+TEST(RepeatedScript, RestartsAtTheEndOfAClosedScript) {
   const RepeatedScript script({{{0.0, 0.0}}, {{1.0, 0.0}}, {{2.0, 0.0}, {}, 3.0}, {{0.0, 0.0}}}, 3);
   ASSERT_EQ(script.size(), 10U);
   EXPECT_EQ(script.passes(), 3);

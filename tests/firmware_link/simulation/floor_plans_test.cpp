@@ -81,7 +81,7 @@ class Buildings : public FloorPlans {};
 INSTANTIATE_TEST_SUITE_P(All, Buildings, testing::ValuesIn(building_names()),
                          [](const auto& world) { return world.param; });
 
-TEST_P(FloorPlans, AreFlownWithoutTouchingAWallWhoeverFlies) {
+TEST_P(FloorPlans, AreFlownWithoutTouchingAWallByAnyPilot) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     double nearest_m = INFINITY;
     for (const FlightState& state : fly(world_, PilotModel{}, seed))
@@ -113,7 +113,7 @@ TEST_P(Buildings, AreRevisitedInTheSameAndInTheOtherDirection) {
   EXPECT_GT(share.other_way, 0.1);
 }
 
-TEST(Patrol, IsARoundOfUnderAMinuteThatEndsWhereItBegan) {
+TEST(Patrol, IsAClosedLapOfUnderAMinute) {
   const SimulatedWorld world = make_simulated_world("patrol").value();
   const std::vector<Pose2> poses = track(world, 1);
   EXPECT_GT(poses.size(), 44U) << "a thousand rounds are twelve hours";
@@ -122,7 +122,7 @@ TEST(Patrol, IsARoundOfUnderAMinuteThatEndsWhereItBegan) {
   EXPECT_EQ(world.flight.front().position.y_m, world.flight.back().position.y_m);
 }
 
-TEST(MakeSimulatedWorld, ListsTheWorldsWhenItKnowsNoSuchName) {
+TEST(MakeSimulatedWorld, ListsTheWorldsForAnUnknownName) {
   const Result<SimulatedWorld> world = make_simulated_world("attic");
   ASSERT_FALSE(world.ok());
   EXPECT_EQ(world.error().code, ErrorCode::kNotFound);

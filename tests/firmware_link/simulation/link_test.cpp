@@ -86,7 +86,7 @@ bool same(const std::vector<LinkFrame>& a, const std::vector<LinkFrame>& b) {
   });
 }
 
-TEST(SimulatedLink, HandsBackWhatWasSentAndThenTheAnswer) {
+TEST(SimulatedLink, DeliversTheRequestAndThenTheAnswer) {
   const Result<std::unique_ptr<SimulatedLink>> opened = SimulatedLink::open("office", 1);
   ASSERT_TRUE(opened.ok());
   SimulatedLink& link = **opened;
@@ -101,7 +101,7 @@ TEST(SimulatedLink, HandsBackWhatWasSentAndThenTheAnswer) {
   EXPECT_EQ(answer->bytes[2], 12);
 }
 
-TEST(SimulatedLink, LetsSimulatedTimePassInATimeout) {
+TEST(SimulatedLink, AdvancesSimulatedTimeInATimeout) {
   const Result<std::unique_ptr<SimulatedLink>> opened = SimulatedLink::open("office", 1);
   ASSERT_TRUE(opened.ok());
   SimulatedLink& link = **opened;
@@ -115,7 +115,7 @@ TEST(SimulatedLink, LetsSimulatedTimePassInATimeout) {
   EXPECT_EQ(link.receive(Duration(0)).value().at - before, std::chrono::milliseconds(250));
 }
 
-TEST(SimulatedLink, RefusesWhatIsNoPacket) {
+TEST(SimulatedLink, RefusesAnInvalidPacket) {
   const Result<std::unique_ptr<SimulatedLink>> opened = SimulatedLink::open("office", 1);
   ASSERT_TRUE(opened.ok());
   EXPECT_FALSE((*opened)->send(Bytes{}).ok());
@@ -131,7 +131,7 @@ TEST(SimulatedLink, DeliversTheWholeFlightAndThenEnds) {
   EXPECT_LT(frames.size(), 5000U);
 }
 
-TEST(SimulatedLink, FliesAsManyLapsAsAskedFor) {
+TEST(SimulatedLink, FliesTheRequestedNumberOfLaps) {
   const auto two = SimulatedLink::open("loop", 1, 2);
   ASSERT_TRUE(two.ok());
   const std::size_t frames_of_one = frames_of("loop", 1).size();
@@ -167,7 +167,7 @@ TEST(SimulatedLink, LosesAboutOnePacketInAHundred) {
   EXPECT_NEAR(lost / static_cast<double>(packets.size()), SimulatedLink::kPacketLoss, 0.006);
 }
 
-TEST(SimulatedLink, KeepsAllOtherNoiseWhenOnlyTheLossChanges) {
+TEST(SimulatedLink, KeepsAllOtherNoiseWhenTheLossChanges) {
   SimulatedLink lossless(make_simulated_world("maze").value(), {}, 0.0, 3);
   SimulatedLink lossy(make_simulated_world("maze").value(), {}, 0.2, 3);
   const std::map<std::uint32_t, Bytes> all = packets_of(frames_of(lossless));

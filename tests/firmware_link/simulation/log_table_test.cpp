@@ -56,7 +56,7 @@ TEST(LogTable, HasDistinctNamesThatFitTheWire) {
   EXPECT_GE(names.size(), 390U);
 }
 
-TEST(LogTable, ShowsConstantsForWhatTheSimulationDoesNotKnow) {
+TEST(LogTable, ShowsConstantsForVariablesThatAreNotSimulated) {
   VehicleState flying;
   flying.is_flying = true;
   for (const VehicleState& state : {VehicleState{}, flying}) {
@@ -122,7 +122,7 @@ TEST(LogTable, PacksTheQuaternionToWithinItsResolution) {
   }
 }
 
-TEST(LogTable, TellsFlyingFromStandingByTheSupervisorsBit) {
+TEST(LogTable, ShowsFlyingInTheSupervisorsBit) {
   VehicleState state;
   EXPECT_EQ(static_cast<unsigned>(read("supervisor.info", state)) & 0x10U, 0U);
   state.is_flying = true;

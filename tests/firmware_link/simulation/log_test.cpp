@@ -67,7 +67,7 @@ class LogService : public testing::Test {
   SimulatedLog log_{1};
 };
 
-TEST_F(LogService, TellsSizeKeyAndLimitsOfItsTable) {
+TEST_F(LogService, ReturnsSizeKeyAndLimitsOfItsTable) {
   const Bytes answer = ask({0x5C, 0x03});
   ASSERT_EQ(answer.size(), 10U);
   const std::uint32_t crc = simulated_log_table_crc();
@@ -84,7 +84,7 @@ TEST_F(LogService, TellsSizeKeyAndLimitsOfItsTable) {
   EXPECT_EQ(answer, expected);
 }
 
-TEST_F(LogService, NamesAnItemOfItsTable) {
+TEST_F(LogService, ReturnsAnItemOfItsTable) {
   const std::uint16_t id = id_of("range", "front");
   const Bytes expected{
       0x50, 0x02, static_cast<std::uint8_t>(id), 0x00, 0x02, 'r', 'a', 'n', 'g', 'e', 0, 'f', 'r', 'o', 'n',
@@ -96,7 +96,7 @@ TEST_F(LogService, AnswersWithTwoBytesBeyondItsTable) {
   EXPECT_EQ(ask({0x5C, 0x02, 0xFF, 0x7F}), (Bytes{0x50, 0x02}));
 }
 
-TEST_F(LogService, KeepsSilentOnThe8BitTableCommands) {
+TEST_F(LogService, DoesNotAnswerThe8BitTableCommands) {
   EXPECT_TRUE(ask({0x5C, 0x00, 0x00}).empty());
   EXPECT_TRUE(ask({0x5C, 0x01}).empty());
 }
@@ -119,7 +119,7 @@ TEST_F(LogService, RefusesTheSameBlockTwice) {
   EXPECT_EQ(ask({0x5D, 0x06, 0x01}), (Bytes{0x5D, 0x06, 0x01, 17}));
 }
 
-TEST_F(LogService, KnowsNoBlockThatWasNotCreated) {
+TEST_F(LogService, RefusesCommandsForABlockThatWasNotCreated) {
   for (const std::uint8_t command : Bytes{2, 4})
     EXPECT_EQ(ask({0x5D, command, 9}), (Bytes{0x5D, command, 9, 2}));
   EXPECT_EQ(ask({0x5D, 0x03, 9, 10}), (Bytes{0x5D, 0x03, 9, 2}));
@@ -138,7 +138,7 @@ TEST_F(LogService, RefusesUnknownVariablesAndTypes) {
   EXPECT_EQ(add(6, 2, 9, 0), 2);
 }
 
-TEST_F(LogService, TakesAtMost26BytesABlockAndKeepsWhatFitted) {
+TEST_F(LogService, AcceptsAtMost26BytesABlockAndKeepsWhatFitted) {
   const std::uint16_t x = id_of("stateEstimate", "x");
   EXPECT_EQ(add(6, 1, 7, x, 7), 7) << "28 bytes";
   EXPECT_EQ(add(7, 1, 2, x), 0) << "24 bytes are in, 26 go";
@@ -149,14 +149,14 @@ TEST_F(LogService, TakesAtMost26BytesABlockAndKeepsWhatFitted) {
   EXPECT_EQ(packets[0].size(), 31U);
 }
 
-TEST_F(LogService, TakesAtMost16Blocks) {
+TEST_F(LogService, AcceptsAtMost16Blocks) {
   for (std::uint8_t block = 0; block < 16; ++block) EXPECT_EQ(add(6, block, 7, 0), 0);
   EXPECT_EQ(add(6, 16, 7, 0), 12);
   EXPECT_EQ(ask({0x5D, 0x02, 3}).back(), 0);
   EXPECT_EQ(add(6, 16, 7, 0), 0);
 }
 
-TEST_F(LogService, TakesAtMost128VariablesInAll) {
+TEST_F(LogService, AcceptsAtMost128VariablesInAll) {
   for (std::uint8_t block = 0; block < 16; ++block) EXPECT_EQ(add(6, block, 1, 0, 8), 0);
   EXPECT_EQ(add(7, 5, 1, 0), 12);
 }
@@ -190,7 +190,7 @@ TEST_F(LogService, StartsWithAPeriodInMillisecondsToo) {
   EXPECT_NEAR(times[0], 5500, 1);
 }
 
-TEST_F(LogService, StopsAndGoesOnWithABlock) {
+TEST_F(LogService, StopsAndRestartsABlock) {
   ASSERT_EQ(add(6, 1, 7, 0), 0);
   ASSERT_EQ(ask({0x5D, 0x03, 1, 10}, Milliseconds(5000)).back(), 0);
   EXPECT_EQ(ask({0x5D, 0x04, 1}).back(), 0);
@@ -210,7 +210,7 @@ TEST_F(LogService, StampsPacketsWithTheLow24BitsOfItsClock) {
   EXPECT_TRUE(log_.sample(Milliseconds(0x1'02'03'05), state).empty()) << "one shot is one packet";
 }
 
-TEST_F(LogService, PacksEachValueAsTheFetchTypeSays) {
+TEST_F(LogService, PacksEachValueInItsRequestedType) {
   VehicleState state;
   state.x_m = -1.75;
   const std::uint16_t x = id_of("stateEstimate", "x");
@@ -222,7 +222,7 @@ TEST_F(LogService, PacksEachValueAsTheFetchTypeSays) {
   const std::uint16_t front = id_of("range", "front");
   EXPECT_EQ(values_of(2, front, state), (Bytes{0xFE, 0x7F}));
   EXPECT_EQ(values_of(3, front, state), (Bytes{0xFE, 0x7F, 0x00, 0x00}));
-  EXPECT_EQ(values_of(0x72, front, state), (Bytes{0xFE, 0x7F})) << "the high nibble says nothing";
+  EXPECT_EQ(values_of(0x72, front, state), (Bytes{0xFE, 0x7F})) << "the high nibble is ignored";
 }
 
 TEST_F(LogService, RoundsToHalfPrecision) {

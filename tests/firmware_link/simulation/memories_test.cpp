@@ -21,7 +21,7 @@ class Memories : public testing::Test {
   SimulatedMemories memories_;
 };
 
-TEST_F(Memories, TellTheirNumber) { EXPECT_EQ(ask({0x4C, 0x01}), (Bytes{0x40, 0x01, 0x02})); }
+TEST_F(Memories, ReturnTheirNumber) { EXPECT_EQ(ask({0x4C, 0x01}), (Bytes{0x40, 0x01, 0x02})); }
 
 TEST_F(Memories, DescribeThemselves) {
   EXPECT_EQ(ask({0x4C, 0x02, 0x00}),
@@ -30,7 +30,7 @@ TEST_F(Memories, DescribeThemselves) {
             (Bytes{0x40, 0x02, 0x01, 0x15, 0x00, 0x10, 0x00, 0x00, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST_F(Memories, AnswerWithoutContentsForAMemoryThatIsNotThere) {
+TEST_F(Memories, AnswerWithoutContentsForAMissingMemory) {
   EXPECT_EQ(ask({0x4C, 0x02, 0x02}), (Bytes{0x40, 0x02, 0x02}));
 }
 
@@ -55,7 +55,7 @@ TEST_F(Memories, ShowTheLowByteOfEachAddressInTheTester) {
   EXPECT_EQ(ask({0x4E, 0x01, 0, 0, 0, 0, 1}), (Bytes{0x42, 0x01, 0, 0, 0, 0, 0}));
 }
 
-TEST_F(Memories, RefuseWhatLiesOutside) {
+TEST_F(Memories, RefuseAddressesOutside) {
   constexpr std::uint8_t kIoError = 5;
   EXPECT_EQ(ask({0x4D, 0x00, 0xFF, 0x1F, 0, 0, 2}).back(), kIoError);
   EXPECT_EQ(ask({0x4E, 0x00, 0xFF, 0x1F, 0, 0, 1, 2}).back(), kIoError);
@@ -63,7 +63,7 @@ TEST_F(Memories, RefuseWhatLiesOutside) {
   EXPECT_EQ(ask({0x4D, 0x00, 0, 0, 0, 0, 25}).back(), kIoError) << "more than a packet holds";
 }
 
-TEST_F(Memories, KeepSilentOnRequestsThatAreTooShort) {
+TEST_F(Memories, DoNotAnswerRequestsThatAreTooShort) {
   for (const Bytes& packet :
        {Bytes{0x4C}, Bytes{0x4C, 0x02}, Bytes{0x4D, 0x00, 0, 0, 0, 0}, Bytes{0x4E, 0x00}})
     EXPECT_TRUE(ask(packet).empty());

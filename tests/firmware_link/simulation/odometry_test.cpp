@@ -91,7 +91,7 @@ Drift drift_of(const std::string& world, std::uint64_t seed) {
   return {std::sqrt((squares - 2.0 * std::hypot(dot, cross)) / count), highest - lowest};
 }
 
-TEST(FlowOdometry, FollowsTheTruthWhenNothingErrs) {
+TEST(FlowOdometry, FollowsTheTruthWithoutErrors) {
   const std::vector<FlightState> flight = fly(make_simulated_world("office").value(), PilotModel{}, 1);
   FlowOdometry odometry(perfect(), 1);
   for (std::size_t i = 1; i < flight.size(); ++i) odometry.step(flight[i]);
@@ -101,7 +101,7 @@ TEST(FlowOdometry, FollowsTheTruthWhenNothingErrs) {
   EXPECT_NEAR(odometry.T_odom_body().yaw_rad(), truth.yaw_rad(), 1e-6);
 }
 
-TEST(FlowOdometry, ScalesWhatItMeasures) {
+TEST(FlowOdometry, ScalesItsMeasurements) {
   FlowOdometryModel model = perfect();
   model.scale_spread = 0.1;
   const double x_m = estimate_after(straight_flight(20.0), model, 1).x_m();
@@ -130,7 +130,7 @@ TEST(FlowOdometry, WalksInHeadingWithTheRootOfTime) {
   EXPECT_NEAR(sigma_over_seeds(straight_flight(16.0), model), radians(2.4), radians(0.3));
 }
 
-TEST(FlowOdometry, LosesGroundInASlip) {
+TEST(FlowOdometry, UnderestimatesTheMotionDuringASlip) {
   FlowOdometryModel model = perfect();
   model.slips_per_s = 1.0 / 20.0;
   const double x_m = estimate_after(straight_flight(600.0), model, 1).x_m();
@@ -144,7 +144,7 @@ TEST(FlowOdometry, HoldsItsEstimateOnTheGround) {
   EXPECT_EQ(odometry.T_odom_body().vector(), Pose2().vector());
 }
 
-TEST(FlowOdometry, ErrsByFlowAndGyroIndependently) {
+TEST(FlowOdometry, HasIndependentErrorsOfFlowAndGyro) {
   FlowOdometryModel quiet_flow;
   quiet_flow.velocity_noise_m_s = 0.0;
   quiet_flow.slips_per_s = 0.0;
@@ -164,7 +164,7 @@ TEST(FlowOdometry, DriftsLikeARealFlightInEveryWorld) {
   }
 }
 
-TEST(FlowOdometry, GetsTheOfficeClearlyWrong) {
+TEST(FlowOdometry, DriftsVisiblyInTheOffice) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Drift drift = drift_of("office", seed);
     EXPECT_GT(drift.position_rms_m, 0.45) << "seed " << seed;
@@ -199,7 +199,7 @@ TEST(FlowOdometry, TakesTheShortWayToTheInitialYaw) {
   EXPECT_GT(odometry.T_odom_body().yaw_rad(), 3.0);
 }
 
-TEST(FlowOdometry, BeginsAnewWhereItIsReset) {
+TEST(FlowOdometry, RestartsFromThePoseOfAReset) {
   FlowOdometry odometry({}, 1);
   for (const FlightState& state : straight_flight(10.0)) odometry.step(state);
   EXPECT_GT(odometry.position_variance_m2(), 0.0);

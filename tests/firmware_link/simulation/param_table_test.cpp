@@ -38,7 +38,7 @@ TEST(ParamTable, DescribesParametersAsTheFirmwareDoes) {
   EXPECT_EQ(param("pid_rate", "roll_kp").flags, kParamPersistent);
 }
 
-TEST(ParamTable, KnowsDefaultValues) {
+TEST(ParamTable, HoldsDefaultValues) {
   EXPECT_EQ(param("multiranger", "filterMask").default_value, 1.0);
   EXPECT_EQ(param("pid_rate", "roll_kd").default_value, 2.5);
   EXPECT_EQ(param("kalman", "initialX").default_value, 0.0);
@@ -50,7 +50,7 @@ TEST(ParamTable, HasAKeyThatIsTheSameEachTime) {
   EXPECT_NE(simulated_param_table_crc(), 0U);
 }
 
-TEST(ParamTable, RefusesToNameWhatItDoesNotHave) {
+TEST(ParamTable, HasNoIdForAnUnknownName) {
   EXPECT_DEATH(static_cast<void>(simulated_param_id("no", "such")), "parameters that it has");
 }
 

@@ -55,7 +55,7 @@ class ParamService : public testing::Test {
   SimulatedParams params_;
 };
 
-TEST_F(ParamService, TellsSizeAndKeyOfItsTable) {
+TEST_F(ParamService, ReturnsSizeAndKeyOfItsTable) {
   const Bytes info = ask({0x2C, 0x03});
   ASSERT_EQ(info.size(), 8U);
   EXPECT_EQ(info[0], 0x20) << "link bits 0";
@@ -63,14 +63,14 @@ TEST_F(ParamService, TellsSizeAndKeyOfItsTable) {
   EXPECT_EQ(info[4], simulated_param_table_crc() & 0xFFU);
 }
 
-TEST_F(ParamService, NamesAnItemWithItsFlags) {
+TEST_F(ParamService, ReturnsAnItemWithItsFlags) {
   const Bytes reply = ask({0x2C, 0x02}, simulated_param_id("deck", "bcMultiranger"));
   EXPECT_EQ(reply[0], 0x20);
   EXPECT_EQ(reply[4], 0x68);
   EXPECT_EQ(std::string(reply.begin() + 5, reply.end()), std::string("deck\0bcMultiranger\0", 19));
 }
 
-TEST_F(ParamService, AnswersWithTwoBytesBeyondItsTableAndNotAtAllTo8BitCommands) {
+TEST_F(ParamService, AnswersWithTwoBytesBeyondItsTableAndNotTo8BitCommands) {
   EXPECT_EQ(ask({0x2C, 0x02}, absent_), (Bytes{0x20, 0x02}));
   EXPECT_TRUE(ask({0x2C, 0x00, 0x00}).empty());
   EXPECT_TRUE(ask({0x2C, 0x01}).empty());
@@ -105,21 +105,21 @@ TEST_F(ParamService, SetsByName) {
   EXPECT_TRUE(ask({0x2F, 0x00, 'a', 'b', 0, 'c'}).empty()) << "a name without end";
 }
 
-TEST_F(ParamService, KeepsSilentOnNamesThatFillThePacket) {
+TEST_F(ParamService, DoesNotAnswerNamesThatFillThePacket) {
   Bytes packet(31, 'x');
   packet[0] = 0x2F;
   packet[1] = packet[10] = packet[30] = 0;
   EXPECT_TRUE(ask(packet).empty());
 }
 
-TEST_F(ParamService, TellsExtendedTypes) {
+TEST_F(ParamService, ReturnsExtendedTypes) {
   EXPECT_EQ(behind(4, ask({0x2F, 0x07}, roll_kp_)), (Bytes{0, 1}));
   EXPECT_EQ(behind(4, ask({0x2F, 0x07}, filter_mask_)), Bytes{kNoEntry});
   EXPECT_EQ(behind(4, ask({0x2F, 0x02}, roll_kp_)), Bytes{1});
   EXPECT_EQ(behind(4, ask({0x2F, 0x02}, absent_)), Bytes{kNoEntry});
 }
 
-TEST_F(ParamService, TellsDefaultsWhateverWasWritten) {
+TEST_F(ParamService, ReturnsDefaultsAfterWrites) {
   ask({0x2E}, filter_mask_, {7, 0});
   EXPECT_EQ(behind(4, ask({0x2F, 0x08}, filter_mask_)), (Bytes{0, 1, 0}));
   EXPECT_EQ(behind(4, ask({0x2F, 0x06}, filter_mask_)), (Bytes{1, 0}));
@@ -127,7 +127,7 @@ TEST_F(ParamService, TellsDefaultsWhateverWasWritten) {
   EXPECT_EQ(behind(4, ask({0x2F, 0x06}, absent_)), Bytes{kNoEntry});
 }
 
-TEST_F(ParamService, StoresAcrossABootWhatIsStoredAndForgetsTheRest) {
+TEST_F(ParamService, KeepsStoredValuesAcrossABootAndResetsTheRest) {
   const Bytes one{0x00, 0x00, 0x80, 0x3F};
   const Bytes six{0x00, 0x00, 0xC0, 0x40};
   ask({0x2E}, roll_kp_, one);
@@ -149,7 +149,7 @@ TEST_F(ParamService, StoresAcrossABootWhatIsStoredAndForgetsTheRest) {
   EXPECT_EQ(behind(4, ask({0x2F, 0x04}, absent_)), Bytes{kNoEntry});
 }
 
-TEST_F(ParamService, TellsTheHostWhatTheVehicleChanges) {
+TEST_F(ParamService, NotifiesTheHostOfChangesByTheVehicle) {
   const PacketBytes notice = params_.change(filter_mask_, 258.0);
   EXPECT_EQ(Bytes(notice.begin(), notice.end()),
             (Bytes{0x23, 0x01, static_cast<std::uint8_t>(filter_mask_),

@@ -26,18 +26,18 @@ TEST(LinkService, EchoesEveryByte) {
   EXPECT_EQ(link(Bytes(31, 0xFC)), Bytes(31, 0xFC));
 }
 
-TEST(LinkService, NamesItselfInAFullPacket) {
+TEST(LinkService, ReturnsItsNameInAFullPacket) {
   const Bytes source = link({0xFD, 0x00});
   ASSERT_EQ(source.size(), 31U);
   EXPECT_EQ(std::string(source.begin() + 1, source.begin() + 20), std::string("Bitcraze Crazyflie") + '\0');
 }
 
-TEST(LinkService, SwallowsSinkAndNullPackets) {
+TEST(LinkService, DoesNotAnswerSinkAndNullPackets) {
   EXPECT_TRUE(link({0xFE, 0x01}).empty());
   EXPECT_TRUE(link({0xFF}).empty());
 }
 
-TEST(PlatformService, TellsVersionFirmwareAndType) {
+TEST(PlatformService, ReturnsVersionFirmwareAndType) {
   EXPECT_EQ(platform({0xDD, 0x00}), (Bytes{0xDD, 0x00, 12, 0, 0, 0}));
   const Bytes firmware = platform({0xDD, 0x01});
   EXPECT_EQ(std::string(firmware.begin() + 2, firmware.end()), "swiftlet simulation");
@@ -53,18 +53,18 @@ TEST(PlatformService, AnswersCommandsInTheirOwnBuffer) {
   EXPECT_EQ(platform({0xDC, 0x03, 0x01}), (Bytes{0xDC})) << "user notified";
 }
 
-TEST(PlatformService, TakesTheAppChannelAndWhatItDoesNotKnowSilently) {
+TEST(PlatformService, DoesNotAnswerTheAppChannelAndUnknownPackets) {
   EXPECT_TRUE(platform({0xDC}).empty());
   EXPECT_TRUE(platform({0xDE, 0x01}).empty());
   EXPECT_TRUE(platform({0xDD, 0x07}).empty());
 }
 
-TEST(SupervisorService, TellsAllStatesAsBits) {
+TEST(SupervisorService, ReturnsAllStatesAsBits) {
   EXPECT_EQ(supervisor({0x9C, 0x0C}), (Bytes{0x90, 0x8C, 0x0F, 0x00}));
   EXPECT_EQ(supervisor({0x9C, 0x0C}, true), (Bytes{0x90, 0x8C, 0x1F, 0x00}));
 }
 
-TEST(SupervisorService, TellsEachState) {
+TEST(SupervisorService, ReturnsEachState) {
   EXPECT_EQ(supervisor({0x9C, 0x05}), (Bytes{0x90, 0x85, 0})) << "flying";
   EXPECT_EQ(supervisor({0x9C, 0x05}, true), (Bytes{0x90, 0x85, 1}));
   EXPECT_EQ(supervisor({0x9C, 0x0B}), (Bytes{0x90, 0x8B, 0})) << "high-level control disabled";

@@ -35,7 +35,7 @@ TEST(NoiseSource, IsUncorrelatedBetweenNeighbouringSeeds) {
   EXPECT_NEAR(product / kSeeds, 0.0, 4.0 / std::sqrt(kSeeds));
 }
 
-TEST(NoiseSource, DrawsWithTheSigmaAskedFor) {
+TEST(NoiseSource, DrawsWithTheRequestedSigma) {
   NoiseSource noise(1, "any");
   constexpr int kDraws = 20000;
   double sum = 0.0;
@@ -49,7 +49,7 @@ TEST(NoiseSource, DrawsWithTheSigmaAskedFor) {
   EXPECT_NEAR(std::sqrt(squares / kDraws), 0.5, 0.01);
 }
 
-TEST(NoiseSource, TakesChancesAtTheirProbability) {
+TEST(NoiseSource, MeetsTheProbabilityOfAChance) {
   NoiseSource noise(1, "any");
   int taken = 0;
   for (int i = 0; i < 20000; ++i) taken += noise.chance(0.1) ? 1 : 0;

@@ -39,7 +39,7 @@ TEST(Cone, SeesAPostBesideItsAxisBeforeTheWallBehind) {
   EXPECT_NEAR(look({wall_across(2.5), post}).distance_m, 1.0, 0.03);
 }
 
-TEST(Cone, OverlooksAPostOutsideIt) {
+TEST(Cone, IgnoresAPostOutsideIt) {
   const WallSegment post{{1.0, 0.26}, {1.0, 0.40}};  // from 14.6 degrees
   EXPECT_NEAR(look({wall_across(2.5), post}).distance_m, 2.5, 1e-9);
 }
@@ -58,7 +58,7 @@ TEST(Cone, ReadsAnObliqueWallShort) {
   EXPECT_GT(look({oblique}).dimness_m, 2.0);
 }
 
-TEST(Cone, HearsNothingFromBeyondTheLimit) {
+TEST(Cone, ReceivesNothingFromBeyondTheLimit) {
   const std::vector<WallSegment> walls{wall_across(3.7)};
   EXPECT_FALSE(look_through_cone(walls, {0.0, 0.0}, 0.0, RangerModel{}));
 }
@@ -92,7 +92,7 @@ TEST(MeasureRange, LosesMoreTheFartherAndTheMoreObliqueTheWall) {
   EXPECT_GT(lost_share({grazed}), lost_share({oblique}) + 0.01);
 }
 
-TEST(MeasureRange, DrawsTheSameNoiseWhateverWasLostBefore) {
+TEST(MeasureRange, DrawsTheSameNoiseWhetherReadingsWereLostOrNot) {
   NoiseSource after_hit(1, "range");
   NoiseSource after_nothing(1, "range");
   const std::vector<WallSegment> near{wall_across(1.0)};

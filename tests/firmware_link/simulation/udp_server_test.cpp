@@ -92,14 +92,14 @@ TEST_F(UdpServer, AnswersANullPacketOfOneByteAsIdle) {
   EXPECT_EQ(server_->client(), std::nullopt) << "a scan is no client";
 }
 
-TEST_F(UdpServer, AnswersRequestsAndIgnoresWhatIsNoPacket) {
+TEST_F(UdpServer, AnswersRequestsAndIgnoresInvalidPackets) {
   EXPECT_THAT(ask(client_, {0xFC, 7}), ElementsAre(Bytes{0xFC, 7}));
   EXPECT_TRUE(server_->client().has_value());
   EXPECT_THAT(ask(client_, Bytes(32, 0xFC)), IsEmpty());
   EXPECT_THAT(ask(client_, {}), IsEmpty());
 }
 
-TEST_F(UdpServer, SendsLogDataAtTheClocksPaceToWhoPolls) {
+TEST_F(UdpServer, SendsLogDataAtTheClocksPaceToThePollingClient) {
   start_logging(client_);
   std::size_t data = 0;
   for (int i = 0; i < 200; ++i) {
@@ -111,7 +111,7 @@ TEST_F(UdpServer, SendsLogDataAtTheClocksPaceToWhoPolls) {
   EXPECT_LE(data, 20U);
 }
 
-TEST_F(UdpServer, ForgetsAClientThatWentAndWelcomesTheNext) {
+TEST_F(UdpServer, DropsAClientThatIsGoneAndAcceptsTheNext) {
   start_logging(client_);
   pass(milliseconds(900));
   EXPECT_THAT(client_.received(), SizeIs(testing::Ge(8U)));
@@ -124,7 +124,7 @@ TEST_F(UdpServer, ForgetsAClientThatWentAndWelcomesTheNext) {
   EXPECT_THAT(next.received(), SizeIs(testing::Ge(4U)));
 }
 
-TEST_F(UdpServer, ForgetsAClientNoEarlierThanTheVehicleItsBlocks) {
+TEST_F(UdpServer, DropsAClientNoEarlierThanTheVehicleItsBlocks) {
   clock_.sleep_for(std::chrono::microseconds(500));
   start_logging(client_);
   pass(milliseconds(998));
@@ -134,7 +134,7 @@ TEST_F(UdpServer, ForgetsAClientNoEarlierThanTheVehicleItsBlocks) {
   EXPECT_THAT(ask(next, {0x5D, 3, 1, 10}), ElementsAre(Bytes{0x5D, 3, 1, 2})) << "the block is gone";
 }
 
-TEST_F(UdpServer, LetsNoScanTakeTheStreamAway) {
+TEST_F(UdpServer, KeepsTheStreamDuringAScan) {
   start_logging(client_);
   const Client scanner(server_->address());
   EXPECT_THAT(ask(scanner, {0xFF}), ElementsAre(Bytes{0xF3}));
@@ -144,7 +144,7 @@ TEST_F(UdpServer, LetsNoScanTakeTheStreamAway) {
 }
 
 TEST_F(UdpServer, KeepsItsConsoleTextForAClient) {
-  vehicle_.reset_estimator();  // says so
+  vehicle_.reset_estimator();  // prints a line
   const Client scanner(server_->address());
   EXPECT_THAT(ask(scanner, {0xFF}), ElementsAre(Bytes{0xF3}));
   pass(milliseconds(300));
@@ -156,7 +156,7 @@ TEST_F(UdpServer, KeepsItsConsoleTextForAClient) {
   EXPECT_EQ(std::string(text[0].begin() + 1, text[0].begin() + 10), "ESTKALMAN");
 }
 
-TEST_F(UdpServer, TakesARestartedClientForTheSameVehicleAtOnce) {
+TEST_F(UdpServer, AcceptsARestartedClientAtOnce) {
   start_logging(client_);
   const Client restarted(server_->address());
   EXPECT_THAT(ask(restarted, {0x5D, 5}), ElementsAre(Bytes{0x5D, 5, 0, 0}));
@@ -166,7 +166,7 @@ TEST_F(UdpServer, TakesARestartedClientForTheSameVehicleAtOnce) {
   EXPECT_THAT(client_.received(), IsEmpty());
 }
 
-TEST_F(UdpServer, LosesDoublesAndDelaysAsTold) {
+TEST_F(UdpServer, LosesDuplicatesAndDelaysAsConfigured) {
   server_->set_faults({.loss_share = 1.0});
   EXPECT_THAT(ask(client_, {0xFC, 1}), IsEmpty());
   server_->set_faults({.duplicate_share = 1.0});
@@ -179,28 +179,28 @@ TEST_F(UdpServer, LosesDoublesAndDelaysAsTold) {
   EXPECT_THAT(client_.received(), ElementsAre(Bytes{0xFC, 3}));
 }
 
-TEST_F(UdpServer, LosesAboutTheShareItIsTold) {
+TEST_F(UdpServer, LosesAboutTheGivenShare) {
   server_->set_faults({.loss_share = 0.2});
   std::size_t answered = 0;
   for (int i = 0; i < 1000; ++i) answered += ask(client_, {0xFC, 1}).size();
   EXPECT_NEAR(static_cast<double>(answered), 1000.0 * 0.8 * 0.8, 60.0) << "there and back";
 }
 
-TEST_F(UdpServer, IsSilentForAsLongAsTold) {
+TEST_F(UdpServer, IsSilentForTheGivenTime) {
   server_->silence(seconds(3));
   EXPECT_THAT(ask(client_, {0xFC, 1}), IsEmpty());
   pass(seconds(3));
   EXPECT_THAT(ask(client_, {0xFC, 2}), ElementsAre(Bytes{0xFC, 2}));
 }
 
-TEST_F(UdpServer, KeepsSilentWhileTheVehicleBoots) {
+TEST_F(UdpServer, DoesNotAnswerWhileTheVehicleBoots) {
   vehicle_.reboot();
   EXPECT_THAT(ask(client_, {0xFF}), IsEmpty());
   for (int i = 0; i < 45; ++i) pass(milliseconds(100));
   EXPECT_THAT(ask(client_, {0xFF}), testing::Contains(Bytes{0xF3}));
 }
 
-TEST_F(UdpServer, SaysWhyItCannotListen) {
+TEST_F(UdpServer, ReportsWhyItCannotListen) {
   const std::string address = server_->address();
   const auto port = static_cast<std::uint16_t>(std::stoi(address.substr(address.find(':') + 1)));
   const auto second = SimulatedUdpServer::open("127.0.0.1", port, vehicle_, clock_, 1);

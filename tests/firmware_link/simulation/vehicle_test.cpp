@@ -76,14 +76,14 @@ TEST(SimulatedVehicle, NamesItselfAsALinkSource) {
   EXPECT_EQ(answers[0][19], 0);
 }
 
-TEST(SimulatedVehicle, TellsItsProtocolVersionAndNames) {
+TEST(SimulatedVehicle, ReportsItsProtocolVersionAndNames) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   EXPECT_EQ(ask(vehicle, {0xDD, 0x00}), (std::vector<Bytes>{{0xDD, 0x00, 0x0C, 0x00, 0x00, 0x00}}));
   const Bytes type = ask(vehicle, {0xDD, 0x02}).at(0);
   EXPECT_EQ(std::string(type.begin() + 2, type.end()), "Crazyflie 2.1");
 }
 
-TEST(SimulatedVehicle, EchoesAndSwallowsAsTheLinkServicesDo) {
+TEST(SimulatedVehicle, AnswersAsTheLinkServices) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   EXPECT_EQ(ask(vehicle, {0xFC, 0x01, 0x02}), (std::vector<Bytes>{{0xFC, 0x01, 0x02}}));
   EXPECT_TRUE(ask(vehicle, {0xFE, 0x01}).empty()) << "sink";
@@ -111,14 +111,14 @@ TEST(SimulatedVehicle, LandsAndFinishes) {
   EXPECT_EQ(value_of(sent.back()), 0.0);
 }
 
-TEST(SimulatedVehicle, EstimatesItsPlaceFromWhereItTookOff) {
+TEST(SimulatedVehicle, EstimatesItsPositionRelativeToTheTakeOff) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   log_as_int16(vehicle, "stateEstimateZ", "x");
   for (const SentPacket& sent : vehicle.advance(after(vehicle, 12.0)))
     EXPECT_NEAR(value_of(sent) / 1000.0, vehicle.T_world_body(sent.at).x_m(), 0.012);
 }
 
-TEST(SimulatedVehicle, AnswersForTheTruthBetweenTheStepsOfItsFlight) {
+TEST(SimulatedVehicle, KnowsTheTruthBetweenTheStepsOfItsFlight) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   log_as_int16(vehicle, "stateEstimateZ", "x");
   static_cast<void>(vehicle.advance(after(vehicle, 8.0)));
@@ -130,7 +130,7 @@ TEST(SimulatedVehicle, AnswersForTheTruthBetweenTheStepsOfItsFlight) {
 }
 
 TEST(SimulatedVehicle, PublishesRangesThatAreBetween78And178MillisecondsOld) {
-  // Flies straight at a wall 4 m past the end, so that the reading tells when it was taken.
+  // Flies straight at a wall 4 m past the end, so that the reading shows when it was taken.
   SimulatedWorld world{{{{6.5, -50.0}, {6.5, 50.0}}}, {{{0.0, 0.0}}, {{5.0, 0.0}}}};
   VehicleModel model = exact();
   model.ranger.half_lost_at_m = 100.0;
@@ -181,7 +181,7 @@ TEST(SimulatedVehicle, RangesInTheFourDirectionsOfItsBody) {
   }
 }
 
-TEST(SimulatedVehicle, RunsItsBatteryDown) {
+TEST(SimulatedVehicle, DischargesItsBattery) {
   SimulatedVehicle vehicle(make_simulated_world("loop").value(), {}, 1);
   log_as_int16(vehicle, "pm", "vbatMV");
   const std::vector<SentPacket> sent = vehicle.advance(after(vehicle, 330.0));
@@ -190,7 +190,7 @@ TEST(SimulatedVehicle, RunsItsBatteryDown) {
   EXPECT_GT(value_of(sent.back()), 3000.0);
 }
 
-TEST(SimulatedVehicle, IsTheSameInWhateverStepsTimeIsTold) {
+TEST(SimulatedVehicle, IsTheSameForAnyStepsOfTime) {
   SimulatedVehicle at_once(make_simulated_world("maze").value(), {}, 4);
   SimulatedVehicle in_steps(make_simulated_world("maze").value(), {}, 4);
   log_as_int16(at_once, "stateEstimateZ", "x");
@@ -248,7 +248,7 @@ VehicleModel on_air() {
 const Bytes kStart{0x5D, 0x03, 0x01, 0x0A};
 const Bytes kNoSuchBlock{0x5D, 0x03, 0x01, 0x02};
 
-TEST(SimulatedVehicle, TakesWhatItHasNoServiceForSilently) {
+TEST(SimulatedVehicle, DoesNotAnswerPacketsWithoutAService) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   for (const unsigned port : {3U, 6U, 7U, 8U, 10U})
     EXPECT_TRUE(ask(vehicle, {static_cast<std::uint8_t>(port << 4U | 0x0CU), 0, 0, 0}).empty()) << port;
@@ -268,13 +268,13 @@ TEST(SimulatedVehicle, DeletesItsBlocksAfterMoreThanASecondOfSilence) {
   EXPECT_TRUE(vehicle.is_linked());
 }
 
-TEST(SimulatedVehicle, KeepsItsBlocksWhileItHearsNullPackets) {
+TEST(SimulatedVehicle, KeepsItsBlocksWhileItReceivesNullPackets) {
   SimulatedVehicle vehicle(hop(), on_air(), 1);
   log_as_int16(vehicle, "range", "left");
   EXPECT_NEAR(static_cast<double>(polled(vehicle, 5.0).size()), 50.0, 1.0);
 }
 
-TEST(SimulatedVehicle, TellsOfItsBootOnceSomebodyListens) {
+TEST(SimulatedVehicle, PrintsItsBootTextOnceAClientIsConnected) {
   VehicleModel model = exact();
   model.prints_boot_text = true;
   SimulatedVehicle vehicle(hop(), model, 1);
@@ -283,7 +283,7 @@ TEST(SimulatedVehicle, TellsOfItsBootOnceSomebodyListens) {
   EXPECT_NE(console_text(vehicle.advance(after(vehicle, 1.0))).find("2 deck(s) found\n"), std::string::npos);
 }
 
-TEST(SimulatedVehicle, ForgetsBlocksParametersAndTimeWhenRebooted) {
+TEST(SimulatedVehicle, ResetsBlocksParametersAndTimeWhenRebooted) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   log_as_int16(vehicle, "stateEstimateZ", "x");
   static_cast<void>(ask(vehicle, write_of("multiranger", "filterMask", {3, 0})));
@@ -309,7 +309,7 @@ TEST(SimulatedVehicle, ForgetsBlocksParametersAndTimeWhenRebooted) {
   EXPECT_EQ(sent.at(0).bytes[4], 0);
 }
 
-TEST(SimulatedVehicle, FliesOnFromWhereTheRebootInterruptedIt) {
+TEST(SimulatedVehicle, ContinuesItsFlightFromWhereTheRebootInterruptedIt) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   log_as_int16(vehicle, "stateEstimateZ", "x");
   static_cast<void>(vehicle.advance(after(vehicle, 6.0)));
@@ -323,12 +323,12 @@ TEST(SimulatedVehicle, FliesOnFromWhereTheRebootInterruptedIt) {
   const std::vector<SentPacket> sent = polled(vehicle, 2.0);
   const double flown_on_m = vehicle.T_world_body(sent.back().at).x_m() - interrupted_at_m;
   EXPECT_GT(flown_on_m, 0.5);
-  EXPECT_NEAR(value_of(sent.back()) / 1000.0, flown_on_m, 0.012) << "the estimate began anew";
+  EXPECT_NEAR(value_of(sent.back()) / 1000.0, flown_on_m, 0.012) << "the estimate restarted";
   static_cast<void>(vehicle.advance(after(vehicle, 30.0)));
   EXPECT_TRUE(vehicle.is_finished());
 }
 
-TEST(SimulatedVehicle, ShowsNothingOfDecksThatAreAbsent) {
+TEST(SimulatedVehicle, ShowsNoValuesOfMissingDecks) {
   VehicleModel model = exact();
   model.has_flow_deck = false;
   model.has_multiranger = false;
@@ -386,7 +386,7 @@ TEST(SimulatedVehicle, JumpsToTheInitialPositionWhenItsEstimatorIsReset) {
   EXPECT_NEAR(value_of(sent.back()), -9900.0, 150.0);
 }
 
-TEST(SimulatedVehicle, ResetsItsEstimatorByParameterAndSaysWhenThatIsDone) {
+TEST(SimulatedVehicle, ResetsItsEstimatorByParameterAndReportsIt) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   log_as_int16(vehicle, "stateEstimateZ", "x");
   static_cast<void>(vehicle.advance(after(vehicle, 6.0)));
@@ -415,7 +415,7 @@ TEST(SimulatedVehicle, ShowsNoPositionWithTheComplementaryEstimator) {
   EXPECT_EQ(value_of(vehicle.advance(after(vehicle, 6.0)).back()), 0.0);
 }
 
-TEST(SimulatedVehicle, LetsBadRangesThroughWhenItsFilterIsOpened) {
+TEST(SimulatedVehicle, ShowsInvalidRangesWhenItsFilterIsOpened) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   log_as_int16(vehicle, "range", "right");
   static_cast<void>(ask(vehicle, write_of("multiranger", "filterMask", {0x05, 0x00})));
@@ -424,7 +424,7 @@ TEST(SimulatedVehicle, LetsBadRangesThroughWhenItsFilterIsOpened) {
   EXPECT_EQ(value_of(vehicle.advance(after(vehicle, 1.0)).back()), 32766.0);
 }
 
-TEST(SimulatedVehicle, EchoesLaterWhenAskedTo) {
+TEST(SimulatedVehicle, DelaysEchoesOnRequest) {
   SimulatedVehicle vehicle(hop(), exact(), 1);
   static_cast<void>(ask(vehicle, write_of("crtpsrv", "echoDelay", {30, 0})));
   EXPECT_TRUE(ask(vehicle, {0xFC, 0x07}).empty());
@@ -432,7 +432,7 @@ TEST(SimulatedVehicle, EchoesLaterWhenAskedTo) {
   EXPECT_EQ(vehicle.advance(after(vehicle, 0.001)).size(), 1U);
 }
 
-TEST(SimulatedVehicle, BeginsItsClockWhereItIsTold) {
+TEST(SimulatedVehicle, StartsItsClockAtTheGivenTime) {
   VehicleModel model = exact();
   model.clock_start = std::chrono::milliseconds((1 << 24) - 50);
   SimulatedVehicle vehicle(hop(), model, 1);
@@ -461,7 +461,7 @@ TEST(SimulatedVehicle, SwitchesItselfOffWithAnEmptyBatteryUntilThatIsReplaced) {
   EXPECT_GT(value_of(polled(vehicle, 1.0).back()), 3700.0);
 }
 
-TEST(SimulatedVehicle, StaysWithinBoundsWhateverIsWritten) {
+TEST(SimulatedVehicle, StaysWithinBoundsForAnyParameterValue) {
   for (const Bytes& value : {Bytes{0, 0, 0xC0, 0x7F}, Bytes{0, 0, 0x80, 0x7F}, Bytes{0, 0, 0x80, 0x7E}}) {
     SimulatedVehicle vehicle(hop(), exact(), 1);
     static_cast<void>(ask(vehicle, write_of("kalman", "initialX", value)));
@@ -472,7 +472,7 @@ TEST(SimulatedVehicle, StaysWithinBoundsWhateverIsWritten) {
   }
 }
 
-TEST(SimulatedVehicle, OutlivesAnyPacket) {
+TEST(SimulatedVehicle, SurvivesAnyPacket) {
   SimulatedVehicle vehicle(hop(), on_air(), 1);
   NoiseSource noise(1, "packets");
   const auto any = [&noise](int limit) { return static_cast<std::uint8_t>(noise.uniform(0.0, limit)); };
