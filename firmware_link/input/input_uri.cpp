@@ -49,7 +49,7 @@ Result<InputUri> parse_input_uri(const std::string& uri) {
     if (!uri.starts_with(kind.scheme.substr(0, kind.scheme.find(':') + 1))) continue;
     InputUri parsed{.kind = &kind, .address = {}};
     if (const Status status = parse_as(kind, uri, parsed.address); !status)
-      return invalid(uri, status.error().message + "; right is, for example, " + std::string(kind.example));
+      return invalid(uri, status.error().message + "; example: " + std::string(kind.example));
     return parsed;
   }
   if (uri.find("://") != std::string::npos)

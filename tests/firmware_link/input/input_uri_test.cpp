@@ -160,7 +160,7 @@ TEST(InputUri, ReportsWhatIsWrongAndShowsAnExample) {
     EXPECT_EQ(parsed.error().code, ErrorCode::kInvalidInput) << uri;
     EXPECT_THAT(parsed.error().message,
                 AllOf(HasSubstr("input '" + std::string(uri) + "': "), HasSubstr(expected),
-                      HasSubstr("; right is, for example, "), Not(HasSubstr("\n"))));
+                      HasSubstr("; example: "), Not(HasSubstr("\n"))));
     const std::string example = parsed.error().message.substr(parsed.error().message.rfind(' ') + 1);
     EXPECT_TRUE(parse_input_uri(example).ok()) << example;
   }
