@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""tools/size_page.py reads what binutils and our own programs say, and keeps to its section of the page."""
+"""tools/size_page.py parses the output of binutils and of our own programs, and keeps to its section of the page."""
 
 import sys
 import unittest
@@ -51,7 +51,7 @@ class SizePage(unittest.TestCase):
         self.assertTrue(text.startswith(size_page.HEADING + "\n"))
         for line in ("| swiftletd | 3.0 | 0.0 | 0.0 |", "| `swiftlet::kRows` | 32 |", "| frontend | 995.3 |",
                      "| simulated office | 6.3 |  |  |  |  |", "| simulated office | 3.0 |",
-                     "Not run, for want of the data: Rice Hall."):
+                     "Not run, because the data are missing: Rice Hall."):
             self.assertIn(line, text)
 
     def test_the_section_is_replaced_where_it_stands_and_nothing_else_is(self):
