@@ -19,7 +19,7 @@ PARTS = {  # of backend and final pass
     "submaps": ["build_submap("],
     "loop detection": ["LoopDetector::find("],
     "pose graph": ["PoseGraphOptimizer::optimize("],
-    "live refinement": ["OnlineRefinement::step("],
+    "online refinement": ["OnlineRefinement::step("],
 }
 TOTAL = "all stages"
 DEFAULT_TOLERANCE_PERCENT = 2.0

@@ -64,12 +64,12 @@ class InstructionCounts(unittest.TestCase):
         counted = instructions.counts_of(self.profile_of("Backend::add(int)::{lambda()#1}::operator()"))
         self.assertEqual(counted["decoding"], 10)
         self.assertEqual(counted["map"], 10**5)
-        self.assertEqual(counted["live refinement"], 10**9)
+        self.assertEqual(counted["online refinement"], 10**9)
         self.assertEqual(counted[instructions.TOTAL], sum(10**i for i in range(1, 6)))
 
     def test_a_function_that_is_gone_or_has_a_namesake_is_named(self):
         for profile in (self.profile_of()[:-3], self.profile_of("OnlineRefinement::step(char)")):
-            with self.assertRaisesRegex(instructions.Unusable, r"live refinement.*OnlineRefinement::step\("):
+            with self.assertRaisesRegex(instructions.Unusable, r"online refinement.*OnlineRefinement::step\("):
                 instructions.counts_of(profile)
 
     def test_slower_and_faster_are_told_beyond_the_tolerance_alone(self):
