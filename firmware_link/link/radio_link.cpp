@@ -61,7 +61,7 @@ Result<LinkFrame> RadioLink::receive(Duration timeout) {
       return frame;
     }
     now = clock_.now();
-    if (now >= deadline) return Error{ErrorCode::kTimeout, "nothing received"};  // short: not on the heap
+    if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};  // short: not on the heap
     const HostTime next = std::min(deadline, acted_at_ + pause());
     if (next > now) clock_.sleep_for(next - now);
     now = std::max(now, clock_.now());

@@ -108,7 +108,7 @@ Result<LinkFrame> UdpLink::receive(Duration timeout) {
     if (const std::optional<LinkFrame> frame = take_datagrams()) return *frame;
     now = clock_.now();
     // A text this short needs no memory.
-    if (now >= deadline) return Error{ErrorCode::kTimeout, "nothing received"};
+    if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};
     const HostTime alive_at =
         received_at_ ? std::min(sent_at_ + kMaxPause, *received_at_ + kSilence) : registers_at_;
     wait_until(std::min(deadline, alive_at), now);

@@ -65,7 +65,7 @@ Result<LinkFrame> UsbCableLink::receive(Duration timeout) {
       if (const std::optional<LinkFrame> received = listen(deadline - now)) return *received;
     }
     now = clock_.now();
-    if (now >= deadline) return Error{ErrorCode::kTimeout, "nothing received"};  // short: not on the heap
+    if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};  // short: not on the heap
     if (!vehicle_) clock_.sleep_for(std::min(deadline - now, ReopenSchedule::kCheckPeriod));
   }
 }

@@ -44,7 +44,7 @@ Result<LinkFrame> SimulatedLink::receive(Duration timeout) {
   const DeviceTime asked_at = vehicle_.now();
   while (received_.empty()) {
     if (vehicle_.is_finished()) return Error{ErrorCode::kEndOfRecording, "the simulated flight is over"};
-    if (vehicle_.now() - asked_at + kStep > timeout) return Error{ErrorCode::kTimeout, "nothing received"};
+    if (vehicle_.now() - asked_at + kStep > timeout) return Error{ErrorCode::kTimeout, "no packet"};
     for (const SentPacket& sent : vehicle_.advance(vehicle_.now() + kStep)) {
       const bool is_log_data = is_on(bytes_of(sent.bytes), kLogDataTopic);
       if (is_log_data && loss_noise_.chance(packet_loss_)) continue;

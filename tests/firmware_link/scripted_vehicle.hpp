@@ -198,10 +198,10 @@ class ScriptedLink final : public Link {
       const bool is_due = next_ms - now_ms <= patience_ms;
       now_ms = is_due ? next_ms : now_ms + patience_ms;
       if (now_ms > last_ms) return Error{ErrorCode::kEndOfRecording, "landed"};
-      if (!is_due) return Error{ErrorCode::kTimeout, "nothing received"};
+      if (!is_due) return Error{ErrorCode::kTimeout, "no packet"};
       for (const Bytes& packet : vehicle.data(static_cast<std::uint32_t>(now_ms - booted_ms)))
         if (reaches(now_ms)) frames_.push_back(received(packet, host_ms(now_ms)));
-      if (frames_.empty()) return Error{ErrorCode::kTimeout, "nothing received"};
+      if (frames_.empty()) return Error{ErrorCode::kTimeout, "no packet"};
     }
     const LinkFrame frame = frames_.front();
     frames_.pop_front();

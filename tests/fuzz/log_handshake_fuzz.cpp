@@ -51,7 +51,7 @@ class MoodyLink final : public Link {
     if (mood < 0xA0) return log_data();
     if (mood < 0xD0) return anything();
     now_ += timeout;
-    return Error{ErrorCode::kTimeout, "nothing received"};
+    return Error{ErrorCode::kTimeout, "no packet"};
   }
 
  private:
@@ -59,7 +59,7 @@ class MoodyLink final : public Link {
     now_ += std::chrono::milliseconds(50);
     const auto time_ms = static_cast<std::uint32_t>(now_.time_since_epoch() / std::chrono::milliseconds(1));
     const std::vector<Bytes> packets = vehicle_.data(time_ms);
-    if (packets.empty()) return Error{ErrorCode::kTimeout, "nothing received"};
+    if (packets.empty()) return Error{ErrorCode::kTimeout, "no packet"};
     return received(packets[bytes_.byte() % packets.size()], now_);
   }
   LinkFrame anything() {

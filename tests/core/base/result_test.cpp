@@ -40,7 +40,7 @@ TEST(ResultDeathTest, StopsWhenAskedForWhatItDoesNotHold) {
 
 TEST(Status, IsSuccessUnlessMadeOfAnError) {
   EXPECT_TRUE(Status().ok());
-  const Status failed(Error{ErrorCode::kTimeout, "nothing received"});
+  const Status failed(Error{ErrorCode::kTimeout, "no packet"});
   ASSERT_FALSE(failed.ok());
   EXPECT_EQ(failed.error().code, ErrorCode::kTimeout);
 }
