@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/calibration/wall_patches.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
 namespace {
@@ -78,17 +79,6 @@ struct MotionRow {
   Eigen::Matrix3d by_to;
   MotionByErrors by_errors;
 };
-
-/// Of (x, y, yaw); diagonal.
-Eigen::Vector3d information_of(const OdometryNoise& noise, const Pose2& motion) {
-  const double distance_m = std::hypot(motion.x_m(), motion.y_m());
-  const double turn_rad = std::abs(motion.yaw_rad());
-  const double sigma_m =
-      noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad;
-  const double sigma_rad =
-      noise.yaw_floor_rad + noise.yaw_per_radian * turn_rad + noise.yaw_per_metre_rad * distance_m;
-  return Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).array().square().inverse();
-}
 
 class JointProblem {
  public:
@@ -218,7 +208,7 @@ MotionRow JointProblem::motion_row(std::size_t i) const {
   row.by_from = by_motion * jacobian_compose_first(T_from_map, T_[i]) * jacobian_inverse(T_[i - 1]);
   row.by_to = by_motion * jacobian_compose_second(T_from_map);
   row.weight = motion_.is_known(i)
-                   ? information_of(noise_, moved)
+                   ? odometry_sigma(noise_, moved).information()
                    : Eigen::Vector3d::Constant(1.0 / (kUnknownMotionSigma * kUnknownMotionSigma));
   row.weight.head<2>() /= position_noise_scale_ * position_noise_scale_;
   return row;

@@ -16,17 +16,18 @@ constexpr double kDetourTurnRateRadPerS = 0.5;
 
 }  // namespace
 
+OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion) {
+  const double distance_m = std::hypot(motion.x_m(), motion.y_m());
+  const double turn_rad = std::abs(motion.yaw_rad());
+  return {noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad,
+          noise.yaw_floor_rad + noise.yaw_per_radian * turn_rad + noise.yaw_per_metre_rad * distance_m};
+}
+
 UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this) {
-  const double distance_m = std::hypot(T_previous_this.x_m(), T_previous_this.y_m());
-  const double turn_rad = std::abs(T_previous_this.yaw_rad());
-  UncertainMotion step{T_previous_this, Eigen::Matrix3d::Zero()};
-  if (distance_m == 0.0 && turn_rad == 0.0) return step;
-  const double sigma_xy =
-      noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad;
-  const double sigma_yaw =
-      noise.yaw_floor_rad + noise.yaw_per_radian * turn_rad + noise.yaw_per_metre_rad * distance_m;
-  step.covariance.diagonal() << sigma_xy * sigma_xy, sigma_xy * sigma_xy, sigma_yaw * sigma_yaw;
-  return step;
+  const bool stood =
+      T_previous_this.x_m() == 0.0 && T_previous_this.y_m() == 0.0 && T_previous_this.yaw_rad() == 0.0;
+  if (stood) return {T_previous_this, Eigen::Matrix3d::Zero()};
+  return {T_previous_this, odometry_sigma(noise, T_previous_this).covariance()};
 }
 
 UncertainMotion unwatched_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration silence) {

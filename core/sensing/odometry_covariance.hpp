@@ -17,6 +17,23 @@ struct UncertainMotion {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of T_from_to as (x, y, yaw): m^2, m rad, rad^2
 };
 
+/// Standard deviations of a motion of dead reckoning.
+struct OdometrySigma {
+  double xy_m = 0.0;
+  double yaw_rad = 0.0;
+
+  /// Of the motion as (x, y, yaw): diagonal.
+  [[nodiscard]] Eigen::Matrix3d covariance() const {
+    return Eigen::Vector3d(xy_m * xy_m, xy_m * xy_m, yaw_rad * yaw_rad).asDiagonal();
+  }
+  /// The diagonal of its inverse.
+  [[nodiscard]] Eigen::Vector3d information() const {
+    return {1.0 / (xy_m * xy_m), 1.0 / (xy_m * xy_m), 1.0 / (yaw_rad * yaw_rad)};
+  }
+};
+/// As OdometryNoise gives them, the floor of a motion of nothing too.
+OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion);
+
 /// One step of dead reckoning with its error; a step of exactly no motion has none (the vehicle stood still).
 UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this);
 

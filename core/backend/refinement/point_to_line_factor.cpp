@@ -39,21 +39,15 @@ PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map
 }
 
 Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to, const OdometryNoise& noise) {
-  double sigma_m = kUnknownMotionSigma;
-  double sigma_rad = kUnknownMotionSigma;
+  OdometrySigma sigma{kUnknownMotionSigma, kUnknownMotionSigma};
   const Pose2 T_from_to = between(from.T_dead_body, to.T_dead_body);
   if (to.starts_segment && to.odometry_ran_on) {
     const UncertainMotion guess = unwatched_step(noise, T_from_to, to.stamp - from.stamp);
-    sigma_m = std::sqrt(guess.covariance(0, 0));
-    sigma_rad = std::sqrt(guess.covariance(2, 2));
+    sigma = {std::sqrt(guess.covariance(0, 0)), std::sqrt(guess.covariance(2, 2))};
   } else if (!to.starts_segment) {
-    const double distance_m = std::hypot(T_from_to.x_m(), T_from_to.y_m());
-    const double turn_rad = std::abs(T_from_to.yaw_rad());
-    sigma_m = noise.xy_floor_m + noise.xy_per_metre * distance_m + noise.xy_per_radian_m * turn_rad;
-    sigma_rad = noise.yaw_floor_rad + noise.yaw_per_radian * turn_rad + noise.yaw_per_metre_rad * distance_m;
+    sigma = odometry_sigma(noise, T_from_to);
   }
-  return Eigen::Vector3d(1.0 / (sigma_m * sigma_m), 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_rad * sigma_rad))
-      .asDiagonal();
+  return sigma.information().asDiagonal();
 }
 
 }  // namespace swiftlet
