@@ -200,8 +200,8 @@ int run(const Options& options) {
   const Result<std::unique_ptr<SampleSource>> source =
       open_input(options, *config, *recorder ? &(*recorder)->sink() : nullptr);
   if (!source) return refuse(source.error().message);
-  const Result<std::unique_ptr<LcmPublisher>> publisher =
-      LcmPublisher::open(options.lcm_url, config->publish.channel_prefix, new_map_id());
+  const Result<std::unique_ptr<Publisher>> publisher =
+      open_lcm_publisher(options.lcm_url, config->publish.channel_prefix, new_map_id());
   if (!publisher) return refuse(publisher.error().message);
 
   SteadyClock clock;

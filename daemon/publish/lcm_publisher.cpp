@@ -167,101 +167,97 @@ std::int8_t state_code(DaemonState state) {
   return status_t::STATE_FINISHED;
 }
 
-}  // namespace
+class LcmPublisher final : public Publisher {
+ public:
+  LcmPublisher(std::unique_ptr<LcmTransport> transport, const std::string& prefix, std::int64_t map_id)
+      : lcm_(std::move(transport)),
+        map_id_(map_id),
+        pose_map_(prefix + "POSE"),
+        pose_local_(prefix + "POSE_LOCAL"),
+        pose_odom_(prefix + "POSE_ODOM"),
+        pose2d_map_(prefix + "POSE_2D"),
+        pose2d_odom_(prefix + "POSE_ODOM_2D"),
+        map_info_(prefix + "MAP_INFO"),
+        map_tile_(prefix + "MAP_TILE"),
+        landmarks_(prefix + "LANDMARKS"),
+        loop_closure_(prefix + "LOOP_CLOSURE"),
+        status_(prefix + "STATUS") {}
 
-struct LcmPublisher::State {
-  State(std::unique_ptr<LcmTransport> transport, const std::string& prefix, std::int64_t id)
-      : lcm(std::move(transport)),
-        map_id(id),
-        pose_map(prefix + "POSE"),
-        pose_local(prefix + "POSE_LOCAL"),
-        pose_odom(prefix + "POSE_ODOM"),
-        pose2d_map(prefix + "POSE_2D"),
-        pose2d_odom(prefix + "POSE_ODOM_2D"),
-        map_info(prefix + "MAP_INFO"),
-        map_tile(prefix + "MAP_TILE"),
-        landmarks(prefix + "LANDMARKS"),
-        loop_closure(prefix + "LOOP_CLOSURE"),
-        status(prefix + "STATUS") {}
+  void publish_pose(const PoseUpdate& pose) override;
+  void publish_tile(HostTime now, const MapTile& tile, double resolution_m) override;
+  void publish_map(HostTime now, const MapSummary& map) override;
+  void publish_walls(HostTime now, std::span<const WallInMap> walls) override;
+  void publish_closure(HostTime now, const ClosureUpdate& update) override;
+  void publish_status(HostTime now, const DaemonStatus& status) override;
 
-  std::unique_ptr<LcmTransport> lcm;
-  std::int64_t map_id;
-  const std::string pose_map, pose_local, pose_odom, pose2d_map, pose2d_odom, map_info, map_tile, landmarks,
-      loop_closure, status;
-  std::uint64_t failures = 0;
-
-  // Kept from message to message for their storage.
-  map_tile_t tile_message;
-  landmarks_t landmarks_message;
-  status_t status_message;
-  std::array<std::uint8_t, kMaxMessageBytes> buffer;
-
+ private:
   template <typename Message>
   void send(const std::string& channel, const Message& message) {
-    const std::size_t room =
-        kMaxMessageBytes - channel.size() - 1;  // the datagram also holds the channel's name
-    const int bytes = message.encode(buffer.data(), 0, static_cast<int>(room));
+    // The datagram also holds the channel's name.
+    const std::size_t room = kMaxLcmMessageBytes - channel.size() - 1;
+    const int bytes = message.encode(buffer_.data(), 0, static_cast<int>(room));
     SWIFTLET_CHECK(bytes > 0, "a message fits one datagram by construction");
-    if (lcm->publish(channel, std::span(buffer).first(static_cast<std::size_t>(bytes)))) return;
-    if (failures++ == 0) spdlog::error("LCM did not take a message on {}: {}", channel, std::strerror(errno));
+    if (lcm_->publish(channel, std::span(buffer_).first(static_cast<std::size_t>(bytes)))) return;
+    if (!std::exchange(has_failed_, true))
+      spdlog::error("LCM did not take a message on {}: {}", channel, std::strerror(errno));
   }
+  void send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose, const PoseUpdate& update);
 
-  void send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose, const PoseUpdate& update) {
-    pose_t message;
-    message.utime = to_utime(update.stamp);
-    message.map_id = map_id;
-    message.sequence = i32(update.sequence);
-    message.segment = i32(update.segment);
-    message.keyframe = i32(index_of(update.keyframe));
-    message.correction_version = i32(update.correction_version);
-    message.frame = frame;
-    message.x = pose.x_m();
-    message.y = pose.y_m();
-    message.yaw = pose.yaw_rad();
-    send(channel, message);
-  }
+  std::unique_ptr<LcmTransport> lcm_;
+  std::int64_t map_id_;
+  // Channels.
+  const std::string pose_map_, pose_local_, pose_odom_, pose2d_map_, pose2d_odom_, map_info_, map_tile_,
+      landmarks_, loop_closure_, status_;
+  // Kept from message to message for their storage.
+  map_tile_t tile_message_;
+  landmarks_t landmarks_message_;
+  status_t status_message_;
+  std::array<std::uint8_t, kMaxLcmMessageBytes> buffer_;
+  bool has_failed_ = false;
 };
 
-Result<std::unique_ptr<LcmPublisher>> LcmPublisher::open(const std::string& url,
-                                                         const std::string& channel_prefix,
-                                                         std::int64_t map_id) {
-  Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
-  if (!transport) return transport.error();
-  auto state = std::make_unique<State>(std::move(transport).value(), channel_prefix, map_id);
-  return std::unique_ptr<LcmPublisher>(new LcmPublisher(std::move(state)));
+void LcmPublisher::send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose,
+                             const PoseUpdate& update) {
+  pose_t message;
+  message.utime = to_utime(update.stamp);
+  message.map_id = map_id_;
+  message.sequence = i32(update.sequence);
+  message.segment = i32(update.segment);
+  message.keyframe = i32(index_of(update.keyframe));
+  message.correction_version = i32(update.correction_version);
+  message.frame = frame;
+  message.x = pose.x_m();
+  message.y = pose.y_m();
+  message.yaw = pose.yaw_rad();
+  send(channel, message);
 }
-
-LcmPublisher::LcmPublisher(std::unique_ptr<State> state) : state_(std::move(state)) {}
-LcmPublisher::~LcmPublisher() = default;
-
-std::uint64_t LcmPublisher::failures() const { return state_->failures; }
 
 void LcmPublisher::publish_pose(const PoseUpdate& pose) {
   const std::int64_t utime = to_utime(pose.stamp);
-  state_->send_pose(state_->pose_map, pose_t::FRAME_MAP, pose.T_map_body, pose);
-  state_->send_pose(state_->pose_local, pose_t::FRAME_LOCAL, pose.T_local_body, pose);
-  state_->send_pose(state_->pose_odom, pose_t::FRAME_ODOM, pose.T_odom_body, pose);
-  state_->send(state_->pose2d_map, pose2d_message(utime, pose.T_map_body));
-  state_->send(state_->pose2d_odom, pose2d_message(utime, pose.T_odom_body));
+  send_pose(pose_map_, pose_t::FRAME_MAP, pose.T_map_body, pose);
+  send_pose(pose_local_, pose_t::FRAME_LOCAL, pose.T_local_body, pose);
+  send_pose(pose_odom_, pose_t::FRAME_ODOM, pose.T_odom_body, pose);
+  send(pose2d_map_, pose2d_message(utime, pose.T_map_body));
+  send(pose2d_odom_, pose2d_message(utime, pose.T_odom_body));
 }
 
 void LcmPublisher::publish_tile(HostTime now, const MapTile& tile, double resolution_m) {
-  map_tile_t& message = state_->tile_message;
+  map_tile_t& message = tile_message_;
   message.utime = to_utime(now);
-  message.map_id = state_->map_id;
+  message.map_id = map_id_;
   message.tile_x = tile.index.x;
   message.tile_y = tile.index.y;
   message.version = i32(tile.version);
   message.resolution = resolution_m;
   static_assert(sizeof(message.occupancy_percent) == sizeof(tile.occupancy_percent));
   std::memcpy(message.occupancy_percent, tile.occupancy_percent.data(), sizeof(message.occupancy_percent));
-  state_->send(state_->map_tile, message);
+  send(map_tile_, message);
 }
 
 void LcmPublisher::publish_map(HostTime now, const MapSummary& map) {
   map_info_t message;
   message.utime = to_utime(now);
-  message.map_id = state_->map_id;
+  message.map_id = map_id_;
   message.resolution = map.resolution_m;
   message.tile_cells = kTileCells;
   message.tile_count = i32(map.tiles);
@@ -270,16 +266,16 @@ void LcmPublisher::publish_map(HostTime now, const MapSummary& map) {
   message.tile_min[1] = map.lowest.y;
   message.tile_max[0] = map.highest.x;
   message.tile_max[1] = map.highest.y;
-  state_->send(state_->map_info, message);
+  send(map_info_, message);
 }
 
 void LcmPublisher::publish_walls(HostTime now, std::span<const WallInMap> walls) {
-  landmarks_t& message = state_->landmarks_message;
+  landmarks_t& message = landmarks_message_;
   message.utime = to_utime(now);
-  message.map_id = state_->map_id;
+  message.map_id = map_id_;
   message.total = i32(walls.size());
   std::size_t first = 0;
-  do {  // no walls are said, too
+  do {  // also where there are none
     const auto part = walls.subspan(first, std::min(kMaxWallsPerMessage, walls.size() - first));
     message.first = i32(first);
     message.count = i32(part.size());
@@ -289,7 +285,7 @@ void LcmPublisher::publish_walls(HostTime now, std::span<const WallInMap> walls)
       copy_point(part[i].start_map, message.landmarks[i].start);
       copy_point(part[i].end_map, message.landmarks[i].end);
     }
-    state_->send(state_->landmarks, message);
+    send(landmarks_, message);
     first += part.size();
   } while (first < walls.size());
 }
@@ -298,7 +294,7 @@ void LcmPublisher::publish_closure(HostTime now, const ClosureUpdate& update) {
   const LoopClosure& closure = update.closure;
   loop_closure_t message;
   message.utime = to_utime(now);
-  message.map_id = state_->map_id;
+  message.map_id = map_id_;
   message.index = i32(closure.number);
   message.from_keyframe = i32(index_of(closure.from));
   message.to_keyframe = i32(index_of(closure.to));
@@ -313,13 +309,13 @@ void LcmPublisher::publish_closure(HostTime now, const ClosureUpdate& update) {
   message.dropped = static_cast<std::int8_t>(closure.dropped ? 1 : 0);
   copy_point(update.from_map, message.from_map);
   copy_point(update.to_map, message.to_map);
-  state_->send(state_->loop_closure, message);
+  send(loop_closure_, message);
 }
 
 void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
-  status_t& message = state_->status_message;
+  status_t& message = status_message_;
   message.utime = to_utime(now);
-  message.map_id = state_->map_id;
+  message.map_id = map_id_;
   message.state = state_code(status.state);
   message.sample_rate = status.sample_rate_hz;
   fill_input(status.input, message);
@@ -328,7 +324,18 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
   fill_queues(status.queues, message);
   fill_stages(status.stages, message);
   message.missed_deadlines = i64(status.missed_deadlines);
-  state_->send(state_->status, message);
+  send(status_, message);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
+                                                      const std::string& channel_prefix,
+                                                      std::int64_t map_id) {
+  Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
+  if (!transport) return transport.error();
+  return std::unique_ptr<Publisher>(
+      std::make_unique<LcmPublisher>(std::move(transport).value(), channel_prefix, map_id));
 }
 
 }  // namespace swiftlet

@@ -19,8 +19,8 @@ namespace swiftlet {
 struct MapSummary {
   double resolution_m = 0.0;
   std::uint32_t tiles = 0;
-  std::uint64_t version_sum =
-      0;               ///< over all tiles: equal to a consumer's own sum when it has the newest of each
+  /// Over all tiles: equal to a consumer's own sum when it has the newest of each.
+  std::uint64_t version_sum = 0;
   TileIndex lowest{};  ///< corners of the tiles' bounding box; both (0, 0) while there are none
   TileIndex highest{};
 };
@@ -39,7 +39,7 @@ struct LinkRates {
   double received_hz = 0.0;  ///< packets with content
 };
 
-/// What a status message says.
+/// The content of a status message.
 struct DaemonStatus {
   DaemonState state = DaemonState::kRunning;
   double sample_rate_hz = 0.0;  ///< samples published per second of the machine's time since the last status
@@ -53,8 +53,9 @@ struct DaemonStatus {
   MapSummary map;
 };
 
-/// Where the daemon's knowledge goes. `now` names the newest sample behind a message: Unix time in the data's
-/// own time line, so that a replay at any rate says the same. One thread at a time (the publisher's).
+/// Publishes what the daemon estimates. `now` is the stamp of the newest sample behind a message: Unix time
+/// in the data's own time line, so that a replay at any rate publishes the same. What a publisher does not
+/// override it does not publish. One thread at a time (the publisher's).
 class Publisher {
  public:
   Publisher() = default;
@@ -62,13 +63,13 @@ class Publisher {
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
-  virtual void publish_pose(const PoseUpdate& pose) = 0;
-  virtual void publish_tile(HostTime now, const MapTile& tile, double resolution_m) = 0;
-  virtual void publish_map(HostTime now, const MapSummary& map) = 0;
+  virtual void publish_pose(const PoseUpdate& /*pose*/) {}
+  virtual void publish_tile(HostTime /*now*/, const MapTile& /*tile*/, double /*resolution_m*/) {}
+  virtual void publish_map(HostTime /*now*/, const MapSummary& /*map*/) {}
   /// All walls, in the order of their ids.
-  virtual void publish_walls(HostTime now, std::span<const WallInMap> walls) = 0;
-  virtual void publish_closure(HostTime now, const ClosureUpdate& closure) = 0;
-  virtual void publish_status(HostTime now, const DaemonStatus& status) = 0;
+  virtual void publish_walls(HostTime /*now*/, std::span<const WallInMap> /*walls*/) {}
+  virtual void publish_closure(HostTime /*now*/, const ClosureUpdate& /*closure*/) {}
+  virtual void publish_status(HostTime /*now*/, const DaemonStatus& /*status*/) {}
 };
 
 }  // namespace swiftlet
