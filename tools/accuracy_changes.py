@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""What changed copies of the logs show: whether an error is that of the method or luck with one log."""
+"""The errors on changed copies of the logs: they distinguish the method's error from luck with one log."""
 
 import accuracy_runs as runs
 import benchmark_page as page
 
-BREAK_OUT = 1.5  # times the error on the log as it is
+BREAK_OUT = 1.5  # times the error on the unchanged log
 
 
 def columns(get):
-    """Logs and beams of which a run is made, each with its results by change (None: the log as it is)."""
+    """Logs and beams with at least one run, each with its results by change (None: the unchanged log)."""
     for log in runs.LASER_LOGS:
         for beams in runs.CHANGED_BEAMS:
             made = {change: get(runs.Run(log, beams=beams, change=change)) for change in (None, *runs.CHANGES)}
@@ -23,7 +23,7 @@ def error_m(result):
 
 
 def break_outs(made):
-    """The changes whose error stands out from that of the log as it is."""
+    """The changes whose error exceeds that of the unchanged log by far."""
     if None not in made:
         return []
     return [change for change in made if error_m(made[change]) > BREAK_OUT * error_m(made[None])]
@@ -44,15 +44,15 @@ def table(get):
 
 
 def text(get):
-    """The section below its heading, or nothing where no run is made."""
+    """The section below its heading; empty where there is no run."""
     there = list(columns(get))
     if not there:
         return ""
     copies = sum(len(made) - (None in made) for *_, made in there)
     out = sum(len(break_outs(made)) for *_, made in there)
-    return f"""Copies in which the robot goes the same ways in another manner, or its wheels err more. "Backwards" is the
-log played from its end: the robot drives in reverse. "Random turns" never happened, one every 20 m. All errors come on
-top of the log's own. Final, with refinement. Over {BREAK_OUT:g} times the error on the log as it is, **bold**: {out} of
-{copies}.
+    return f"""Copies in which the robot drives the same paths in another manner, or its wheels have larger errors.
+"Backwards" is the log played from its end: the robot drives in reverse. "Random turns" never happened, one every 20 m.
+All errors come on top of the log's own. Final trajectories, with refinement. **Bold**, over {BREAK_OUT:g} times the
+error on the unchanged log: {out} of {copies}.
 
 {table(get)}"""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""docs/results/accuracy.md: figures beside those of the paper's code and the limits, and what the sweeps show. `get`
-everywhere: the result of a run, None where it has not been made."""
+"""docs/results/accuracy.md: figures beside those of the paper's code and the limits, and the sweeps. `get` everywhere:
+the result of a run, None where there is none."""
 
 import textwrap
 
@@ -11,7 +11,7 @@ import accuracy_sweeps as sweeps
 import benchmark_page as page
 
 # Mean error of translation (m) and rotation (deg) of the paper's code on two such cores, with its own settings for
-# each log; of Killian what the paper says, for there it depends on rounding (0.16 to 1.43 m measured).
+# each log; of Killian the paper's figure, because there it depends on rounding (0.16 to 1.43 m measured).
 PAPER = {("ACES", 11): (0.0454, 1.131), ("ACES", 4): (0.0440, 1.013), ("Intel", 11): (0.0901, 2.363),
          ("Intel", 4): (0.1193, 2.623), ("Killian", 11): (0.0718, 2.065)}
 REFINED_LIMITS = {("ACES", 11): (0.036, 0.50), ("ACES", 4): (0.037, 0.52), ("Intel", 11): (0.047, 1.6),
@@ -19,7 +19,7 @@ REFINED_LIMITS = {("ACES", 11): (0.036, 0.50), ("ACES", 4): (0.037, 0.52), ("Int
 CELLS = {"Olsson Hall": (2398, 1800), "Rice Hall": (2015, 1720)}  # 0.2 m: the paper's code, limit
 NONE = "–"
 WIDTH = 120  # of a line of text
-NOT_MADE = "No run of this part has been made with this build."
+NOT_MADE = "There is no run of this part with this build."
 
 
 def limits_of(run):
@@ -33,12 +33,12 @@ def relation_row(run, result):
 
 
 def made(part, get):
-    """The runs of a part that have been made, with their results."""
+    """The existing runs of a part, with their results."""
     return [(run, result) for run in runs.PARTS[part] if (result := get(run)) is not None]
 
 
 def rows_of(get):
-    """What there is of the first part: rows of laser logs, flights and simulated flights."""
+    """The existing results of the first part: rows of laser logs, flights and simulated flights."""
     there = made("table", get)
     return {"laser": [relation_row(run, result) for run, result in there if run.log in runs.LASER_LOGS],
             "flights": [(run, result) for run, result in there if run.log in runs.FLIGHTS],
@@ -127,7 +127,7 @@ def bands_text(rows):
         return ""
     return f"""### By the time that relations span
 
-Means of translation, m / rotation, deg. Under 3 s is mostly the odometry's error, over 100 s that of loop closures.
+Means of translation, m / rotation, deg. Under 3 s it is mostly the odometry's error, over 100 s that of loop closures.
 
 {band_table(rows)}
 """
@@ -188,7 +188,7 @@ def bullets(lines):
 def live_note(rows):
     judged = [row["result"]["live"] for row in rows["laser"]] + [result["live"] for _, result in rows["flights"]]
     if any(one is None for one in judged):
-        return f"\nWhere a live figure is {NONE}, the program wrote no `live.tum`.\n"
+        return f"\nA live figure is {NONE} where the program wrote no `live.tum`.\n"
     return ""
 
 
@@ -214,9 +214,9 @@ def times_text(there):
         return f"## Processing times (Fig. 9)\n\n{NOT_MADE}\n"
     return f"""## Processing times (Fig. 9)
 
-Times of single calls in ms, at 11 beams with refinement. The paper's figure is a histogram; `report.json` keeps
-percentiles, which are drawn instead. A call of the backend takes one scan and mostly has no keyframe; the final pass
-with its refinement is one call at the end. [speed](speed.md) has whole runs, measured one at a time.
+Times of single calls in ms, at 11 beams with refinement. The paper's figure is a histogram; here percentiles from
+`report.json` are drawn instead. A call of the backend takes one scan, mostly without a keyframe. The final pass with
+its refinement is one call at the end. [speed](speed.md) has whole runs, measured one at a time.
 
 ![Processing times](accuracy/times.svg)
 
@@ -225,13 +225,13 @@ with its refinement is one call at the end. [speed](speed.md) has whole runs, me
 
 
 def document(results, circumstances):
-    """The page: all runs that have been made, and which data the others lack."""
+    """The page: all existing runs, and the data that the others lack."""
     get = results.get
     rows = rows_of(get)
     made_or_not = [(run, get(run)) for run in runs.runs_of(runs.PARTS)]
     at_once = max((result["at_once"] for _, result in made_or_not if result is not None), default=1)
     missing = sorted({file for run, result in made_or_not if result is None for file in run.log.missing()})
-    left_out = "".join(f"\nLeft out, for it was not there: `{file}`.\n" for file in missing)
+    left_out = "".join(f"\nLeft out, because it was missing: `{file}`.\n" for file in missing)
     lines = missed(rows)
     out, points = sweeps.break_out_count(get)
     swept = "\n".join(sweep_text(sweep, get) for sweep in sweeps.SWEEPS)
@@ -239,22 +239,21 @@ def document(results, circumstances):
 {results.program}..., at most {at_once} runs at once.
 {left_out}
 All runs have the default settings ([configuration](../configuration.md)), the same for every log and number of beams,
-save what a table names. Figures are means (± standard deviation) over the logs' relations, judged by `swiftlet eval`
-([evaluation](../evaluation.md)). "Final" is `trajectory.tum`; "live" are the poses at the moment at which they were
-published; "odometry" is what the vehicle itself believed. "Without refinement" is `refine = false`.
+except what a table names. Figures are means (± standard deviation) over the logs' relations by `swiftlet eval`
+([evaluation](../evaluation.md)). "Final" is `trajectory.tum`; "live" are the poses as published; "odometry" is the
+vehicle's own dead reckoning. "Without refinement" is `refine = false`.
 {live_note(rows)}
 Limits met: {limits_count(rows) - len(lines)} of {limits_count(rows)}. Missed:
 
 {bullets(lines)}
 
-Points of the sweeps that break out of their curves, with over {sweeps.BREAK_OUT:g} times the median error: {out} of \
-{points}.
+Outliers of the sweeps, with over {sweeps.BREAK_OUT:g} times the median error of their curve: {out} of {points} points.
 Axes are logarithmic where such a point would flatten the rest.
 
-## The paper's table, and past it
+## The paper's table, and beyond
 
-"Paper's code" was measured on two cores such as these with its own settings for each log, and is the limit without
-refinement. For Killian it is the paper's figure: by rounding alone its code gives 0.16 to 1.43 m.
+"Paper's code" was measured on two such cores with its own settings for each log, and is the limit without refinement.
+For Killian it is the paper's figure: by rounding alone its code gives 0.16 to 1.43 m.
 
 {tables(rows) or NOT_MADE}
 

@@ -51,7 +51,7 @@ def draw_curves(axes, sweep, get, log, kind):
 
 
 def scale_errors(axes):
-    """From 0 upwards; logarithmic where a break-out would flatten all else."""
+    """From 0 upwards; logarithmic where an outlier would flatten the rest."""
     errors = [error for line in axes.get_lines() for error in line.get_ydata()]
     if errors and max(errors) > BREAK_OUT * min(errors):
         axes.set_yscale("log")
@@ -80,7 +80,7 @@ def draw_sweep(sweep, get, file):
 
 
 def draw_stage(axes, stage, there, theirs_max_ms):
-    """Bars of percentiles for each log, and what the paper's code took at most."""
+    """Bars of percentiles for each log, and the maximum of the paper's code."""
     for i, (name, key, color) in enumerate(PERCENTILES):
         heights = [max(result["report"]["stage_times"][stage][key], 1e-4) for _, result in there]
         bars = axes.bar([x + 0.25 * (i - 1) for x in range(len(there))], heights, 0.23, color=color, label=name)
@@ -104,8 +104,8 @@ def draw_times(there, file):
 
 
 def draw_all(get, folder):
-    """One file for each part but the table, as far as its runs are made. `get`: the result of a run, None where it has
-    not been made."""
+    """One file for each part but the table, from the existing runs. `get`: the result of a run, None where there is
+    none."""
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "swiftlet", "font.size": 9,
                                 "axes.spines.top": False, "axes.spines.right": False})
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Runs of `swiftlet map` judged by `swiftlet eval`: which there are, and what came of them, kept for each build."""
+"""Runs of `swiftlet map` evaluated by `swiftlet eval`: the list, and their results, kept for each build."""
 
 import dataclasses
 import hashlib
@@ -40,18 +40,18 @@ class Log:
     name: str
     source: str  # file of the data sets, or URI
     reference: str | None  # file of the data sets; None: the true path that the run itself writes
-    lines_ahead: int = 0  # by which the poses in its scans run ahead of the ranges
+    lines_ahead: int = 0  # by which the poses in its scans precede the ranges
 
     def files(self):
         """Of the data sets."""
         return [] if self.reference is None else sorted({self.source, self.reference})
 
     def missing(self):
-        """Those that are not there."""
+        """Those that do not exist."""
         return [file for file in self.files() if not (DATASETS / file).exists()]
 
     def stand(self):
-        """Changes when its files do."""
+        """Changes if its files change."""
         stats = [(DATASETS / file).stat() for file in self.files() if (DATASETS / file).exists()]
         return " ".join(f"{stat.st_size} {stat.st_mtime_ns}" for stat in stats)
 
@@ -77,7 +77,7 @@ class Run:
     change: Change | None = None  # laser logs only
 
     def settings(self):
-        """What differs from the defaults: keys of the configuration, by section."""
+        """The differences from the defaults: keys of the configuration, by section."""
         backend = {} if self.refine else {"refine": False}
         if self.kernel is not None:
             backend["max_kernel_cells"] = self.kernel
@@ -97,7 +97,7 @@ def both(**choices):
 
 
 def kernel_run(kernel, **choices):
-    """The default is a run that there is already."""
+    """The default kernel is a run of another part."""
     return Run(kernel=None if kernel == 3 else kernel, **choices)
 
 
@@ -127,7 +127,7 @@ def configuration(settings):
 
 
 def judge(swiftlet, trajectory, reference):
-    """What `swiftlet eval` finds, as JSON has it; None where the run wrote no such trajectory."""
+    """The JSON figures of `swiftlet eval`; None where the run wrote no such trajectory."""
     if not trajectory.exists():
         return None
     said = page.run(str(swiftlet), "eval", str(trajectory), str(reference), "--json", "-")
@@ -136,8 +136,8 @@ def judge(swiftlet, trajectory, reference):
 
 
 def changed_copy(run, target):
-    """Writes it; returns what leads a trajectory mapped from it back to the log, where it stands. Raises OSError,
-    EOFError or ValueError where the log cannot be read."""
+    """Writes it. Returns a function that transforms a trajectory mapped from it back to that of the log, in place.
+    Raises OSError, EOFError or ValueError where the log cannot be read."""
     recording = changed_log.read(DATASETS / run.log.source, run.log.lines_ahead)
     changed_log.write(recording, run.change, target)
 
@@ -148,7 +148,7 @@ def changed_copy(run, target):
 
 
 def execute(run, swiftlet):
-    """Maps and judges. Raises OSError, EOFError, ValueError or subprocess.CalledProcessError."""
+    """Maps and evaluates. Raises OSError, EOFError, ValueError or subprocess.CalledProcessError."""
     with tempfile.TemporaryDirectory() as name:
         output = Path(name, "out")
         config = Path(name, "settings.toml")
@@ -168,7 +168,7 @@ def execute(run, swiftlet):
 
 
 class Results:
-    """What came of the runs of one build of the program, one file for each."""
+    """The results of the runs of one build of the program, one file for each."""
 
     def __init__(self, folder, swiftlet):
         self.folder = folder
@@ -176,15 +176,15 @@ class Results:
         self.program = hashlib.sha256(Path(swiftlet).read_bytes()).hexdigest()[:12]
 
     def file(self, run):
-        """Another one where anything is different that decides the result: the program, the run, its data or, for a
-        changed log, what changes it."""
+        """Its name depends on everything that decides the result: the program, the run, its data and, for a changed
+        log, the code that changes it."""
         changer = "" if run.change is None else Path(changed_log.__file__).read_text(encoding="utf-8")
         made_of = "\n".join([self.program, repr(run), run.log.stand(), changer])
         name = re.sub("[^A-Za-z0-9]+", "-", run.title())
         return self.folder / f"{name}_{hashlib.sha256(made_of.encode()).hexdigest()[:12]}.json"
 
     def get(self, run):
-        """None where the run has not been made."""
+        """None where there is no result."""
         try:
             return json.loads(self.file(run).read_text(encoding="utf-8"))
         except FileNotFoundError:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""What the paper's sweeps show here: errors over one setting, whether they have the paper's shape, and, where not,
-which relations make the difference."""
+"""The paper's sweeps: errors over one setting, whether the curve has the paper's shape, and, where not, which relations
+make the difference."""
 
 import dataclasses
 import statistics
@@ -10,13 +10,13 @@ from collections.abc import Callable
 import accuracy_runs as runs
 import benchmark_page as page
 
-FLAT = 0.05  # a curve whose best and worst differ by less than this share says nothing about the setting
-BREAK_OUT = 1.5  # times the median: loops were missed or wrong, which says nothing about the rest of the curve
+FLAT = 0.05  # share by which best and worst of a curve must differ to show an effect of the setting
+BREAK_OUT = 1.5  # times the median: an outlier by missed or wrong loops, irrelevant to the rest of the curve
 BANDS = [("under 3 s", "under_3_s"), ("of 3 to 100 s", "from_3_to_100_s"), ("over 100 s", "over_100_s")]
 
 
 def falls_ever_less(errors):
-    """Fig. 6: more beams help, the first ones most. Errors by setting -> what contradicts it, None if nothing does."""
+    """Fig. 6: more beams help, the first ones most. Errors by setting -> the contradiction, None if there is none."""
     first, last, middle = min(errors), max(errors), 11 if 11 in errors else sorted(errors)[len(errors) // 2]
     worse = [value for value in errors if first < value < last and errors[value] > errors[first]]
     if worse:
@@ -29,12 +29,12 @@ def falls_ever_less(errors):
 
 
 def least_at_three(errors):
-    """Fig. 4: the 3x3 kernel is best, and wider ones are worse and worse."""
+    """Fig. 4: the 3x3 kernel is best, and errors grow with the width beyond it."""
     best = min(errors, key=errors.get)
     if best != 3:
         return f"least at {best}"
     beyond = [errors[width] for width in errors if width >= 3]
-    return None if beyond == sorted(beyond) else "not worse and worse beyond 3"
+    return None if beyond == sorted(beyond) else "not growing beyond 3"
 
 
 def sweet_spot(errors):
@@ -53,7 +53,7 @@ class Sweep:
     run: Callable  # log, beams, value, refine -> Run
     contradiction: Callable  # one of those above
     introduction: str
-    is_steep: bool = False  # in the paper, too: break-outs belong to its shape
+    is_steep: bool = False  # in the paper, too: outliers belong to its shape
 
 
 SWEEPS = [
@@ -63,7 +63,7 @@ SWEEPS = [
     Sweep("kernel", "Max kernel (Fig. 4)", "width of the max kernel, cells", runs.KERNELS, [4, 11],
           lambda log, beams, value, refine: runs.kernel_run(value, log=log, beams=beams, refine=refine),
           least_at_three,
-          "`max_kernel_cells`; 1 is no kernel. In the paper, on Intel with 4 beams, 3x3 is best, and wider are worse.",
+          "`max_kernel_cells`; 1 is no kernel. In the paper, on Intel with 4 beams, 3x3 is best, wider ones are worse.",
           is_steep=True),
     Sweep("multiscan", "Multiscan size (Fig. 5)", "multiscan size, points", runs.MULTISCANS, [4, 11],
           lambda log, beams, value, refine: runs.Run(log, beams=beams, refine=refine, multiscan=value), sweet_spot,
@@ -73,8 +73,8 @@ SWEEPS = [
 
 
 def curves(sweep, get):
-    """Each curve of the sweep of which a run is made: log, beams, refine, results by setting. `get`: the result of a
-    run, None where it has not been made."""
+    """Each curve of the sweep that has a run: log, beams, refine, results by setting. `get`: the result of a run, None
+    where there is none."""
     for log in runs.SWEPT_LOGS:
         for beams in sweep.beams:
             for refine in (False, True):
@@ -105,7 +105,7 @@ def table(sweep, get):
 
 
 def shares_of_difference(worse, better):
-    """Judged relations of two runs -> which share of the difference of their mean translations each band makes."""
+    """Evaluated relations of two runs -> share of each band in the difference of their mean translations."""
     def part(judged, key):
         band = judged[key]
         return band["count"] * band["translation_m"]["mean"] / judged["all"]["count"] if band["count"] else 0.0
@@ -115,7 +115,7 @@ def shares_of_difference(worse, better):
 
 
 def explanation(results, errors):
-    """Which relations make most of the difference between the worst and the best setting, and what closures did."""
+    """The band of relations with most of the difference between the worst and the best setting, and their closures."""
     best, worst = min(errors, key=errors.get), max(errors, key=errors.get)
     shares = shares_of_difference(results[worst]["final"], results[best]["final"])
     band = max(shares, key=shares.get)
@@ -129,11 +129,11 @@ def explanation(results, errors):
 
 
 def shape(sweep, results):
-    """Says whether a curve is the paper's."""
+    """Whether a curve has the paper's shape."""
     errors = errors_of(results)
     spread = max(errors.values()) / min(errors.values()) - 1
     if spread < FLAT:
-        return f"flat; worst over best +{spread:.1%}, so the setting hardly matters."
+        return f"flat; worst over best +{spread:.1%}, so the setting has hardly any effect."
     contradiction = sweep.contradiction(errors)
     if contradiction is None:
         return f"the paper's shape; worst over best +{spread:.0%}."
@@ -141,7 +141,7 @@ def shape(sweep, results):
 
 
 def break_outs(errors):
-    """The settings whose error stands out from the others'."""
+    """The settings whose error is an outlier."""
     return [value for value, error in errors.items() if error > BREAK_OUT * statistics.median_low(errors.values())]
 
 
@@ -149,13 +149,13 @@ def verdict(sweep, results):
     """A few sentences on one curve of translation."""
     errors = errors_of(results)
     if len(errors) < len(sweep.values):
-        return "not all runs are made."
+        return "not all runs exist."
     out = break_outs(errors)
     if not out:
         return shape(sweep, results)
-    named = f"**breaks out** at {', '.join(f'{value} ({errors[value]:.3g} m)' for value in out)}"
+    named = f"**outlier** at {', '.join(f'{value} ({errors[value]:.3g} m)' for value in out)}"
     if sweep.is_steep and sweep.contradiction(errors) is None:
-        return f"the paper's shape, but {named}. {explanation(results, errors)}"
+        return f"the paper's shape, with an {named}. {explanation(results, errors)}"
     rest = {value: result for value, result in results.items() if value not in out}
     return f"{named}. {explanation(results, errors)} The others: {shape(sweep, rest)}"
 
@@ -166,7 +166,7 @@ def verdicts(sweep, get):
 
 
 def break_out_count(get):
-    """How many points of all curves that are complete stand out, and how many points these have."""
+    """The number of outliers on all complete curves, and the number of their points."""
     complete = [errors_of(results) for sweep in SWEEPS for *_, results in curves(sweep, get)
                 if len(results) == len(sweep.values)]
     return sum(len(break_outs(errors)) for errors in complete), sum(len(errors) for errors in complete)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""What the tools/benchmark-* have in common: the release build, Google Benchmark's programs, and the page of results
-with its circumstances."""
+"""Shared by the tools/benchmark-*: the release build, programs of Google Benchmark, and the page of results with date,
+commit and machine."""
 
 import datetime
 import json
@@ -16,7 +16,7 @@ RESULTS = ROOT / "docs/results"
 
 
 def run(*command):
-    """What the command says on stdout. Raises OSError or subprocess.CalledProcessError."""
+    """The command's stdout. Raises OSError or subprocess.CalledProcessError."""
     return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
@@ -27,13 +27,13 @@ def build(*targets):
 
 
 def google_benchmarks(program):
-    """The rows that a program of tests/benchmarks reports, as Google Benchmark has them. Raises as run() does."""
+    """The rows that a program of tests/benchmarks reports by Google Benchmark. Raises as run() does."""
     return json.loads(run(str(BUILD / "tests/benchmarks" / program), "--benchmark_format=json"))["benchmarks"]
 
 
 def circumstances():
-    """Date, commit and machine. To be asked before the build: what is built is what stands there, and the load is
-    not yet ours. Raises as run() does."""
+    """Date, commit and machine. Call before the build: the commit is the one that is built, and the load is not yet
+    that of the build. Raises as run() does."""
     return {"date": datetime.date.today().isoformat(), "commit": _commit(), "machine": _machine()}
 
 
@@ -51,7 +51,7 @@ def _machine():
 
 
 def head(title, tool, report):
-    """How a page begins."""
+    """The beginning of a page."""
     return (f"# {title}\n\nWritten by `tools/{tool} --record` on {report['date']}, commit {report['commit']}.\n"
             f"Machine: {report['machine']}.\n")
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""docs/results/calibration.md: what calibration found beside what is known, and what maps gain by it."""
+"""docs/results/calibration.md: estimates of the calibration beside the truth, and what maps gain from them."""
 
 import dataclasses
 import math
@@ -59,7 +59,7 @@ def flights_table(flights):
 
 
 def agreement(flights):
-    """How figures that were found compare with the true ones."""
+    """Agreement of estimated and true figures."""
     off = [(abs(known["found"] - known["true"]) / known["sigma"], figure.heading.split(",")[0], flight["seed"])
            for flight in flights for figure in KNOWN
            if (known := of_setting(flight["figures"], figure))["found"] is not None]
@@ -68,8 +68,8 @@ def agreement(flights):
     near = sum(sigmas <= TELLING_SIGMAS for sigmas, _, _ in off)
     sigmas, what, seed = max(off)
     return textwrap.fill(
-        f"Of {len(off)} figures found, {near} lie within {TELLING_SIGMAS:g} standard deviations of the true one; "
-        f"farthest off is the {what} of seed {seed}, by {sigmas:.1f}.", WIDTH)
+        f"Of {len(off)} figures found, {near} lie within {TELLING_SIGMAS:g} standard deviations of the true one. "
+        f"Farthest off is the {what} of seed {seed}, by {sigmas:.1f}.", WIDTH)
 
 
 def offices_table(rows):
@@ -111,7 +111,7 @@ def gains_table(rows):
                                                         f"{1e3 * check['held_out_after_m']:.1f} mm"]
         return [row["input"], *held_out, *(judged_text(row[how]["final"]) for how in ("without", "with"))]
 
-    return page.table(["input", "held back:", "with the file:", "map:", "with the file:"], [cells(row) for row in rows])
+    return page.table(["input", "held-out:", "with the file:", "map:", "with the file:"], [cells(row) for row in rows])
 
 
 def wheels_text(rows):
@@ -125,7 +125,7 @@ def wheels_text(rows):
     if not there:
         return ""
     return f"""
-What relations that span less than {wheels_by_relations.LONGEST_S:g} s say of the same wheels, without any map:
+The same wheels by relations that span less than {wheels_by_relations.LONGEST_S:g} s, without any map:
 
 {page.table(["log", "relations:", "scale", "yaw, deg/m"], [cells(row) for row in there])}
 """
@@ -140,17 +140,17 @@ def ages_table(rows):
 
 
 def tables(report):
-    """All tables, as the program prints them and the page holds them."""
+    """All tables, for stdout and for the page."""
     logs = f"""
 ## Recorded inputs
 
-Bold: what matters and stands in the file. Learnt: what every run finds by itself.
+Bold: matters, and is in the file. Learnt: estimated in every run.
 
 {findings_table(report['logs'])}
 
-What a map gains by the file. "Held back": how far returns that took no part in the refinement lie off the walls, as
-`swiftlet calibrate` tells. "Map": mean errors by relations, or the distinct cells of 0.2 m that a flight's map covers,
-as `swiftlet eval` tells; cells shrink with the metre, too, so that they compare ages but not scales.
+What a map gains from the file. "Held-out": mean distance of held-out returns from the walls, by `swiftlet calibrate`.
+"Map": mean errors by relations, or the distinct cells of 0.2 m that a flight's map covers, by `swiftlet eval`. Cells
+shrink with the metre, too, so they compare ages but not scales.
 
 {gains_table(report['logs'])}
 {wheels_text(report['logs'])}
@@ -175,7 +175,7 @@ the scales of flow and gyro are off by up to 10 and 5 % in place of 0.8 and 1 % 
 
 {flights_table(report['others'])}
 
-## What simulated flights gain by the file
+## What simulated flights gain from the file
 
 RMSE of the path against the true one, of the flights with the usual sensors:
 
@@ -184,14 +184,14 @@ RMSE of the path against the true one, of the flights with the usual sensors:
 
 
 def document(report):
-    missing = f"\nLeft out, for want of the data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
+    missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
     return f"""{page.head("Calibration", "benchmark-calibration", report)}{missing}
-What `swiftlet calibrate` finds, with its standard deviation, and what is known otherwise. {NONE}: not observable.
-[calibration.md](../calibration.md) says what the figures are and what they teach.
+The estimates of `swiftlet calibrate`, with their standard deviations, beside what is known. {NONE}: not observable.
+[calibration.md](../calibration.md) describes the figures and the conclusions.
 
-True figures of simulated flights: the age is where the simulator's own rangers, without noise, fit the readings best
-along the true path, once for the whole flight and once for each eighth of it (least to greatest). A reading waits for
-the log packet that takes it along, hence it is older than when it was published. Scales and yaw are regressions of
+True figures of simulated flights: the age is that at which the simulator's own rangers, without noise, fit the readings
+best along the true path, once for the whole flight and once for each eighth of it (least to greatest). A reading waits
+for the log packet that carries it, so it is older than when it was published. Scales and yaw are regressions of
 measured steps on true ones. The program is `tests/benchmarks/calibration_flights.cpp`.
 
 {tables(report)}"""

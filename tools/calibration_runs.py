@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Runs of `swiftlet calibrate` and what is known of them otherwise: which there are, and what came of them."""
+"""Runs of `swiftlet calibrate` and the truth about them: the list, and their results."""
 
 import dataclasses
 import json
@@ -43,8 +43,7 @@ AGES_S = [0.0, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14]
 
 
 def said(*command):
-    """What the command says on stdout. Raises OSError, or subprocess.CalledProcessError with what it said in its
-    stderr."""
+    """The command's stdout. Raises OSError, or subprocess.CalledProcessError with the command's stderr."""
     return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
 
 
@@ -54,7 +53,7 @@ def fly(flight, program):
 
 
 def mapped(swiftlet, wanted, config, output):
-    """Live and final trajectory as the reference judges them. Raises as said() does, or ValueError."""
+    """Live and final trajectory, evaluated by the reference. Raises as said() does, or ValueError."""
     arguments = [*wanted.arguments(), *([] if config is None else ["--config", str(config)])]
     whole_runs.run(swiftlet, arguments, output)
     reference = output / "ground_truth.tum" if wanted.log.reference is None else (
@@ -64,8 +63,8 @@ def mapped(swiftlet, wanted, config, output):
 
 
 def calibrate(wanted, swiftlet, folder):
-    """What was found and in how many seconds, the maps without and with the file that was written, and what relations
-    say of the wheels. `folder`: is filled. Raises as mapped() does."""
+    """The findings and the seconds they took, the maps without and with the file written, and the wheels by relations.
+    `folder`: is filled. Raises as mapped() does."""
     found = folder / "found.toml"
     begun = time.monotonic()
     calibration = json.loads(said(swiftlet, "calibrate", *wanted.arguments(), "--json", "-o", found))
@@ -81,7 +80,7 @@ def calibrate(wanted, swiftlet, folder):
 
 
 def map_at(age_s, wanted, swiftlet, folder):
-    """The map with the ranges taken for so old. Otherwise as calibrate()."""
+    """The map with this age of the ranges. Otherwise as calibrate()."""
     config = folder / "age.toml"
     config.write_text(accuracy_runs.configuration({"sensor": {"range_age_s": age_s}}), encoding="utf-8")
     return mapped(swiftlet, wanted, config, folder / "out")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Copies of CARMEN logs in which the robot goes the same ways differently, or its wheels err more: what holds for one
-log by luck does not hold for all its copies. What is mapped from a copy is led back to the stamps and the sense of the
-log, whose relations then judge it."""
+"""Copies of CARMEN logs in which the robot drives the same paths differently, or its wheels have larger errors: what
+holds for one log by luck does not hold for all its copies. A trajectory mapped from a copy is transformed back to the
+stamps and the direction of the log, and evaluated by its relations."""
 
 import dataclasses
 import gzip
@@ -16,9 +16,9 @@ BETWEEN_RANDOM_TURNS_M = 20.0
 @dataclasses.dataclass(frozen=True)
 class Change:
     name: str
-    backwards: bool = False  # in time: the robot drives the whole way back, facing as it did
+    backwards: bool = False  # in time: the robot drives the whole path in reverse
     mirrored: bool = False  # left is right
-    turns: float = 1.0  # what dead reckoning makes of each turn of one
+    turns: float = 1.0  # measured by dead reckoning for each turn of one
     metres: float = 1.0
     drift_deg_per_m: float = 0.0  # forward; with the other sign when going back
     random_turns_deg: float = 0.0  # standard deviation of turns that did not happen
@@ -41,9 +41,9 @@ class Recording:
 
 
 def read(path, lines_ahead=0):
-    """A gzipped log. Like swiftlet, takes dead reckoning from the ODOM lines, or, where their stamps go back, from the
-    scans' own, which there runs ahead of the ranges by so many lines. Raises OSError or EOFError where the log cannot
-    be read, ValueError where it holds no scan."""
+    """Reads a gzipped log. Like swiftlet, takes dead reckoning from the ODOM lines or, where their stamps go back, from
+    the scans' own, which there precedes the ranges by `lines_ahead` lines. Raises OSError or EOFError where the log
+    cannot be read, ValueError where it holds no scan."""
     odometry, in_scans, scans = [], [], []
     with gzip.open(path, "rt", encoding="latin-1") as file:
         for line in file:
@@ -68,7 +68,7 @@ def wrapped(angle_rad):
 
 
 def turned_round(recording, change):
-    """Backwards and mirrored, where the change says so."""
+    """Backwards and mirrored, as the change has it."""
     def stamp(old):
         return recording.ends_s() - old if change.backwards else old
 
@@ -80,7 +80,7 @@ def turned_round(recording, change):
 
 
 def with_errors(poses, change):
-    """Dead reckoning over the same steps, with errors in each."""
+    """Dead reckoning over the same steps, with an error in each."""
     chance = random.Random(change.seed)
     (stamp, last), path_m = poses[0], 0.0
     x_m, y_m, yaw_rad = last
@@ -122,7 +122,7 @@ def write(recording, change, target):
 
 
 def lead_back(trajectory, recording, change, target):
-    """Writes a trajectory (TUM) that was mapped from the changed copy as one of the log."""
+    """Transforms a trajectory (TUM) mapped from the changed copy to one of the log, and writes it."""
     side = -1 if change.mirrored else 1
     rows = []
     for line in trajectory.read_text(encoding="utf-8").splitlines():

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Compares the sources with the plan in docs/architecture.md: who may include whom, which libraries appear in one source
-file only, what core must not use, that a name in the namespace is one type, and the two licence lines. Prints a line a
-fault; exit code 1 if there is any.
+"""Compares the sources with the plan in docs/architecture.md: who may include whom, which libraries appear in one
+source file only, what core must not use, that a name in the namespace is one type, and the two licence lines. Prints a
+line a fault; exit code 1 if there is any.
 
 Usage: check_includes.py [REPOSITORY]
 """
@@ -98,7 +98,7 @@ def check_source(path, text, root, users):
     for number, line in enumerate(lines, 1):
         code = line.split("//")[0]
         if path.startswith("core/") and ASKS_FOR_THE_TIME.search(code):
-            yield f"{path}:{number}: core cannot ask for the time, it is told"
+            yield f"{path}:{number}: core must not read a clock: time is a parameter"
         include = INCLUDE.match(line)
         if not include:
             continue

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Runs whose outputs tell two builds of swiftlet apart: which there are, and what a program makes of one."""
+"""Runs over which two builds of swiftlet are compared: the list, and the outputs of a program for one."""
 
 import dataclasses
 import hashlib
@@ -13,7 +13,7 @@ import accuracy_runs
 import benchmark_page as page
 from accuracy_runs import ACES, DATASETS, INTEL, KILLIAN, OLSSON, RICE
 
-DATA = "data/"  # where a run finds the data sets; relative, so that no output names a folder of this machine
+DATA = "data/"  # the data sets, seen from a run; relative, so that no output names a folder of this machine
 PLACES = {"swiftlet": ["tools/swiftlet", "swiftlet"], "swiftletd": ["daemon/swiftletd", "swiftletd"]}  # in a build
 
 
@@ -35,7 +35,7 @@ class Case:
         return [file for file in self.files() if not (DATASETS / file).exists()]
 
     def key(self):
-        """Changes with anything but the program that decides the outputs."""
+        """Depends on everything but the program that decides the outputs."""
         stats = [(DATASETS / file).stat() for file in self.files()]
         made_of = [repr(self), *(f"{stat.st_size} {stat.st_mtime_ns}" for stat in stats)]
         return hashlib.sha256("\n".join(made_of).encode()).hexdigest()[:12]
@@ -50,8 +50,8 @@ def flight(name, log, *options, **rest):
 
 
 def by_daemon(name, source):
-    """No sample is lost at any rate. Which correction a published pose had depends on timing, and so does its error
-    where the truth is known."""
+    """No sample is lost at any rate. Timing decides which correction a published pose has, and so its error where the
+    truth is known."""
     return Case(name, ("--input", source, "--rate", "1e6", "--lcm-url", "memq://", "--no-record", "-o", "out"),
                 program="swiftletd", not_compared=("live.tum",))
 
@@ -96,8 +96,8 @@ CASES = [
 
 
 def execute(case, program, folder):
-    """Runs it in `folder`: its files come to be in out/, exit code and last line of stderr in outcome.json.
-    Raises OSError."""
+    """Runs it in `folder`. Its files are in out/ then, exit code and last line of stderr in outcome.json. Raises
+    OSError."""
     (folder / "out").mkdir(parents=True)
     (folder / "data").symlink_to(DATASETS.resolve())
     settings = []
@@ -115,7 +115,7 @@ def execute(case, program, folder):
 
 
 def kept(case, program, folder):
-    """The folder below `folder` with what this program made of it, now or earlier. Raises OSError."""
+    """The folder below `folder` with this program's outputs, made now or earlier. Raises OSError."""
     digest = hashlib.sha256(program.read_bytes()).hexdigest()[:12]
     target = folder / digest / f"{case.name}_{case.key()}"
     if not target.exists():
@@ -131,14 +131,14 @@ def kept(case, program, folder):
 
 
 class Programs:
-    """Those of one build."""
+    """The programs of one build."""
 
     def __init__(self, swiftlet):
         """Raises FileNotFoundError."""
         self.swiftlet = swiftlet.resolve(strict=True)
 
     def get(self, name):
-        """None where the build has not made it."""
+        """None where the build lacks it."""
         if name == "swiftlet":
             return self.swiftlet
         beside = [folder / place for folder in self.swiftlet.parents[:2] for place in PLACES[name]]
@@ -146,7 +146,7 @@ class Programs:
 
 
 def built(commit, folder):
-    """swiftlet of a commit, checked out and built below `folder` where it has not been. Raises OSError or
+    """swiftlet of a commit, checked out and built below `folder` if it is not there. Raises OSError or
     subprocess.CalledProcessError."""
     checkout = folder / commit
     if not checkout.exists():

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Instructions by stage of mapping, taken from a profile of callgrind, and held against a baseline."""
+"""Instructions by stage of mapping, from a profile of callgrind, compared with a baseline."""
 
 import json
 import re
 
 OWN = "swiftlet::"
-# A stage is all calls of some functions with what these call. Each has a source file of its own between itself and its
-# caller, so that no compiler draws them together.
+# A stage is all calls of some functions, with what these call. Function and caller are in different source files, so no
+# compiler inlines one into the other.
 STAGES = {
     "decoding": ["LinkSampleSource::next()"],
     "frontend": ["Frontend::process("],
@@ -26,12 +26,12 @@ DEFAULT_TOLERANCE_PERCENT = 2.0
 
 
 class Unusable(Exception):
-    """Why a profile or a baseline says nothing, in one line."""
+    """Why a profile or a baseline cannot be used, in one line."""
 
 
 def inclusive_costs(profile):
-    """Cost by name of a function: of all calls of it, with what it calls. `profile`: lines as callgrind writes them,
-    one event."""
+    """Cost of all calls of a function with what it calls, by its name. `profile`: lines of callgrind's output for one
+    event."""
     names = {}
     costs = {}
     called = None
@@ -48,15 +48,15 @@ def inclusive_costs(profile):
 
 
 def counts_of(profile):
-    """Instructions by stage, part and in total. Raises Unusable where a function of a stage was never called."""
+    """Instructions by stage, by part and in total. Raises Unusable where a function of a stage was never called."""
     costs = {name: cost for name, cost in inclusive_costs(profile).items()
              if "{lambda" not in name and "[clone" not in name}  # inside what they are named after
 
     def count(stage, functions):
         found = [cost for start in functions for name, cost in costs.items() if name.startswith(OWN + start)]
         if len(found) != len(functions):
-            raise Unusable(f"{stage}: not every one of {', '.join(OWN + name for name in functions)} was called, or "
-                           f"there are several; tools/instruction_counts.py names the functions of each stage")
+            raise Unusable(f"{stage}: one of {', '.join(OWN + name for name in functions)} was not called, or is "
+                           f"ambiguous; tools/instruction_counts.py names the functions of each stage")
         return sum(found)
 
     counts = {stage: count(stage, functions) for stage, functions in {**STAGES, **PARTS}.items()}
@@ -64,7 +64,7 @@ def counts_of(profile):
 
 
 def baseline(flight, build, packages, counts, tolerance_percent):
-    """What a baseline file holds, as a dictionary. `build`: what has to be the same for figures to be comparable."""
+    """The content of a baseline file, as a dictionary. `build`: must be equal for figures to be comparable."""
     return {"written_by": "tools/benchmark-instructions --record", "flight": flight, "build": build,
             "packages": packages, "tolerance_percent": tolerance_percent, "instructions": counts}
 
@@ -84,7 +84,7 @@ def load_baseline(path):
 
 
 def differences(kept, now):
-    """What `now` has otherwise than `kept`, in words; both dictionaries."""
+    """The differences of two dictionaries as text."""
     return "; ".join(f"{key} {kept.get(key, 'nothing')}, now {now.get(key, 'nothing')}"
                      for key in sorted({*kept, *now}) if kept.get(key) != now.get(key))
 
@@ -102,7 +102,7 @@ def table(kept, now):
 
 
 def beyond_tolerance(kept, now, tolerance_percent):
-    """One line for each stage that needs more instructions than it did, or fewer."""
+    """One line for each stage that needs more instructions than the tolerance allows, or fewer."""
     def line(stage):
         percent = change_percent(kept[stage], now[stage])
         return (f"{stage}: {'slower' if percent > 0 else 'faster'}: {now[stage]:,} instructions, baseline "

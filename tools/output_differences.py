@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""How the outputs of two runs of one input differ: text by the first line, trajectories in metres, JSON by its keys."""
+"""Differences between the outputs of two runs of one input: text by the first line, trajectories in metres, JSON by its
+keys."""
 
 import itertools
 import json
@@ -12,7 +13,7 @@ MAX_KEYS = 5
 
 
 def flat(data, path=()):
-    """The leaves of a JSON document by their paths, but for what depends on the machine."""
+    """The leaves of a JSON document by their paths, without those that depend on the machine."""
     if not isinstance(data, dict | list) or not data:
         return {path: data}
     items = data.items() if isinstance(data, dict) else enumerate(data)
@@ -24,7 +25,7 @@ def flat(data, path=()):
 
 
 def renamed(path, renames):
-    """`renames`: pairs of names: a plain one stands for that key wherever it is, a dotted one for a path."""
+    """`renames`: pairs of names; a plain one stands for that key anywhere, a dotted one for a path."""
     for old, new in renames:
         old, new = tuple(old.split(".")), tuple(new.split("."))
         if len(old) == 1:
@@ -35,7 +36,7 @@ def renamed(path, renames):
 
 
 def renamed_settings(settings, renames):
-    """A configuration's, by section."""
+    """The settings of a configuration, by section."""
     result = {}
     for section, keys in settings.items():
         for key, value in keys.items():
@@ -59,7 +60,7 @@ def data_difference(old, new, renames):
 
 
 def positions(lines):
-    """Of a TUM file, by the texts of the stamps."""
+    """Positions of a TUM file by the texts of their stamps."""
     rows = [line.split() for line in lines if line.strip() and not line.startswith("#")]
     return {row[0]: (float(row[1]), float(row[2])) for row in rows}
 
@@ -87,8 +88,8 @@ def byte_difference(old, new):
 
 
 def difference(name, old, new, renames=()):
-    """What differs between two contents of the file `name`, in one line; empty where nothing does. Raises ValueError
-    where they are not of the kind that its name says."""
+    """The difference of two contents of the file `name`, in one line; empty if they are equal. Raises ValueError if
+    they are not of the kind of its name."""
     if old == new:
         return ""
     suffix = name[name.rfind("."):]
@@ -109,7 +110,7 @@ def exit_difference(old, new):
 
 
 def differences(old, new, renames=()):
-    """One text for each thing in which the folders of two runs differ."""
+    """One text for each difference between the folders of two runs."""
     outcomes = [json.loads((run / "outcome.json").read_text(encoding="utf-8")) for run in (old, new)]
     found = exit_difference(*outcomes)
     old, new = files(old / "out"), files(new / "out")

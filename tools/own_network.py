@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""A network of its own for a tool whose programs publish over LCM: nothing else is heard, nothing leaves the machine."""
+"""A network namespace for a tool whose programs publish over LCM: nothing else is received, nothing leaves the
+machine."""
 
 import os
 import subprocess
@@ -11,8 +12,8 @@ LOOPBACK = ["sh", "-c", 'ip link set lo up multicast on && ip route add 224.0.0.
 
 
 def run_again(script):
-    """Runs `script` with the same arguments, and INSIDE, in a network namespace. Root stays root, for its priorities.
-    Its exit code."""
+    """Runs `script` with the same arguments and INSIDE in a network namespace, and returns its exit code. Root stays
+    root, for its priorities."""
     unshare = ["unshare", "--net"] + ([] if os.geteuid() == 0 else ["--user", "--map-root-user"])
     return subprocess.run([*unshare, "--", *LOOPBACK, sys.executable, script, INSIDE, *sys.argv[1:]],
                           check=False).returncode

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""A patrol of hours: the same room round after round, as `tools/benchmark-speed --patrol` measures and writes it."""
+"""A patrol of hours, the same room round after round: measurement and page of `tools/benchmark-speed --patrol`."""
 
 import benchmark_page as page
 import whole_runs
@@ -14,7 +14,8 @@ COLUMNS = [("samples", "samples"), ("scans pruned", "scans_pruned"), ("kept", "s
 
 
 def measure(swiftlet, output, say):
-    """One row for each length, shortest first; `say` hears which is begun. Raises as whole_runs.run() does."""
+    """One row for each length, shortest first; `say` is called with the length that begins. Raises as whole_runs.run()
+    does."""
     rows = []
     for hours, laps in LAPS.items():
         say(f"patrol of {hours} h")
@@ -29,7 +30,7 @@ def measure(swiftlet, output, say):
 
 
 def patrol_table(rows, number):
-    """`number`: how a figure is written."""
+    """`number`: formats a figure."""
     return page.table(["hours:", "rounds:", *(f"{heading}:" for heading, _ in COLUMNS), "error, m:"],
                       [[f"{row['hours']:.1f}", str(row["laps"]), *(number(row[key]) for _, key in COLUMNS),
                         f"{row['error_m']:.3f}"] for row in rows])
@@ -39,10 +40,10 @@ def document(report, number):
     over = "".join(f"- {line}\n" for line in report["over_limits"]) or "- none\n"
     return f"""{page.head("A patrol of hours", "benchmark-speed --patrol", report)}
 `swiftlet map 'sim://patrol?seed=1&laps=940' -o out` and shorter: a simulated vehicle flies round one room of 8 m x 6 m
-for hours, a round in 46 s, mapped at full speed with the default settings. Times in ms, memory in MiB, each length run
-once. The map is drawn once, after the final pass. "Memory" is the most that the program held before it wrote the
-outputs; "kept" are the scans that the backend has at the end, "pruned" those it has forgotten because others see the
-same; both are in the trajectories. "Error" is the RMSE of the corrected path.
+for hours, a round in 46 s, mapped at full speed with the default settings. Times are in ms, memory in MiB; each length
+is run once. The map is drawn once, after the final pass. "Memory" is the maximum before the outputs are written. "Kept"
+are the scans in the backend at the end, "pruned" those it removed because others cover the same space; both are in the
+trajectories. "Error" is the RMSE of the corrected path.
 
 {patrol_table(report['patrol'], number)}
 

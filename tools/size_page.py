@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Parses the output of `size`, `nm` and the programs of tools/measure-size, and formats the section of docs/real_time.md
-that it writes."""
+"""Parses the output of `size`, `nm` and the programs of tools/measure-size, and formats the section of
+docs/real_time.md that it writes."""
 
 import re
 
@@ -67,7 +67,7 @@ def above_first_frame(rows):
 def section(report):
     """Markdown from the heading on. `report`: as tools/measure-size collects it."""
     data, bss = report["code"][0][1][1:]
-    missing = f" Not run, because the data are missing: {', '.join(report['missing'])}." if report["missing"] else ""
+    missing = f" Not run, for lack of data: {', '.join(report['missing'])}." if report["missing"] else ""
     return f"""{HEADING}
 
 Written by `tools/measure-size --record` on {report['date']}, commit {report['commit']}, {report['machine']},

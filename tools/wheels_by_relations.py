@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""What relations, motions that were measured by other means, say of an odometry: its scale, and the yaw that it misses
-with each metre."""
+"""Estimates the scale of an odometry, and the yaw that it misses per metre, from relations: motions that were measured
+by other means."""
 
 import bisect
 import itertools
 import math
 from pathlib import Path
 
-LONGEST_S = 20.0  # what lies farther apart is joined by more of the odometry than its steady errors
+LONGEST_S = 20.0  # over longer spans other errors of the odometry exceed the systematic ones
 SAME_STAMP_S = 0.002
-SHORTEST_M = 0.1  # less has no direction
+SHORTEST_M = 0.1  # a shorter motion has no direction
 
 
 def rows(path):
@@ -30,7 +30,7 @@ def between(start, end):
 
 
 class Odometry:
-    """Poses of a TUM file, and the metres forward on the way to each."""
+    """Poses of a TUM file, and the metres forward up to each."""
 
     def __init__(self, path):
         lines = rows(path)
@@ -40,14 +40,14 @@ class Odometry:
         self.forward_m = list(itertools.accumulate(steps_m, initial=0.0))
 
     def find(self, stamp_s):
-        """Index of the pose of that time; None where there is none."""
+        """Index of the pose at that time; None where there is none."""
         first = bisect.bisect_left(self.stamps_s, stamp_s - SAME_STAMP_S)
         there = first < len(self.stamps_s) and self.stamps_s[first] <= stamp_s + SAME_STAMP_S
         return first if there else None
 
 
 def pairs(relations, odometry):
-    """True motion, measured motion and metres forward of each relation that is short in time and has its poses."""
+    """True motion, measured motion and metres forward of each relation that spans a short time and has its poses."""
     for t1_s, t2_s, x_m, y_m, _, _, _, yaw_rad in relations:
         i, j = odometry.find(t1_s), odometry.find(t2_s)
         if i is not None and j is not None and abs(t2_s - t1_s) < LONGEST_S:
@@ -56,8 +56,8 @@ def pairs(relations, odometry):
 
 
 def scale_of(used):
-    """Metres moved along the measured motion for each metre measured, and the standard deviation. A ratio of sums, for
-    single motions are hardly longer than the relations' own noise."""
+    """Metres moved along the measured motion for each metre measured, and the standard deviation. A ratio of sums,
+    because single motions are hardly longer than the relations' own noise."""
     along = [((true[0] * measured[0] + true[1] * measured[1]) / measured_m, measured_m)
              for true, measured, _ in used if (measured_m := math.hypot(*measured[:2])) > SHORTEST_M]
     if not along:
@@ -68,7 +68,7 @@ def scale_of(used):
 
 
 def missed_yaw_of(used):
-    """Yaw missed per metre forward, once a share of each turn is taken out, and the standard deviation, in rad/m."""
+    """Yaw missed per metre forward, without the share of each turn, and the standard deviation, in rad/m."""
     rows_of = [(forward, measured[2], wrapped(true[2] - measured[2])) for true, measured, forward in used]
     turned = sum(turn**2 for _, turn, _ in rows_of)
     if turned == 0.0:
@@ -85,7 +85,7 @@ def missed_yaw_of(used):
 
 
 def estimate(relations_file, odometry_file):
-    """`relations`: how many were used; `scale` and `missed_yaw_per_metre_rad`, each with its standard deviation, None
+    """`relations`: the number used; `scale` and `missed_yaw_per_metre_rad`, each with its standard deviation, None
     where there are too few. Raises OSError or ValueError."""
     used = list(pairs(rows(relations_file), Odometry(odometry_file)))
     return {"relations": len(used), "scale": scale_of(used), "missed_yaw_per_metre_rad": missed_yaw_of(used)}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Whole inputs through `swiftlet map`, and the figures of speed and memory that their reports give."""
+"""Runs of `swiftlet map` over whole inputs, and the figures of speed and memory in their reports."""
 
 import gzip
 import json
@@ -14,8 +14,8 @@ SHARE_OF_THEIRS = 0.25  # of the mean per scan of the paper's code
 
 
 def run(swiftlet, arguments, output):
-    """report.json of one run, as a dictionary. Raises OSError, or subprocess.CalledProcessError with what swiftlet
-    said in its stderr."""
+    """report.json of one run, as a dictionary. Raises OSError, or subprocess.CalledProcessError with the stderr of
+    swiftlet."""
     command = [str(swiftlet), "map", *arguments, "-o", str(output)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     return json.loads(Path(output, "report.json").read_text(encoding="utf-8"))
@@ -42,8 +42,8 @@ def figures_of(report):
 
 
 def combined(runs):
-    """One set of figures from several runs of the same input: of maxima the least, for the runs do the same work and
-    what comes on top is the machine's; of all others the median."""
+    """One set of figures from several runs of the same input. Of maxima it is the smallest, because the runs do the
+    same work and the rest is the machine's; of all others the median."""
     return {key: (min if key.endswith("_max_ms") else statistics.median)([figures[key] for figures in runs])
             for key in runs[0]}
 

@@ -31,12 +31,12 @@ class AccuracyChanges(unittest.TestCase):
         self.assertIn("| as it is | 0.0400 / 1.00 |", text)
         self.assertIn("| backwards | **0.0700 / 1.00** |", text)
         self.assertIn("| mirrored | 0.0500 / 1.00 |", text)
-        self.assertIn("1 of\n2.", text)
+        self.assertIn("1 of 2.", text)
 
     def test_a_copy_stands_out_from_nothing_where_the_log_itself_was_not_mapped(self):
         text = changes.text(made({BACKWARDS: 7.0}))
         self.assertIn("| backwards | 7.0000 / 1.00 |", text)
-        self.assertIn("0 of\n1.", text)
+        self.assertIn("0 of 1.", text)
 
     def test_without_any_run_there_is_no_section(self):
         self.assertEqual(changes.text({}.get), "")

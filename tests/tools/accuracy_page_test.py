@@ -71,7 +71,7 @@ class AccuracyPage(unittest.TestCase):
         with mock.patch.object(runs, "DATASETS", Path("/no/such/folder")):
             text = page.document(Nothing, {"date": "d", "commit": "c", "machine": "m"})
         self.assertEqual(text.count(page.NOT_MADE), len(runs.PARTS))
-        self.assertIn("not there: `radish/aces.clf.gz`", text)
+        self.assertIn("missing: `radish/aces.clf.gz`", text)
 
 
 if __name__ == "__main__":

@@ -63,19 +63,19 @@ class AccuracySweeps(unittest.TestCase):
         results = {value: result(0.02, 0.2 / value) for value in BEAMS.values}
         self.assertTrue(sweeps.verdict(BEAMS, results).startswith("the paper's shape"))
         text = sweeps.verdict(BEAMS, {**results, 9: result(0.02, 5.0)})
-        self.assertTrue(text.startswith("**breaks out** at 9 (1.26 m)."), text)
+        self.assertTrue(text.startswith("**outlier** at 9 (1.26 m)."), text)
         self.assertIn("The others: the paper's shape", text)
 
     def test_no_kernel_at_all_may_break_out_for_the_paper_says_that_it_is_worse(self):
         text = sweeps.verdict(KERNEL, {1: result(0.02, 3.0, kept=1), 3: result(0.02, 0.1), 5: result(0.02, 0.12),
                                        7: result(0.02, 0.13)})
-        self.assertTrue(text.startswith("the paper's shape, but **breaks out** at 1 (0.765 m)."), text)
+        self.assertTrue(text.startswith("the paper's shape, with an **outlier** at 1 (0.765 m)."), text)
         self.assertIn("1 kept and 2 dropped at 1", text)
 
     def test_a_break_out_elsewhere_is_never_part_of_the_paper_s_shape(self):
         results = {value: result(0.02, 0.1 + 0.001 * abs(value - 112)) for value in MULTISCAN.values}
         text = sweeps.verdict(MULTISCAN, {**results, 132: result(0.02, 5.0)})
-        self.assertTrue(text.startswith("**breaks out** at 132"), text)
+        self.assertTrue(text.startswith("**outlier** at 132"), text)
 
     def test_break_outs_of_complete_curves_are_counted(self):
         broken = sweeps.runs.Run(sweeps.runs.INTEL, beams=9)

@@ -68,7 +68,7 @@ class CalibrationPage(unittest.TestCase):
 
     def test_says_how_many_figures_agree_and_which_is_farthest_off(self):
         self.assertEqual(" ".join(page.agreement([flight(1)]).split()),
-                         "Of 4 figures found, 3 lie within 2 standard deviations of the true one; farthest off is the "
+                         "Of 4 figures found, 3 lie within 2 standard deviations of the true one. Farthest off is the "
                          "forward scale of seed 1, by 3.0.")
 
     def test_flights_are_averaged(self):
@@ -96,7 +96,7 @@ class CalibrationPage(unittest.TestCase):
     def test_the_page_tells_its_circumstances_and_what_was_left_out(self):
         text = page.document({**REPORT, "logs": [], "ages": [], "missing": ["a.pcap", "b.clf"]})
         self.assertIn("`tools/benchmark-calibration --record` on 2026-01-02, commit abc", text)
-        self.assertIn("for want of the data: a.pcap; b.clf.", text)
+        self.assertIn("for lack of data: a.pcap; b.clf.", text)
         self.assertNotIn("## Recorded inputs", text)
         self.assertIn("## Recorded inputs", page.document(REPORT))
 

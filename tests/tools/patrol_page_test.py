@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""tools/patrol_page.py asks for the lengths it tells of and writes their figures down."""
+"""tools/patrol_page.py runs the lengths that it reports, and writes their figures."""
 
 import json
 import sys
@@ -47,7 +47,7 @@ class PatrolPage(unittest.TestCase):
                          [f"sim://patrol?seed=1&laps={laps}" for laps in (78, 235, 470, 940)])
         self.assertEqual(self.said, [f"patrol of {hours} h" for hours in (1, 3, 6, 12)])
 
-    def test_a_row_tells_what_was_kept_and_what_was_retired(self):
+    def test_a_row_has_the_scans_kept_and_the_scans_pruned(self):
         row = self.rows[0]
         self.assertEqual((row["samples"], row["scans_pruned"], row["scans_kept"]), (100, 60, 40))
         self.assertEqual(row["hours"], 1.5)

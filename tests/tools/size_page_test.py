@@ -51,7 +51,7 @@ class SizePage(unittest.TestCase):
         self.assertTrue(text.startswith(size_page.HEADING + "\n"))
         for line in ("| swiftletd | 3.0 | 0.0 | 0.0 |", "| `swiftlet::kRows` | 32 |", "| frontend | 995.3 |",
                      "| simulated office | 6.3 |  |  |  |  |", "| simulated office | 3.0 |",
-                     "Not run, because the data are missing: Rice Hall."):
+                     "Not run, for lack of data: Rice Hall."):
             self.assertIn(line, text)
 
     def test_the_section_is_replaced_where_it_stands_and_nothing_else_is(self):

@@ -4,6 +4,6 @@ set(arch armhf)
 set(processor armv7l)
 set(triplet arm-linux-gnueabihf)
 set(emulator qemu-arm-static)
-# Says of templates that GCC 7 changed how they are called; nothing here is older.
+# The note that GCC 7 changed the ABI of templates; nothing here is older.
 set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)
 include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)
