@@ -10,7 +10,7 @@ namespace swiftlet {
 
 /// Slow estimate of the systematic yaw errors of dead reckoning: how far it turns, unnoticed, with every
 /// metre forward (wheels of two sizes, a flow sensor mounted askew) and what share of each turn it misses.
-/// The Intel Lab log has two degrees per metre: no noise model of independent steps bears that, and lines
+/// The Intel Lab log has three degrees per metre: no noise model of independent steps bears that, and lines
 /// drawn over a metre of travel come out bent. A Kalman filter of two states, fed with the graph's final
 /// estimate of each motion. Not in the paper.
 /// @note Fixed storage. One thread at a time.
