@@ -29,56 +29,52 @@ constexpr OptimizeEffort kTrialEffort{kLiveStep, 10};
 // the matches' covariances are wide.
 constexpr double kMaxMisfit = 1.5;
 
-PoseConstraint constraint_of(const LoopClosure& closure) {
+RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
           residual_information(closure.T_from_to, closure.covariance.matrix()), true};
 }
 
 /// Chi-square a closure.
-double misfit(const std::vector<LoopClosure>& group, const std::vector<Pose2>& T_map_keyframe) {
+double misfit(const std::vector<LoopClosure>& group, const KeyframePoses& T_map_keyframe) {
   double sum = 0.0;
-  for (const LoopClosure& closure : group) sum += chi_square(constraint_of(closure), T_map_keyframe);
+  for (const LoopClosure& closure : group) sum += chi_square(factor_of(closure), T_map_keyframe);
   return sum / static_cast<double>(group.size());
 }
 
 }  // namespace
 
-/// State copying (eq. 20): the frontend's window holds the latest word on its keyframes.
+/// State copying (eq. 20): the frontend's window holds its latest estimates of its keyframes.
 void Backend::State::take_estimates(const Keyframe& made) {
-  const std::size_t count = index_of(made.id) + 1;
-  SWIFTLET_CHECK(made.T_local_keyframe.size() >= 1 && made.T_local_keyframe.size() <= count,
-                 "the window ends with the new keyframe");
-  T_local_keyframe.resize(count);
-  const std::size_t first = count - made.T_local_keyframe.size();
-  for (std::size_t i = first; i < count; ++i) T_local_keyframe[i] = made.T_local_keyframe[i - first];
-  for (std::size_t i = std::max<std::size_t>(first, 1); i + 1 < count; ++i) {
-    PoseConstraint& step = graph.constraints[motion_constraint[i - 1]];
-    step.T_from_to = between(T_local_keyframe[i - 1], T_local_keyframe[i]);
+  const std::size_t count = made.T_local_keyframe.size();
+  SWIFTLET_CHECK(count >= 1 && count <= T_local_keyframe.size() + 1, "the window ends with the new keyframe");
+  T_local_keyframe.push_back({});
+  KeyframeId id = made.id - static_cast<std::uint32_t>(count - 1);
+  for (const Pose2& T_local : made.T_local_keyframe) {
+    T_local_keyframe[id] = T_local;
+    if (id > T_local_keyframe.first_id() && id < made.id && motion_factor[id])
+      graph.factors[*motion_factor[id]].T_from_to = between(T_local_keyframe[id - 1], T_local);
+    ++id;
   }
 }
 
 void Backend::State::add_motion(const Keyframe& made) {
-  graph.T_map_keyframe.emplace_back();
-  if (index_of(made.id) == 0) {
-    graph.T_map_keyframe[0] = T_local_keyframe[0];
-    return;
-  }
-  PoseConstraint step;
-  step.from = static_cast<KeyframeId>(index_of(made.id) - 1);
+  graph.T_map_keyframe.push_back(T_local_keyframe[made.id]);
+  motion_factor.push_back({});
+  if (made.id == T_local_keyframe.first_id()) return;
+  RelativePoseFactor<KeyframeId> step;
+  step.from = T_local_keyframe.previous(made.id);
   step.to = made.id;
-  step.T_from_to = between(T_local_keyframe[index_of(step.from)], T_local_keyframe[index_of(step.to)]);
+  step.T_from_to = between(T_local_keyframe[step.from], T_local_keyframe[step.to]);
   step.information = made.starts_segment && !made.odometry_ran_on
                          ? unknown_motion_information()
                          : residual_information(step.T_from_to, made.motion_covariance.matrix());
-  motion_constraint.push_back(graph.constraints.size());
-  graph.constraints.push_back(step);
+  motion_factor[made.id] = graph.factors.push_back(step);
 }
 
 void Backend::State::carry_new_poses() {
-  for (std::size_t i = index_of(optimized_upto) + 1; i < graph.T_map_keyframe.size(); ++i) {
-    graph.T_map_keyframe[i] =
-        graph.T_map_keyframe[i - 1] * graph.constraints[motion_constraint[i - 1]].T_from_to;
-  }
+  KeyframePoses& T_map = graph.T_map_keyframe;
+  for (KeyframeId k = T_map.next(optimized_upto); k < T_map.end_id(); k = T_map.next(k))
+    T_map[k] = T_map[T_map.previous(k)] * motion_to(k).T_from_to;
 }
 
 void Backend::State::take_walls(const Keyframe& made) {
@@ -113,9 +109,11 @@ void Backend::State::finish_submaps(KeyframeId newest) {
 double Backend::State::yaw_variance_rad2(KeyframeId from, KeyframeId to) const {
   constexpr double kLostRad2 = radians(15) * radians(15);
   double variance_rad2 = 0.0;
-  for (std::size_t k = index_of(from); k < index_of(to); ++k)
-    variance_rad2 += graph.constraints[motion_constraint[k]].information.inverse()(2, 2);
-  return variance_rad2 < kLostRad2 ? variance_rad2 : relative_covariances(graph, from)[index_of(to)](2, 2);
+  for (KeyframeId k = from; k != to;) {
+    k = motion_factor.next(k);
+    variance_rad2 += motion_to(k).information.inverse()(2, 2);
+  }
+  return variance_rad2 < kLostRad2 ? variance_rad2 : relative_covariances(graph, from)[to](2, 2);
 }
 
 /// Once in every few metres, by the walls around.
@@ -130,20 +128,20 @@ bool Backend::State::hold_heading(KeyframeId newest) {
       continue;
     const double dx_m = wall.end_keyframe.x_m - wall.start_keyframe.x_m;
     const double dy_m = wall.end_keyframe.y_m - wall.start_keyframe.y_m;
-    const double turned_rad =
-        T_local_keyframe[index_of(wall.anchor)].yaw_rad() - T_local_keyframe[index_of(newest)].yaw_rad();
+    const double turned_rad = T_local_keyframe[wall.anchor].yaw_rad() - T_local_keyframe[newest].yaw_rad();
     around.push_back({std::atan2(dy_m, dx_m) + turned_rad, std::hypot(dx_m, dy_m)});
   }
   const std::optional<WallAxis> axis = wall_axis(around);
   if (!axis) return false;
   const std::size_t before = graph.headings.size();
-  building_axis_prior.add(
-      newest, *axis, before == 0 ? 0.0 : yaw_variance_rad2(graph.headings.back().keyframe, newest), graph);
+  building_axis_prior.add(newest, *axis,
+                          before == 0 ? 0.0 : yaw_variance_rad2(graph.headings.back().pose, newest), graph);
   return graph.headings.size() > before;
 }
 
 std::uint32_t Backend::State::close_loops(KeyframeId newest) {
-  if (!config.close_loops || static_cast<int>(index_of(newest)) % config.match_every_keyframes != 0) return 0;
+  const std::size_t earlier = chain.all().position(newest);
+  if (!config.close_loops || earlier % static_cast<std::size_t>(config.match_every_keyframes) != 0) return 0;
   const std::size_t before = closures.size();
   const FoundLoops found =
       detector.find(newest, submaps, graph, T_local_keyframe, counters.candidates_matched);
@@ -153,9 +151,9 @@ std::uint32_t Backend::State::close_loops(KeyframeId newest) {
 }
 
 void Backend::State::add_closure(LoopClosure closure) {
-  closure.number = static_cast<std::uint32_t>(counters.closures_accepted++);
-  closure_constraint.push_back(graph.constraints.size());
-  graph.constraints.push_back(constraint_of(closure));
+  ++counters.closures_accepted;
+  closure.id = closures.end_id();
+  closure.factor = graph.factors.push_back(factor_of(closure));
   closures.push_back(closure);
 }
 
@@ -172,8 +170,9 @@ bool Backend::State::move_map_to(const std::vector<LoopClosure>& group) {
   building_axis_prior.update(graph);
   PoseGraph trial = graph;
   for (const LoopClosure& closure : group) {
-    trial.constraints.push_back(constraint_of(closure));
-    trial.constraints.back().is_closure = false;
+    RelativePoseFactor<KeyframeId> factor = factor_of(closure);
+    factor.is_closure = false;
+    trial.factors.push_back(factor);
   }
   if (!optimizer.optimize(trial, kTrialEffort)) {
     ++counters.solver_failures;
@@ -191,14 +190,14 @@ bool Backend::State::is_due(bool turned, std::uint32_t new_closures, KeyframeId 
   news_waits |= turned || new_closures > 0;
   if (group_moved_map || unsettled) return true;
   if (!news_waits) return false;
-  if (index_of(newest) - index_of(optimized_upto) >= kMaxKeyframesWaiting) return true;
+  if (newest - optimized_upto >= kMaxKeyframesWaiting) return true;
   if (turned) {
     building_axis_prior.update(graph);
     if (chi_square(graph.headings.back(), graph.T_map_keyframe) > kExpectedChiSquare) return true;
   }
-  const auto first_new = closure_constraint.end() - static_cast<std::ptrdiff_t>(new_closures);
-  return std::any_of(first_new, closure_constraint.end(), [&](std::size_t at) {
-    return chi_square(graph.constraints[at], graph.T_map_keyframe) > kExpectedChiSquare;
+  const std::span<const LoopClosure> all = closures.values();
+  return std::any_of(all.end() - new_closures, all.end(), [&](const LoopClosure& closure) {
+    return chi_square(graph.factors[closure.factor], graph.T_map_keyframe) > kExpectedChiSquare;
   });
 }
 
@@ -214,45 +213,42 @@ bool Backend::State::optimize(const OptimizeEffort& effort) {
     version += has_moved ? 1 : 0;
     return has_moved;
   }
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    if (!closures[i].dropped) closures[i].dcs_scale = graph.constraints[closure_constraint[i]].dcs_scale;
-  }
-  optimized_upto = static_cast<KeyframeId>(graph.T_map_keyframe.size() - 1);
+  for (LoopClosure& closure : closures.values())
+    if (!closure.dropped) closure.dcs_scale = graph.factors[closure.factor].dcs_scale;
+  optimized_upto = graph.T_map_keyframe.last_id();
   ++version;
   return true;
 }
 
 /// Takes out what DCS has scaled away, the least believed first, and lets the rest settle again.
 bool Backend::State::drop_false_closures() {
-  std::size_t worst = closures.size();
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    if (closures[i].dropped || closures[i].dcs_scale >= config.drop_scale) continue;
-    if (worst == closures.size() || closures[i].dcs_scale < closures[worst].dcs_scale) worst = i;
+  LoopClosure* worst = nullptr;
+  for (LoopClosure& closure : closures.values()) {
+    if (closure.dropped || closure.dcs_scale >= config.drop_scale) continue;
+    if (worst == nullptr || closure.dcs_scale < worst->dcs_scale) worst = &closure;
   }
-  if (worst == closures.size()) return false;
-  closures[worst].dropped = true;
+  if (worst == nullptr) return false;
+  worst->dropped = true;
   ++counters.closures_dropped;
-  graph.constraints[closure_constraint[worst]].information.setZero();
+  graph.factors[worst->factor].information.setZero();
   return optimize();
 }
 
 /// Gives every scan a pose of its own; keyframes take those of their scans.
 bool Backend::State::refine() {
   if (!refines() || scans.size() < 2) return false;
-  std::vector<Pose2> T_map_body;
-  for (ScanIndex i = 0; i < scans.size(); ++i) T_map_body.push_back(chain.T_w_body(i, graph.T_map_keyframe));
-  std::vector<PoseConstraint> believed;
-  for (PoseConstraint c : graph.constraints) {
-    if (!c.is_closure || c.information.isZero(0.0)) continue;
-    c.information *= c.dcs_scale * c.dcs_scale;
-    c.from = static_cast<KeyframeId>(chain.scan_of(c.from));
-    c.to = static_cast<KeyframeId>(chain.scan_of(c.to));
-    believed.push_back(c);
+  std::vector<Pose2> T_map_body =
+      chain.T_w_bodies({scans.all().first_id(), scans.all().end_id()}, graph.T_map_keyframe);
+  std::vector<RelativePoseFactor<ScanId>> believed;
+  for (const RelativePoseFactor<KeyframeId>& f : graph.factors.values()) {
+    if (!f.is_closure || f.information.isZero(0.0)) continue;
+    believed.push_back(f.joining(chain.scan_of(f.from), chain.scan_of(f.to)));
+    believed.back().information *= f.dcs_scale * f.dcs_scale;
   }
-  std::vector<HeadingConstraint> headings = graph.headings;
-  for (HeadingConstraint& c : headings) {
-    c.information *= c.dcs_scale * c.dcs_scale;
-    c.keyframe = static_cast<KeyframeId>(chain.scan_of(c.keyframe));
+  std::vector<HeadingFactor<ScanId>> headings;
+  for (const HeadingFactor<KeyframeId>& f : graph.headings) {
+    headings.push_back(f.of(chain.scan_of(f.pose)));
+    headings.back().information *= f.dcs_scale * f.dcs_scale;
   }
   const Result<RefinementReport> report =
       refine_scan_poses(scans, sensor, believed, headings, config, T_map_body);
@@ -264,9 +260,8 @@ bool Backend::State::refine() {
   counters.held_out_after_m = report->held_out_after_m;
   counters.refined = report->accepted;
   if (!report->accepted) return false;
-  for (std::uint32_t k = 0; k < chain.size(); ++k)
-    graph.T_map_keyframe[k] = T_map_body[chain.scan_of(static_cast<KeyframeId>(k))];
-  T_map_refined = std::move(T_map_body);
+  T_map_refined = scans.all().with(std::move(T_map_body));
+  for (const auto& [keyframe, scan] : chain.all()) graph.T_map_keyframe[keyframe] = T_map_refined[scan];
   ++version;
   return true;
 }
@@ -275,8 +270,8 @@ bool Backend::State::refine() {
 void Backend::State::refine_online(BackendUpdate& update) {
   if (!refines()) return;
   if (update.poses_changed) live.follow(graph.T_map_keyframe);
-  for (std::size_t i = closures.size() - update.new_closures; i < closures.size(); ++i)
-    live.queue_around(closures[i].from);
+  for (const LoopClosure& closure : closures.values().last(update.new_closures))
+    live.queue_around(closure.from);
   const Result<ScanRange> refined = live.step(graph.T_map_keyframe, T_local_keyframe);
   counters.windows_refined = live.windows_refined();
   counters.windows_refused = live.windows_refused();
@@ -285,20 +280,20 @@ void Backend::State::refine_online(BackendUpdate& update) {
     return;
   }
   update.refined = *refined;
-  if (update.refined.size() > 0) ++version;
+  if (!update.refined.empty()) ++version;
 }
 
 /// Where the newest keyframe lies as the last few see it, the frontend's path from them to it being good to
 /// a centimetre: each was refined by itself, and the vehicle is not to jump with every one.
 Pose2 Backend::State::T_map_newest() const {
-  const std::size_t newest = T_local_keyframe.size() - 1;
-  const Pose2 T_map_tip = T_map_body(chain.scan_of(static_cast<KeyframeId>(newest)));
+  const Pose2 T_map_tip = T_map_body(chain.all().values().back());
   if (!refines() || !T_map_refined.empty()) return T_map_tip;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of differences from the tip
   std::size_t count = 0;
-  for (std::size_t k = newest + 1; k-- > 0 && count < kKeyframesOfCorrection;) {
-    const ScanIndex scan = chain.scan_of(static_cast<KeyframeId>(k));
-    const Pose2 T_map_seen = T_map_body(scan) * between(T_local_keyframe[k], T_local_keyframe[newest]);
+  const std::span<const Pose2> T_local = std::as_const(T_local_keyframe).values();
+  for (std::size_t k = T_local.size(); k-- > 0 && count < kKeyframesOfCorrection;) {
+    const ScanId scan = chain.all().values()[k];
+    const Pose2 T_map_seen = T_map_body(scan) * between(T_local[k], T_local.back());
     sum += Eigen::Vector3d(T_map_seen.x_m() - T_map_tip.x_m(), T_map_seen.y_m() - T_map_tip.y_m(),
                            wrap_angle(T_map_seen.yaw_rad() - T_map_tip.yaw_rad()));
     ++count;
@@ -308,7 +303,7 @@ Pose2 Backend::State::T_map_newest() const {
   return {T_map_tip.x_m() + mean(0), T_map_tip.y_m() + mean(1), T_map_tip.yaw_rad() + mean(2)};
 }
 
-Pose2 Backend::State::T_map_body(ScanIndex scan) const {
+Pose2 Backend::State::T_map_body(ScanId scan) const {
   if (!T_map_refined.empty()) return T_map_refined[scan];
   return live.refined(scan, chain.T_w_body(scan, graph.T_map_keyframe));
 }
@@ -321,15 +316,13 @@ Backend::~Backend() = default;
 
 BackendUpdate Backend::add(const FrontendStep& step) {
   State& s = *state_;
-  const ScanIndex scan = s.scans.add(step);
+  const ScanId scan = s.scans.add(step);
   s.live.add_scan();
   ++s.counters.scans;
   BackendUpdate update;
   if (!step.has_keyframe) return update;
-  Keyframe made = step.made;
-  made.id = s.scans[scan].keyframe;  // as numbered here
-  s.chain.add(scan);
-  s.frontend_ids.push_back(step.made.id);
+  const Keyframe& made = step.made;
+  SWIFTLET_CHECK(s.chain.add(scan) == made.id, "no keyframe is left out");
   ++s.counters.keyframes;
   s.take_estimates(made);
   s.add_motion(made);
@@ -357,22 +350,16 @@ BackendUpdate Backend::finish() {
 }
 
 const ScanStore& Backend::scans() const { return state_->scans; }
-std::size_t Backend::keyframe_count() const { return state_->chain.size(); }
+const KeyframeChain& Backend::keyframes() const { return state_->chain; }
 Pose2 Backend::T_map_keyframe(KeyframeId id) const { return state_->T_map_body(state_->chain.scan_of(id)); }
-KeyframeId Backend::frontend_id(KeyframeId id) const { return state_->frontend_ids[index_of(id)]; }
-KeyframeId Backend::keyframe_of(KeyframeId frontend_id) const {
-  const std::vector<KeyframeId>& ids = state_->frontend_ids;
-  const auto at = std::lower_bound(ids.begin(), ids.end(), frontend_id);
-  SWIFTLET_CHECK(at != ids.end() && *at == frontend_id, "the keyframe was not pruned");
-  return static_cast<KeyframeId>(at - ids.begin());
-}
-Pose2 Backend::T_map_body(ScanIndex scan) const { return state_->T_map_body(scan); }
+Pose2 Backend::T_map_body(ScanId scan) const { return state_->T_map_body(scan); }
 MapCorrection Backend::correction() const {
   const State& s = *state_;
   if (s.T_local_keyframe.empty()) return {};
-  return {s.frontend_ids.back(), s.T_map_newest() * s.T_local_keyframe.back().inverse(), s.version};
+  return {s.chain.all().last_id(), s.T_map_newest() * s.T_local_keyframe.values().back().inverse(),
+          s.version};
 }
-const std::vector<LoopClosure>& Backend::closures() const { return state_->closures; }
+const IdMap<ClosureId, LoopClosure>& Backend::closures() const { return state_->closures; }
 const std::vector<Wall>& Backend::walls() const { return state_->walls; }
 const BackendCounters& Backend::counters() const { return state_->counters; }
 

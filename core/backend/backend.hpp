@@ -10,6 +10,7 @@
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/pruning/pruning.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/sensor_model.hpp"
@@ -19,7 +20,7 @@ namespace swiftlet {
 /// Carries the frontend's continuous frame into the map: T_map_body = T_map_local * T_local_body. Plain
 /// struct: crosses threads through a LatestValue.
 struct MapCorrection {
-  KeyframeId keyframe{};  ///< the keyframe it was computed at, by its frontend id
+  KeyframeId keyframe{};  ///< the keyframe it was computed at
   Pose2 T_map_local;
   std::uint32_t version = 0;  ///< counts up whenever keyframes moved that were there before
 };
@@ -52,7 +53,7 @@ struct BackendCounters {
 /// What one step did, for whoever publishes.
 struct BackendUpdate {
   bool poses_changed = false;      ///< poses of earlier keyframes moved: the map must follow
-  std::uint32_t new_closures = 0;  ///< appended to closures()
+  std::uint32_t new_closures = 0;  ///< the last of closures()
   ScanRange refined;               ///< scans that refinement moved, besides
 };
 
@@ -60,8 +61,8 @@ struct BackendUpdate {
 /// decides the result. One thread at a time; may allocate; no clock, no I/O.
 ///
 /// Whoever wants memory and time per step to stay bounded in known space asks for the next pruning after
-/// each step, takes what it still needs of those scans, and has them pruned. Keyframes and scans are
-/// numbered from 0 without gaps: what is pruned gives way, and later ones move up.
+/// each step, takes what it still needs of those scans, and has them pruned. Keyframes keep the frontend's
+/// ids, which are consecutive from 0; scans are counted from 0. What is pruned leaves a hole.
 class Backend {
  public:
   /// Precondition: config.validate() is empty.
@@ -82,18 +83,15 @@ class Backend {
   BackendUpdate finish();
 
   [[nodiscard]] const ScanStore& scans() const;
-  [[nodiscard]] std::size_t keyframe_count() const;
+  [[nodiscard]] const KeyframeChain& keyframes() const;
+  /// Precondition of this and the next: it was not pruned.
   [[nodiscard]] Pose2 T_map_keyframe(KeyframeId id) const;
-  /// The frontend's id of a keyframe, which stays the same through prunings.
-  [[nodiscard]] KeyframeId frontend_id(KeyframeId id) const;
-  /// The other way. Precondition: it was not pruned.
-  [[nodiscard]] KeyframeId keyframe_of(KeyframeId frontend_id) const;
   /// Corrected pose of any scan: between two keyframes the graph's correction is spread evenly, what
   /// refinement found for the scan comes on top; after finish() the scan's own.
-  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
+  [[nodiscard]] Pose2 T_map_body(ScanId scan) const;
   /// Leads to the newest keyframe; with refinement, to where the last few put it on average.
   [[nodiscard]] MapCorrection correction() const;
-  [[nodiscard]] const std::vector<LoopClosure>& closures() const;
+  [[nodiscard]] const IdMap<ClosureId, LoopClosure>& closures() const;
   [[nodiscard]] const std::vector<Wall>& walls() const;
   [[nodiscard]] const BackendCounters& counters() const;
 

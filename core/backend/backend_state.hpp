@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/backend/backend.hpp"
@@ -56,12 +57,12 @@ struct Backend::State {
   bool refine();
   void refine_online(BackendUpdate& update);
   [[nodiscard]] KeyframeId first_recent() const;
-  void remove_constraints(const IndexRemoval& keyframes);
-  void remove_motions(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
-  void remove_closures(const IndexRemoval& keyframes, const std::vector<std::size_t>& now_at);
-  void remove_submaps(const IndexRemoval& keyframes);
-  void remove_walls(const IndexRemoval& keyframes);
-  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const;
+  void erase_factors(const IdRanges<KeyframeId>& keyframes);
+  void join_across_holes();
+  [[nodiscard]] const RelativePoseFactor<KeyframeId>& motion_to(KeyframeId keyframe) const {
+    return graph.factors[*motion_factor[keyframe]];
+  }
+  [[nodiscard]] Pose2 T_map_body(ScanId scan) const;
   [[nodiscard]] Pose2 T_map_newest() const;
 
   BackendConfig config;
@@ -76,20 +77,18 @@ struct Backend::State {
   PoseGraphOptimizer optimizer;
   OnlineRefinement live;
 
-  std::vector<KeyframeId> frontend_ids;
   std::vector<KeyframeId> anchors;  // of what was pruned: they stay
-  std::vector<Pose2> T_local_keyframe;
+  KeyframePoses T_local_keyframe;
   PoseGraph graph;
-  std::vector<Pose2> T_map_refined;             // of every scan, after finish(); empty before
-  std::vector<std::size_t> motion_constraint;   // of the step to keyframe i (i >= 1), by i - 1
-  std::vector<std::size_t> closure_constraint;  // of closure i
+  IdMap<ScanId, Pose2> T_map_refined;                        // of every scan, after finish(); empty before
+  IdMap<KeyframeId, std::optional<FactorId>> motion_factor;  // that joins it to the one before
   bool news_waits = false;
   bool group_moved_map = false;          // since it was last optimised
   bool unsettled = false;                // when it was last optimised
   KeyframeId optimized_upto{};           // later keyframes hang on by their motion
   std::vector<KeyframeId> open_submaps;  // where the ones being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps;
-  std::vector<LoopClosure> closures;
+  IdMap<ClosureId, LoopClosure> closures;
   std::vector<Wall> walls;
   std::uint32_t version = 0;
   std::size_t prunes_at = 0;  // that many scans

@@ -18,7 +18,7 @@ Result<MappingRun> map_samples(std::span<const RangeSample> samples, const Senso
   }
   static_cast<void>(backend.finish());
   MappingRun run{{}, backend.counters()};
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) run.T_map_body.push_back(backend.T_map_body(i));
+  for (const auto& [id, scan] : backend.scans().all()) run.T_map_body.push_back(backend.T_map_body(id));
   return run;
 }
 

@@ -155,7 +155,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
     keyframe_motion = unknown_motion();
     graph.add_first_pose(newest, Pose2());
   } else {
-    newest = KeyframeId{index_of(newest) + 1};
+    ++newest;
     keyframe_motion = since_keyframe;
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
     axis.turn(since_keyframe.covariance(2, 2));
@@ -203,11 +203,10 @@ void Frontend::State::add_line_constraints() {
 
 void Frontend::State::insert(const LineSegment& segment) {
   const auto lag = static_cast<std::uint32_t>(config.association_keyframes);
-  const std::uint32_t oldest = index_of(newest) > lag ? index_of(newest) - lag : 0;
+  const KeyframeId oldest = index_of(newest) > lag ? newest - lag : KeyframeId{};
   const Viewpoint viewpoint{graph.poses().back().T_local_body, viewpoint_covariance};
   const std::optional<std::size_t> known =
-      associate(graph.landmarks(), segment, viewpoint,
-                KeyframeId{std::max(oldest, index_of(first_of_segment))}, config);
+      associate(graph.landmarks(), segment, viewpoint, std::max(oldest, first_of_segment), config);
   const bool has_room =
       known ? graph.try_observe(*known, segment) : graph.try_add_landmark(LandmarkId{next_landmark}, segment);
   if (!has_room) {

@@ -26,42 +26,34 @@ struct MapBuilder::State {
         clear_range_m(std::min(map_config.clear_range_m, sensor.max_range_m)),
         drawing(map_config, clear_range_m) {}
 
-  /// The scans since a keyframe, and where it and the next one stood when they were drawn: those in between
-  /// hang on both.
+  /// Where a keyframe and the next one stood when the scans in between, which hang on both, were drawn.
   struct Stretch {
-    ScanIndex first = 0;
     Pose2 T_map_keyframe;
     Pose2 T_map_next;
   };
-  [[nodiscard]] Stretch stretch_now(const Backend& backend, std::size_t k) const;
-  [[nodiscard]] ScanIndex end_of(std::size_t k, const Backend& backend) const;
+  [[nodiscard]] static Stretch stretch_now(const Backend& backend, KeyframeId k);
   [[nodiscard]] bool has_moved(const Pose2& drawn, const Pose2& now) const;
   void take_new_scans(const Backend& backend);
-  [[nodiscard]] std::size_t first_unsettled(const Backend& backend) const;
-  std::size_t follow(const Backend& backend, std::size_t k);
+  [[nodiscard]] KeyframeId first_unsettled(const Backend& backend) const;
+  std::size_t follow(const Backend& backend, KeyframeId k);
   void sweep(const Backend& backend);
-  void draw(const Backend& backend, ScanIndex scan);
+  void draw(const Backend& backend, ScanId scan);
   using Beams = FixedVector<BeamEnd, kMaxBeams>;
-  [[nodiscard]] Beams beams_of(const Backend& backend, ScanIndex scan) const;
+  [[nodiscard]] Beams beams_of(const Backend& backend, ScanId scan) const;
 
   MapConfig config;
   float max_range_m;
   double clear_range_m;
   ScanDrawing drawing;
-  std::vector<Stretch> stretches;  // by keyframe
-  ScanIndex scans_seen = 0;
-  std::size_t keyframes_seen = 0;  // as of the last update
-  RoundRobin swept;                // keyframes, when all may have moved
+  IdMap<KeyframeId, Stretch> stretches;
+  ScanId scans_end{};            // of those seen
+  KeyframeId keyframes_end{};    // of those seen by the last update
+  RoundRobin<KeyframeId> swept;  // when all may have moved
 };
 
-MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend, std::size_t k) const {
-  const std::size_t next = std::min(k + 1, backend.keyframe_count() - 1);
-  return {stretches[k].first, backend.T_map_keyframe(static_cast<KeyframeId>(k)),
-          backend.T_map_keyframe(static_cast<KeyframeId>(next))};
-}
-
-ScanIndex MapBuilder::State::end_of(std::size_t k, const Backend& backend) const {
-  return k + 1 < stretches.size() ? stretches[k + 1].first : static_cast<ScanIndex>(backend.scans().size());
+MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend, KeyframeId k) {
+  const KeyframeId next = k < backend.keyframes().all().last_id() ? backend.keyframes().all().next(k) : k;
+  return {backend.T_map_keyframe(k), backend.T_map_keyframe(next)};
 }
 
 bool MapBuilder::State::has_moved(const Pose2& drawn, const Pose2& now) const {
@@ -71,47 +63,48 @@ bool MapBuilder::State::has_moved(const Pose2& drawn, const Pose2& now) const {
 }
 
 void MapBuilder::State::take_new_scans(const Backend& backend) {
-  const ScanStore& scans = backend.scans();
-  for (; scans_seen < scans.size(); ++scans_seen) {
-    while (stretches.size() <= index_of(scans[scans_seen].keyframe)) {
-      stretches.emplace_back().first = scans_seen;
-      stretches.back() = stretch_now(backend, stretches.size() - 1);
-    }
-    draw(backend, scans_seen);
+  const IdMap<KeyframeId, ScanId>& keyframes = backend.keyframes().all();
+  for (KeyframeId k = keyframes.at_or_after(stretches.end_id()); k < keyframes.end_id();
+       k = keyframes.next(k)) {
+    stretches.skip_to(k);
+    stretches.push_back(stretch_now(backend, k));
   }
+  const IdMap<ScanId, StoredScan>& scans = backend.scans().all();
+  for (scans_end = scans.at_or_after(scans_end); scans_end < scans.end_id();
+       scans_end = scans.next(scans_end))
+    draw(backend, scans_end);
 }
 
 /// A new keyframe brings new estimates of those in the frontend's window, and to the scans since the one
 /// before it their share of the correction; what lies farther back keeps its pose until the backend says so.
-std::size_t MapBuilder::State::first_unsettled(const Backend& backend) const {
-  const std::size_t keyframes = backend.keyframe_count();
-  if (keyframes == keyframes_seen) return keyframes;
-  return keyframes - std::min(keyframes, kMaxKeyframeWindow + keyframes - keyframes_seen);
+KeyframeId MapBuilder::State::first_unsettled(const Backend& backend) const {
+  const IdMap<KeyframeId, ScanId>& keyframes = backend.keyframes().all();
+  if (keyframes.end_id() == keyframes_end) return keyframes_end;
+  const std::size_t unsettled = kMaxKeyframeWindow + (keyframes.end_id() - keyframes_end);
+  return keyframes.id_at(keyframes.size() - std::min(keyframes.size(), unsettled));
 }
 
 /// Draws the scans since keyframe k anew if it or the next one has moved noticeably. Returns how many
 /// returns that were.
-std::size_t MapBuilder::State::follow(const Backend& backend, std::size_t k) {
+std::size_t MapBuilder::State::follow(const Backend& backend, KeyframeId k) {
   const Stretch now = stretch_now(backend, k);
   Stretch& drawn = stretches[k];
   if (!has_moved(drawn.T_map_keyframe, now.T_map_keyframe) && !has_moved(drawn.T_map_next, now.T_map_next))
     return 0;
   drawn = now;
-  std::size_t returns = 0;
-  for (ScanIndex scan = now.first; scan < end_of(k, backend); ++scan) {
+  const ScanRange scans = backend.keyframes().scans_of({k, k + 1});
+  for (ScanId scan = scans.first; scan < scans.end; scan = backend.scans().all().next(scan))
     draw(backend, scan);
-    returns += backend.scans().returns(scan).size();
-  }
-  return returns;
+  return backend.scans().return_count(scans);
 }
 
 /// A correction of everything is followed over several updates, in turn, so that none takes long.
 void MapBuilder::State::sweep(const Backend& backend) {
   for (std::size_t moved = 0; !swept.is_done() && moved < kMaxReturnsMoved;)
-    moved += follow(backend, swept.take(stretches.size()));
+    moved += follow(backend, swept.take(stretches));
 }
 
-MapBuilder::State::Beams MapBuilder::State::beams_of(const Backend& backend, ScanIndex scan) const {
+MapBuilder::State::Beams MapBuilder::State::beams_of(const Backend& backend, ScanId scan) const {
   const ScanStore& scans = backend.scans();
   Beams beams;
   for (ScanReturn r : scans.returns(scan)) {
@@ -122,7 +115,7 @@ MapBuilder::State::Beams MapBuilder::State::beams_of(const Backend& backend, Sca
   return beams;
 }
 
-void MapBuilder::State::draw(const Backend& backend, ScanIndex scan) {
+void MapBuilder::State::draw(const Backend& backend, ScanId scan) {
   const Pose2 T_map_body = backend.T_map_body(scan);
   if (!drawing.needs_drawing(scan, T_map_body)) return;
   const Beams beams = beams_of(backend, scan);
@@ -136,18 +129,18 @@ MapBuilder::MapBuilder(const MapConfig& config, const SensorModel& sensor)
 
 MapBuilder::~MapBuilder() = default;
 
-std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed, ScanRange refined) {
+std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed,
+                                          const ScanRange& refined) {
   State& s = *state_;
   s.take_new_scans(backend);
-  const std::size_t first = s.first_unsettled(backend);
-  if (refined.size() > 0) {
-    const std::size_t last = index_of(backend.scans()[refined.end - 1].keyframe);
-    for (std::size_t k = index_of(backend.scans()[refined.first].keyframe); k < std::min(first, last + 1);
-         ++k)
-      s.follow(backend, k);
+  const KeyframeId first = s.first_unsettled(backend);
+  if (!refined.empty()) {
+    const std::span<const StoredScan> scans = backend.scans().all().values(refined);
+    const KeyframeId end = std::min(first, scans.back().keyframe + 1);
+    for (KeyframeId k = scans.front().keyframe; k < end; k = s.stretches.next(k)) s.follow(backend, k);
   }
-  for (std::size_t k = first; k < s.stretches.size(); ++k) s.follow(backend, k);
-  s.keyframes_seen = backend.keyframe_count();
+  for (KeyframeId k = first; k < s.stretches.end_id(); k = s.stretches.next(k)) s.follow(backend, k);
+  s.keyframes_end = s.stretches.end_id();
   if (poses_changed) s.swept.begin(s.stretches.size());
   s.sweep(backend);
   return s.drawing.store().publish();
@@ -155,25 +148,23 @@ std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_cha
 
 std::vector<TileIndex> MapBuilder::settle(const Backend& backend) {
   state_->take_new_scans(backend);
-  for (ScanIndex scan = 0; scan < backend.scans().size(); ++scan) state_->draw(backend, scan);
+  for (const auto& [scan, stored] : backend.scans().all()) state_->draw(backend, scan);
   return state_->drawing.store().publish();
 }
 
 void MapBuilder::prune(const Backend& backend, const Pruning& pruning) {
   State& s = *state_;
   s.take_new_scans(backend);
-  for (const ScanRange& scans : pruning.scans.ranges()) {
-    for (ScanIndex scan = scans.first; scan < scans.end; ++scan) {
+  const IdMap<ScanId, StoredScan>& all = backend.scans().all();
+  for (const ScanRange& scans : pruning.scans) {
+    for (ScanId scan = all.at_or_after(scans.first); scan < scans.end; scan = all.next(scan)) {
       const State::Beams beams = s.beams_of(backend, scan);
       s.drawing.rub_out(scan, std::span<const BeamEnd>(beams.data(), beams.size()));
     }
   }
-  s.drawing.remove(pruning.scans);
-  s.swept.remove(pruning.keyframes, s.stretches.size());
-  pruning.keyframes.apply(s.stretches);
-  for (State::Stretch& stretch : s.stretches) stretch.first = pruning.scans.new_index(stretch.first);
-  s.scans_seen -= pruning.scans.size();
-  s.keyframes_seen -= pruning.keyframes.size();
+  s.drawing.erase(pruning.scans);
+  s.swept.erase(pruning.keyframes, s.stretches);
+  s.stretches.erase(pruning.keyframes);
 }
 
 MapTile MapBuilder::tile(TileIndex index) const { return state_->drawing.store().tile(index); }

@@ -27,7 +27,7 @@ class MapBuilder {
   /// Draws scans added since the last call and redraws, of the `refined` ones and, when `poses_changed`, of
   /// all in this and the next updates, those that moved noticeably. Returns the tiles whose published content
   /// changed, in index order.
-  std::vector<TileIndex> update(const Backend& backend, bool poses_changed, ScanRange refined = {});
+  std::vector<TileIndex> update(const Backend& backend, bool poses_changed, const ScanRange& refined = {});
   /// Rubs out what the backend is about to prune. What is left unknown shows with the next update.
   void prune(const Backend& backend, const Pruning& pruning);
   /// Draws every scan exactly where the backend has it. Returns as update() does.

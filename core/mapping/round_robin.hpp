@@ -4,37 +4,46 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
-#include "core/base/index_removal.hpp"
+#include "core/base/id_map.hpp"
 
 namespace swiftlet {
 
-/// Visits all elements of a growing sequence once, some now and some later, each time from where it ended.
+/// Visits the ids of a growing map once, some now and some later, each time from where it ended.
+template <AnId Id>
 class RoundRobin {
  public:
-  /// Each of `count` elements is due, whether it was already or not.
+  /// So many ids are due, whether they were already or not.
   void begin(std::size_t count) { due_ = count; }
   [[nodiscard]] bool is_done() const { return due_ == 0; }
-  /// The element whose turn it is, of `count`. Precondition: not done.
-  std::size_t take(std::size_t count) {
-    if (next_ >= count) next_ = 0;
+  /// The id whose turn it is. Precondition: not done.
+  template <typename T>
+  Id take(const IdMap<Id, T>& all) {
+    next_ = all.at_or_after(next_);
+    if (next_ >= all.end_id()) next_ = all.first_id();
     --due_;
-    return next_++;
+    const Id taken = next_;
+    ++next_;
+    return taken;
   }
-  /// Elements are removed from the sequence, which had `count`. Of the others the same stay due.
-  void remove(const IndexRemoval& removed, std::size_t count) {
-    const auto new_index = [&removed](std::size_t i) -> std::size_t {
-      return removed.new_index(static_cast<std::uint32_t>(i));
-    };
-    const std::size_t end = next_ + due_;
-    const std::size_t from_start = end > count ? new_index(end - count) : 0;
-    due_ = new_index(std::min(end, count)) - new_index(next_) + from_start;
-    next_ = new_index(next_);
+  /// Ids are about to be erased from the map. Of the others the same stay due.
+  template <typename T>
+  void erase(const IdRanges<Id>& gone, const IdMap<Id, T>& all) {
+    const std::size_t begin = all.position(next_);
+    const std::size_t end = begin + due_;
+    const std::size_t wrapped_end = end - std::min(end, all.size());  // due are those before it, too
+    std::size_t erased = 0;
+    for (const IdRange<Id>& range : gone) {
+      const std::size_t first = all.position(range.first);
+      const std::size_t last = all.position(range.end);
+      erased += std::min(last, end) - std::min(std::max(first, begin), std::min(last, end));
+      erased += std::min(last, wrapped_end) - std::min(first, wrapped_end);
+    }
+    due_ -= erased;
   }
 
  private:
-  std::size_t next_ = 0;
+  Id next_{};
   std::size_t due_ = 0;
 };
 

@@ -29,11 +29,11 @@ std::optional<ScanDrawing::LatticePose> ScanDrawing::rounded(const Pose2& T_map_
                      static_cast<std::int32_t>(std::lround(T_map_body.yaw_rad() / yaw_step_rad_))};
 }
 
-bool ScanDrawing::needs_drawing(std::size_t scan, const Pose2& T_map_body) const {
-  return scan >= drawn_.size() || drawn_[scan] != rounded(T_map_body);
+bool ScanDrawing::needs_drawing(ScanId scan, const Pose2& T_map_body) const {
+  return scan >= drawn_.end_id() || drawn_[scan] != rounded(T_map_body);
 }
 
-void ScanDrawing::draw(std::size_t scan, const Pose2& T_map_body, std::span<const BeamEnd> beams) {
+void ScanDrawing::draw(ScanId scan, const Pose2& T_map_body, std::span<const BeamEnd> beams) {
   if (!needs_drawing(scan, T_map_body)) return;
   rub_out(scan, beams);
   std::optional<LatticePose>& drawn = drawn_[scan];
@@ -41,8 +41,8 @@ void ScanDrawing::draw(std::size_t scan, const Pose2& T_map_body, std::span<cons
   if (drawn) apply(*drawn, beams, TileStore::Change::kCount);
 }
 
-void ScanDrawing::rub_out(std::size_t scan, std::span<const BeamEnd> beams) {
-  if (scan >= drawn_.size()) drawn_.resize(scan + 1);
+void ScanDrawing::rub_out(ScanId scan, std::span<const BeamEnd> beams) {
+  while (drawn_.end_id() <= scan) drawn_.push_back({});
   std::optional<LatticePose>& drawn = drawn_[scan];
   if (drawn) apply(*drawn, beams, TileStore::Change::kTakeBack);
   drawn.reset();

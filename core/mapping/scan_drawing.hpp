@@ -2,13 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "core/base/index_removal.hpp"
+#include "core/base/id_map.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/mapping/map_config.hpp"
 #include "core/mapping/tile_store.hpp"
@@ -35,15 +33,15 @@ class ScanDrawing {
   ScanDrawing(const MapConfig& config, double clear_range_m);
 
   /// Whether drawing `scan` at this pose would change anything.
-  [[nodiscard]] bool needs_drawing(std::size_t scan, const Pose2& T_map_body) const;
+  [[nodiscard]] bool needs_drawing(ScanId scan, const Pose2& T_map_body) const;
   /// Draws `scan` here; where it was drawn elsewhere before, it is rubbed out there first. `beams` must be
   /// the same at every call for one scan. A pose that is not finite, or over 100 km away, draws nothing.
-  void draw(std::size_t scan, const Pose2& T_map_body, std::span<const BeamEnd> beams);
+  void draw(ScanId scan, const Pose2& T_map_body, std::span<const BeamEnd> beams);
 
   /// Rubs a scan out.
-  void rub_out(std::size_t scan, std::span<const BeamEnd> beams);
-  /// Forgets scans, which were rubbed out.
-  void remove(const IndexRemoval& scans) { scans.apply(drawn_); }
+  void rub_out(ScanId scan, std::span<const BeamEnd> beams);
+  /// Forgets scans. Precondition: they were rubbed out.
+  void erase(const IdRanges<ScanId>& scans) { drawn_.erase(scans); }
 
   [[nodiscard]] TileStore& store() { return store_; }
   [[nodiscard]] const TileStore& store() const { return store_; }
@@ -64,7 +62,7 @@ class ScanDrawing {
   double position_step_m_;
   double yaw_step_rad_;
   TileStore store_;
-  std::vector<std::optional<LatticePose>> drawn_;  ///< by scan: where it stands in the store
+  IdMap<ScanId, std::optional<LatticePose>> drawn_;  ///< where a scan stands in the store
 };
 
 }  // namespace swiftlet

@@ -77,10 +77,10 @@ Json backend_json(const Backend& backend) {
 }
 
 Json trajectory_json(const Backend& backend) {
-  const ScanStore& scans = backend.scans();
-  if (scans.size() == 0) return {{"duration_s", 0.0}, {"odometry_length_m", 0.0}};
-  const StoredScan& last = scans[static_cast<ScanIndex>(scans.size() - 1)];
-  return {{"duration_s", to_seconds(last.stamp - scans[0].stamp)}, {"odometry_length_m", last.path_m}};
+  const std::span<const StoredScan> scans = backend.scans().all().values();
+  if (scans.empty()) return {{"duration_s", 0.0}, {"odometry_length_m", 0.0}};
+  return {{"duration_s", to_seconds(scans.back().stamp - scans.front().stamp)},
+          {"odometry_length_m", scans.back().path_m}};
 }
 
 /// The rectangle around all tiles.

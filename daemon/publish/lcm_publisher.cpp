@@ -295,7 +295,7 @@ void LcmPublisher::publish_closure(HostTime now, const ClosureUpdate& update) {
   loop_closure_t message;
   message.utime = to_utime(now);
   message.map_id = map_id_;
-  message.index = i32(closure.number);
+  message.index = i32(index_of(closure.id));
   message.from_keyframe = i32(index_of(closure.from));
   message.to_keyframe = i32(index_of(closure.to));
   message.x = closure.T_from_to.x_m();

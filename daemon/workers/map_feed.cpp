@@ -26,15 +26,13 @@ void MapFeed::note_changes(std::span<const TileIndex> changed_tiles) {
   closures_pending_ = true;
 }
 
-/// What the publisher was not told of a closure that goes, it will not be told.
+/// Closures pruned before publication are never published.
 void MapFeed::prune(const Backend& backend, const Pruning& pruning) {
-  const auto goes = [&](KeyframeId id) { return pruning.keyframes.removes(index_of(id)); };
+  const auto goes = [&](KeyframeId id) { return pruning.keyframes.contains(id); };
   for (const Wall& wall : backend.walls())
     if (goes(wall.anchor) && sent_walls_.erase(wall.id) > 0) gone_walls_.push_back(wall.id);
-  IndexRemoval closures;
-  for (std::uint32_t i = 0; i < sent_closure_dropped_.size(); ++i)
-    if (goes(backend.closures()[i].from) || goes(backend.closures()[i].to)) closures.add({i, i + 1});
-  closures.apply(sent_closure_dropped_);
+  for (const LoopClosure& closure : backend.closures().values())
+    if (goes(closure.from) || goes(closure.to)) sent_closures_.erase(closure.id);
 }
 
 void MapFeed::flush(const Backend& backend, const MapBuilder& map) {
@@ -75,20 +73,15 @@ bool MapFeed::flush_walls(const Backend& backend) {
 }
 
 bool MapFeed::flush_closures(const Backend& backend) {
-  const std::vector<LoopClosure>& closures = backend.closures();
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    const LoopClosure& closure = closures[i];
-    const bool is_new = i >= sent_closure_dropped_.size();
-    if (!is_new && sent_closure_dropped_[i] == closure.dropped) continue;
+  for (const LoopClosure& closure : backend.closures().values()) {
+    const auto sent = sent_closures_.find(closure.id);
+    if (sent != sent_closures_.end() && sent->second == closure.dropped) continue;
     if (!publisher_.closures.has_room()) return false;
-    ClosureUpdate update{.closure = closure,
-                         .from_map = backend.T_map_keyframe(closure.from).position(),
-                         .to_map = backend.T_map_keyframe(closure.to).position()};
-    update.closure.from = backend.frontend_id(closure.from);
-    update.closure.to = backend.frontend_id(closure.to);
-    static_cast<void>(publisher_.closures.try_push(update));  // has room
-    if (is_new) sent_closure_dropped_.push_back(closure.dropped);
-    sent_closure_dropped_[i] = closure.dropped;
+    static_cast<void>(publisher_.closures.try_push(  // has room
+        {.closure = closure,
+         .from_map = backend.T_map_keyframe(closure.from).position(),
+         .to_map = backend.T_map_keyframe(closure.to).position()}));
+    sent_closures_.insert_or_assign(closure.id, closure.dropped);
   }
   return true;
 }

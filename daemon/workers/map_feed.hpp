@@ -40,8 +40,8 @@ class MapFeed {
   bool walls_pending_ = false;
   bool closures_pending_ = false;
   std::map<LandmarkId, WallInMap> sent_walls_;
-  std::vector<LandmarkId> gone_walls_;      // of which the publisher does not know yet
-  std::vector<bool> sent_closure_dropped_;  // by index in Backend::closures()
+  std::vector<LandmarkId> gone_walls_;       // not yet published as gone
+  std::map<ClosureId, bool> sent_closures_;  // whether each was sent as dropped
 
   void flush_tiles(const MapBuilder& map);
   [[nodiscard]] bool flush_gone_walls();

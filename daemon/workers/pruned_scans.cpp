@@ -19,7 +19,7 @@ struct StoredPose {
 /// As it lies in the file, which this machine alone reads.
 struct Record {
   std::int64_t stamp_ns;
-  std::uint64_t anchor;  // frontend id
+  KeyframeId anchor;
   StoredPose T_anchor_body;
   StoredPose T_odom_body;
   StoredPose T_map_live;
@@ -28,9 +28,9 @@ struct Record {
 StoredPose stored(const Pose2& T) { return {T.x_m(), T.y_m(), T.yaw_rad()}; }
 Pose2 pose(const StoredPose& s) { return {s.x_m, s.y_m, s.yaw_rad}; }
 
-TrajectoryPoint point_of(const Backend& backend, ScanIndex i) {
-  const StoredScan& scan = backend.scans()[i];
-  return {scan.stamp, backend.T_map_body(i), scan.T_odom_body, scan.T_map_live};
+TrajectoryPoint point_of(const Backend& backend, ScanId id) {
+  const StoredScan& scan = backend.scans()[id];
+  return {scan.stamp, backend.T_map_body(id), scan.T_odom_body, scan.T_map_live};
 }
 
 }  // namespace
@@ -49,23 +49,22 @@ Result<PrunedScans> PrunedScans::open(const std::filesystem::path& directory) {
 }
 
 void PrunedScans::take(const Backend& backend, const Pruning& pruning) {
-  for (const PrunedTraversal& pass : pruning.traversals) {
-    const std::uint32_t first_number = backend.scans()[pass.scans.first].number;
-    const bool goes_on =
-        !blocks_.empty() && blocks_.back().first_number + blocks_.back().count == first_number;
-    if (!goes_on) blocks_.push_back({first_number, 0, records_});
-    blocks_.back().count += pass.scans.size();
-    const Pose2 T_anchor_map = backend.T_map_keyframe(pass.anchor).inverse();
-    const KeyframeId anchor = backend.frontend_id(pass.anchor);
-    for (ScanIndex i = pass.scans.first; i < pass.scans.end; ++i) write(backend, i, T_anchor_map, anchor);
+  const IdMap<ScanId, StoredScan>& scans = backend.scans().all();
+  for (const PrunedTraversal& traversal : pruning.traversals) {
+    const ScanId first = traversal.scans.first;
+    const bool goes_on = !blocks_.empty() && blocks_.back().first + blocks_.back().count == first;
+    if (!goes_on) blocks_.push_back({first, 0, records_});
+    blocks_.back().count += static_cast<std::uint32_t>(scans.count(traversal.scans));
+    const Pose2 T_anchor_map = backend.T_map_keyframe(traversal.anchor).inverse();
+    for (ScanId id = first; id < traversal.scans.end; id = scans.next(id))
+      write(backend, id, T_anchor_map, traversal.anchor);
   }
 }
 
-void PrunedScans::write(const Backend& backend, ScanIndex scan, const Pose2& T_anchor_map,
-                        KeyframeId anchor) {
+void PrunedScans::write(const Backend& backend, ScanId scan, const Pose2& T_anchor_map, KeyframeId anchor) {
   const StoredScan& from = backend.scans()[scan];
   const Record record{.stamp_ns = from.stamp.time_since_epoch().count(),
-                      .anchor = index_of(anchor),
+                      .anchor = anchor,
                       .T_anchor_body = stored(T_anchor_map * backend.T_map_body(scan)),
                       .T_odom_body = stored(from.T_odom_body),
                       .T_map_live = stored(from.T_map_live)};
@@ -81,9 +80,8 @@ bool PrunedScans::visit_block(const Backend& backend, const Block& block,
   for (std::uint32_t i = 0; i < block.count; ++i) {
     Record record{};
     if (std::fread(&record, sizeof record, 1, file_.get()) != 1) return false;
-    const KeyframeId anchor = backend.keyframe_of(static_cast<KeyframeId>(record.anchor));
     visit({HostTime(HostTime::duration(record.stamp_ns)),
-           backend.T_map_keyframe(anchor) * pose(record.T_anchor_body), pose(record.T_odom_body),
+           backend.T_map_keyframe(record.anchor) * pose(record.T_anchor_body), pose(record.T_odom_body),
            pose(record.T_map_live)});
   }
   return true;
@@ -95,13 +93,12 @@ Status PrunedScans::for_each_scan(const Backend& backend,
                    "pruned scans could not be kept on disk; the trajectories would miss them"};
   if (failed_ || std::fflush(file_.get()) != 0) return lost;
   std::vector<Block> blocks = blocks_;
-  std::sort(blocks.begin(), blocks.end(),
-            [](const Block& a, const Block& b) { return a.first_number < b.first_number; });
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.first < b.first; });
   auto block = blocks.begin();
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) {
-    for (; block != blocks.end() && block->first_number < backend.scans()[i].number; ++block)
+  for (const auto& [id, scan] : backend.scans().all()) {
+    for (; block != blocks.end() && block->first < id; ++block)
       if (!visit_block(backend, *block, visit)) return lost;
-    visit(point_of(backend, i));
+    visit(point_of(backend, id));
   }
   return {};
 }
@@ -109,7 +106,7 @@ Status PrunedScans::for_each_scan(const Backend& backend,
 Status for_each_scan(const Backend& backend, const PrunedScans* pruned,
                      const std::function<void(const TrajectoryPoint&)>& visit) {
   if (pruned != nullptr) return pruned->for_each_scan(backend, visit);
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) visit(point_of(backend, i));
+  for (const auto& [id, scan] : backend.scans().all()) visit(point_of(backend, id));
   return {};
 }
 

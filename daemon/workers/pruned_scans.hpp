@@ -45,12 +45,12 @@ class PrunedScans {
   };
   /// Scans that lie one behind the other, in the run and in the file.
   struct Block {
-    std::uint32_t first_number = 0;
+    ScanId first{};
     std::uint32_t count = 0;
     std::uint32_t first_record = 0;
   };
   explicit PrunedScans(std::FILE* file) : file_(file) {}
-  void write(const Backend& backend, ScanIndex scan, const Pose2& T_anchor_map, KeyframeId anchor);
+  void write(const Backend& backend, ScanId scan, const Pose2& T_anchor_map, KeyframeId anchor);
   [[nodiscard]] bool visit_block(const Backend& backend, const Block& block,
                                  const std::function<void(const TrajectoryPoint&)>& visit) const;
 

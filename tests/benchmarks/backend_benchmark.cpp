@@ -50,11 +50,11 @@ BENCHMARK(submap_build)->Unit(benchmark::kMillisecond);
 /// The last 6 m as the loop detector sees them: hits in the frame of the newest keyframe, one a cell.
 std::vector<Point2> recent_points(const StoredRun& run) {
   constexpr double kCellM = 0.1;
-  const Pose2 T_query_local = run.T_local_keyframe().back().inverse();
+  const Pose2 T_query_local = run.T_local_keyframe().values().back().inverse();
   std::vector<Point2> points;
   std::set<std::pair<int, int>> taken;
   const auto oldest = keyframe(index_of(run.newest()) - kSubmapKeyframes);
-  for (ScanIndex i = run.chain().scan_of(oldest); i <= run.chain().scan_of(run.newest()); ++i) {
+  for (ScanId i = run.chain().scan_of(oldest); i <= run.chain().scan_of(run.newest()); ++i) {
     const Pose2 T_query_body = T_query_local * run.chain().T_w_body(i, run.T_local_keyframe());
     for (const ScanReturn& beam : run.scans().returns(i)) {
       if (!beam.is_hit) continue;
@@ -76,7 +76,7 @@ void match(benchmark::State& state) {
   const Submap submap = submap_of_the_place(run);
   const std::vector<Point2> points = recent_points(run);
   const Pose2 T_submap_scan =
-      between(run.T_local_keyframe()[index_of(submap.reference)], run.T_local_keyframe().back());
+      between(run.T_local_keyframe()[submap.reference], run.T_local_keyframe().values().back());
   const SearchWindow window{T_submap_scan * Pose2(0.5 * radius_m, -0.5 * radius_m, 0.5 * angle_rad), radius_m,
                             angle_rad};
   while (state.KeepRunning()) {
@@ -118,10 +118,10 @@ PoseGraph laps(std::size_t poses) {
     T_map_keyframe = T_map_keyframe * step;
     if (i == 0) continue;
     const Pose2 measured = disturbed(step, random, kSigmaM, kSigmaRad);
-    graph.constraints.push_back({keyframe(i - 1), keyframe(i), measured, information});
+    graph.factors.push_back({keyframe(i - 1), keyframe(i), measured, information});
     if (i < kLap || i % 4 != 0) continue;
     const Pose2 matched = disturbed(Pose2(), random, kSigmaM, kSigmaRad);
-    graph.constraints.push_back({keyframe(i - kLap), keyframe(i), matched, information, true});
+    graph.factors.push_back({keyframe(i - kLap), keyframe(i), matched, information, true});
   }
   return graph;
 }

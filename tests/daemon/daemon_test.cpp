@@ -30,8 +30,8 @@ std::set<std::string> thread_names() {
 
 std::vector<double> poses_of(const Backend& backend) {
   std::vector<double> out;
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) {
-    const Pose2 T_map_body = backend.T_map_body(i);
+  for (const auto& [id, scan] : backend.scans().all()) {
+    const Pose2 T_map_body = backend.T_map_body(id);
     out.insert(out.end(), {T_map_body.x_m(), T_map_body.y_m(), T_map_body.yaw_rad()});
   }
   return out;

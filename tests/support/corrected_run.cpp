@@ -24,7 +24,7 @@ CorrectedRun corrected_run(const std::string& uri) {
   }
   EXPECT_EQ(received.error().code, ErrorCode::kEndOfRecording) << received.error().message;
   backend.finish();
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) run.T_map_body.push_back(backend.T_map_body(i));
+  for (const auto& [id, scan] : backend.scans().all()) run.T_map_body.push_back(backend.T_map_body(id));
   run.counters = backend.counters();
   run.truth = (*source)->ground_truth();
   run.input = (*source)->report();

@@ -28,8 +28,8 @@ inline Submap drawn_submap(const std::vector<std::string>& picture, double resol
   }
   const Point2 high{-geometry.origin_m.x_m, -geometry.origin_m.y_m};
   return Submap{.reference = {},
-                .first = {},
-                .last = {},
+                .scans = {},
+                .end_path_m = 0.0,
                 .geometry = geometry,
                 .cells = max_kernel(geometry, cells, kernel_cells),
                 .low_m = geometry.origin_m,

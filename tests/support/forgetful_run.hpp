@@ -27,14 +27,14 @@ struct ForgetfulRun {
       FrontendStep step = frontend.process(sample);
       if (step.has_keyframe)  // and a wall that nobody sees again
         (void)step.made.walls.try_push_back(
-            {static_cast<LandmarkId>(100'000 + index_of(step.made.id)), {0.0, 1.0}, {0.5, 1.0}});
+            {make_id<LandmarkId>(100'000 + index_of(step.made.id)), {0.0, 1.0}, {0.5, 1.0}});
       const BackendUpdate update = backend.add(step);
       after_step(update);
       const Pruning pruning = backend.next_pruning();
       if (pruning.empty()) continue;
       before_retiring(pruning);
       backend.prune(pruning);
-      pruned_scans += pruning.scans.size();
+      pruned_scans += pruning.scan_count;
     }
   }
   template <typename BeforeRetiring>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
@@ -18,7 +17,7 @@ class StoredRun {
     DeadReckoningFrontend frontend;
     for (const RangeSample& sample : samples) {
       const FrontendStep step = frontend.process(sample);
-      const ScanIndex scan = scans_.add(step);
+      const ScanId scan = scans_.add(step);
       if (!step.has_keyframe) continue;
       chain_.add(scan);
       T_local_keyframe_.push_back(step.T_local_body);
@@ -29,13 +28,13 @@ class StoredRun {
 
   [[nodiscard]] const ScanStore& scans() const { return scans_; }
   [[nodiscard]] const KeyframeChain& chain() const { return chain_; }
-  [[nodiscard]] const std::vector<Pose2>& T_local_keyframe() const { return T_local_keyframe_; }
-  [[nodiscard]] KeyframeId newest() const { return static_cast<KeyframeId>(T_local_keyframe_.size() - 1); }
+  [[nodiscard]] const KeyframePoses& T_local_keyframe() const { return T_local_keyframe_; }
+  [[nodiscard]] KeyframeId newest() const { return T_local_keyframe_.last_id(); }
 
  private:
   ScanStore scans_{BeamLayout::multiranger()};
   KeyframeChain chain_{scans_};
-  std::vector<Pose2> T_local_keyframe_;
+  KeyframePoses T_local_keyframe_;
 };
 
 }  // namespace swiftlet

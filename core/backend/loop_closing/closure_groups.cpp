@@ -36,7 +36,7 @@ UncertainMotion measured(const LoopClosure& closure) {
 
 UncertainMotion by_graph(const PoseGraph& graph, KeyframeId from, KeyframeId to,
                          const Eigen::Matrix3d& covariance) {
-  return {between(graph.T_map_keyframe[index_of(from)], graph.T_map_keyframe[index_of(to)]), covariance};
+  return {between(graph.T_map_keyframe[from], graph.T_map_keyframe[to]), covariance};
 }
 
 }  // namespace
@@ -57,16 +57,15 @@ void ClosureGroups::forget_before(double path_m) {
 
 /// Whether the travel from one query to the other is the same by way of the graph and by way of both submaps.
 void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
-                          const std::vector<Eigen::Matrix3d>& covariances_query) {
+                          const IdMap<KeyframeId, Eigen::Matrix3d>& covariances_query) {
   Waiting entry{closure, {}};
-  const std::vector<Eigen::Matrix3d> covariances_submap =
-      waiting_.empty() ? std::vector<Eigen::Matrix3d>() : relative_covariances(graph, closure.from);
+  const IdMap<KeyframeId, Eigen::Matrix3d> covariances_submap =
+      waiting_.empty() ? IdMap<KeyframeId, Eigen::Matrix3d>() : relative_covariances(graph, closure.from);
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const LoopClosure& other = waiting_[i].closure;
-    const UncertainMotion T_q_other =
-        by_graph(graph, closure.to, other.to, covariances_query[index_of(other.to)]);
+    const UncertainMotion T_q_other = by_graph(graph, closure.to, other.to, covariances_query[other.to]);
     const UncertainMotion T_s_other =
-        by_graph(graph, closure.from, other.from, covariances_submap[index_of(other.from)]);
+        by_graph(graph, closure.from, other.from, covariances_submap[other.from]);
     const UncertainMotion T_q_other_matched = inverse(measured(closure)) * T_s_other * measured(other);
     Eigen::Vector3d off = T_q_other_matched.T_from_to.vector() - T_q_other.T_from_to.vector();
     off(2) = wrap_angle(off(2));
@@ -123,7 +122,7 @@ Eigen::Matrix2d ClosureGroups::information_without(std::size_t left_out, std::sp
   for (const std::size_t i : set) {
     const LoopClosure& c = waiting_[i].closure;
     if (std::abs(chain_->path_m(c.to) - left_out_m) < kAlikeM) continue;
-    const double turn_rad = graph.T_map_keyframe[index_of(c.to)].yaw_rad() - c.T_from_to.yaw_rad();
+    const double turn_rad = graph.T_map_keyframe[c.to].yaw_rad() - c.T_from_to.yaw_rad();
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     const Eigen::Matrix2d position = c.covariance.matrix().topLeftCorner<2, 2>();
     information += R * position.inverse() * R.transpose();
@@ -148,7 +147,7 @@ std::vector<LoopClosure> ClosureGroups::add(std::span<const LoopClosure> found, 
   if (found.empty()) return believed;
   const KeyframeId query = found.front().to;
   forget_before(chain_->path_m(query) - kReachM);
-  const std::vector<Eigen::Matrix3d> covariances = relative_covariances(graph, query);
+  const IdMap<KeyframeId, Eigen::Matrix3d> covariances = relative_covariances(graph, query);
   const std::size_t first_new = waiting_.size();
   for (const LoopClosure& closure : found) admit(closure, graph, covariances);
   std::vector<std::size_t> largest;

@@ -28,7 +28,7 @@ class ClosureGroups {
   /// Takes what was found from one keyframe, the newest. Returns those that are now believed, with all that
   /// agree with them; mostly none. Then all that waited is forgotten: a group is offered once.
   std::vector<LoopClosure> add(std::span<const LoopClosure> found, const PoseGraph& graph);
-  /// Forgets all that waits: keyframes are renumbered.
+  /// Forgets all that waits: keyframes are pruned.
   void clear() { waiting_.clear(); }
 
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
@@ -41,7 +41,7 @@ class ClosureGroups {
 
   void forget_before(double path_m);
   void admit(const LoopClosure& closure, const PoseGraph& graph,
-             const std::vector<Eigen::Matrix3d>& covariances_query);
+             const IdMap<KeyframeId, Eigen::Matrix3d>& covariances_query);
   [[nodiscard]] std::vector<std::size_t> agreeing_set(std::size_t seed) const;
   [[nodiscard]] Eigen::Matrix2d information_without(std::size_t left_out, std::span<const std::size_t> set,
                                                     const PoseGraph& graph) const;

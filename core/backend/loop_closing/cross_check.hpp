@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/backend/loop_closing/submap.hpp"
@@ -15,8 +14,8 @@ namespace swiftlet {
 /// The hits of scans `in`, newest first, one per 0.1 m cell: hovering in place must not outvote the flight.
 /// `T_w_keyframe`: the keyframes in one continuous frame; `T_frame_w` leads from it to that of the result.
 /// Allocates.
-std::vector<Point2> thinned_hits(const ScanStore& scans, const KeyframeChain& chain, ScanRange in,
-                                 std::span<const Pose2> T_w_keyframe, const Pose2& T_frame_w);
+std::vector<Point2> thinned_hits(const ScanStore& scans, const KeyframeChain& chain, const ScanRange& in,
+                                 const KeyframePoses& T_w_keyframe, const Pose2& T_frame_w);
 
 /// Holds a match of the recent travel against an earlier submap the other way round: the submap's hits, laid
 /// into a grid of the recent travel. Where a match is false they lie in what was just seen free. Views its
@@ -26,7 +25,7 @@ class CrossCheck {
   /// `recent`: the scans that were matched, the newest made `query`. `T_w_keyframe`: as above. Of a submap
   /// whose scans were pruned in part, those that are left count.
   CrossCheck(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain,
-             ScanRange recent, KeyframeId query, std::span<const Pose2> T_w_keyframe)
+             const ScanRange& recent, KeyframeId query, const KeyframePoses& T_w_keyframe)
       : config_(config),
         scans_(scans),
         chain_(chain),
@@ -46,7 +45,7 @@ class CrossCheck {
   const KeyframeChain& chain_;
   ScanRange recent_;
   KeyframeId query_;
-  std::span<const Pose2> T_w_keyframe_;
+  const KeyframePoses& T_w_keyframe_;
   std::optional<Submap> drawn_;
 };
 

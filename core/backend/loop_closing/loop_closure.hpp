@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <cstdint>
-
 #include "core/base/ids.hpp"
 #include "core/geometry/covariance3.hpp"
 #include "core/geometry/pose2.hpp"
@@ -12,9 +10,10 @@ namespace swiftlet {
 
 /// A place that was recognised: one keyframe's scans matched against an earlier submap.
 struct LoopClosure {
-  std::uint32_t number = 0;  ///< counts all of the run
-  KeyframeId from{};         ///< the submap's reference keyframe
-  KeyframeId to{};           ///< the keyframe that was matched
+  ClosureId id{};     ///< given when it is accepted
+  FactorId factor{};  ///< what it adds to the pose graph
+  KeyframeId from{};  ///< the submap's reference keyframe
+  KeyframeId to{};    ///< the keyframe that was matched
   Pose2 T_from_to;
   Covariance3 covariance;  ///< of T_from_to, in the frame of `from`
   double score = 0.0;      ///< mean probability under the matched points

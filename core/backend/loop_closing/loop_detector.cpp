@@ -32,27 +32,28 @@ struct LoopDetector::Candidate {
 };
 
 ScanRange LoopDetector::recent_scans(KeyframeId query) const {
-  const ScanIndex newest = chain_->scan_of(query);
+  const ScanId newest = chain_->scan_of(query);
   const double from_m = chain_->path_m(query) - config_->multiscan_length_m;
-  ScanIndex first = newest;
+  const std::span<const StoredScan> scans = scans_->all().values();
+  std::size_t first = scans_->all().position(newest);
   // What lies before the start of a segment is not connected by motion.
-  while (first > 0 && !(*scans_)[first].starts_segment && (*scans_)[first - 1].path_m >= from_m) --first;
-  return {first, newest + 1};
+  while (first > 0 && !scans[first].starts_segment && scans[first - 1].path_m >= from_m) --first;
+  return {scans_->all().id_at(first), newest + 1};
 }
 
 std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     KeyframeId query, std::span<const Point2> points_query,
     std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph) const {
   std::vector<Candidate> found;
-  std::optional<std::vector<Eigen::Matrix3d>> covariances;
-  const Pose2 T_query_map = graph.T_map_keyframe[index_of(query)].inverse();
+  std::optional<IdMap<KeyframeId, Eigen::Matrix3d>> covariances;
+  const Pose2 T_query_map = graph.T_map_keyframe[query].inverse();
   for (const auto& submap : submaps) {
-    if (chain_->path_m(query) - chain_->path_m(submap->last) < config_->min_travel_between_m) continue;
+    if (chain_->path_m(query) - submap->end_path_m < config_->min_travel_between_m) continue;
     if (!covariances) covariances = relative_covariances(graph, query);
-    const Pose2 T_query_submap = T_query_map * graph.T_map_keyframe[index_of(submap->reference)];
+    const Pose2 T_query_submap = T_query_map * graph.T_map_keyframe[submap->reference];
     // From the covariance of T_query_submap to that of its inverse, which is searched.
     const Eigen::Matrix3d J = jacobian_inverse(T_query_submap);
-    const Eigen::Matrix3d P = J * (*covariances)[index_of(submap->reference)] * J.transpose();
+    const Eigen::Matrix3d P = J * (*covariances)[submap->reference] * J.transpose();
     Candidate c;
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();
@@ -79,15 +80,15 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
 }
 
 FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
-                              const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
+                              const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
                               std::uint64_t& tried) const {
   FoundLoops loops;
   const ScanRange recent = recent_scans(query);
   // Less than the travel from the keyframe before cannot be drawn, and so not be held the other way round.
-  if (index_of(query) == 0 || chain_->scan_of(static_cast<KeyframeId>(index_of(query) - 1)) < recent.first)
+  if (query == chain_->all().first_id() || chain_->scan_of(chain_->all().previous(query)) < recent.first)
     return loops;
   const std::vector<Point2> points =
-      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[index_of(query)].inverse());
+      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse());
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;
   CrossCheck reverse(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
   for (const Candidate& c : candidates(query, points, submaps, graph)) {

@@ -30,8 +30,7 @@ class LoopDetector {
   /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `tried` counts
   /// the submaps searched. Allocates.
   FoundLoops find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
-                  const PoseGraph& graph, std::span<const Pose2> T_local_keyframe,
-                  std::uint64_t& tried) const;
+                  const PoseGraph& graph, const KeyframePoses& T_local_keyframe, std::uint64_t& tried) const;
 
  private:
   struct Candidate;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/backend/loop_closing/max_pyramid.hpp"
 #include "core/base/check.hpp"
@@ -12,7 +13,7 @@ namespace swiftlet {
 namespace {
 
 struct PlacedScan {
-  ScanIndex index = 0;
+  const StoredScan* stored = nullptr;
   Pose2 T_submap_body;
 };
 
@@ -35,7 +36,7 @@ class EvidenceGrid {
         known_(geometry.cell_count(), 0) {}
 
   void add(const ScanStore& scans, const PlacedScan& scan) {
-    for (const ScanReturn& beam : scans.returns(scan.index)) {
+    for (const ScanReturn& beam : scans.returns(*scan.stored)) {
       if (!beam.is_hit) continue;
       const Point2 end = scan.T_submap_body * scans.point_body(beam);
       walk_ray(geometry_, scan.T_submap_body.position(), end, [&](CellIndex c) { mark(c, miss_); });
@@ -70,19 +71,21 @@ class EvidenceGrid {
 }  // namespace
 
 Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, const KeyframeChain& chain,
-                    std::span<const Pose2> T_w_keyframe, const BackendConfig& config) {
+                    const KeyframePoses& T_w_keyframe, const BackendConfig& config) {
   SWIFTLET_CHECK(first < last, "a submap has scans");
-  const auto reference = static_cast<KeyframeId>((index_of(first) + index_of(last)) / 2);
-  const Pose2 T_submap_w = T_w_keyframe[index_of(reference)].inverse();
+  const KeyframeId reference =
+      chain.all().id_at((chain.all().position(first) + chain.all().position(last)) / 2);
+  const Pose2 T_submap_w = T_w_keyframe[reference].inverse();
   std::vector<PlacedScan> placed;
   Point2 low{1e9, 1e9};
   Point2 high{-1e9, -1e9};
   const ScanRange drawn{chain.scan_of(first), chain.scan_of(last)};
   const std::vector<Pose2> T_w_body = chain.T_w_bodies(drawn, T_w_keyframe);
-  for (ScanIndex i = drawn.first; i < drawn.end; ++i) {
-    placed.push_back({i, T_submap_w * T_w_body[i - drawn.first]});
+  const std::span<const StoredScan> stored = scans.all().values(drawn);
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    placed.push_back({&stored[i], T_submap_w * T_w_body[i]});
     include(placed.back().T_submap_body.position(), low, high);
-    for (const ScanReturn& beam : scans.returns(i)) {
+    for (const ScanReturn& beam : scans.returns(stored[i])) {
       if (beam.is_hit) include(placed.back().T_submap_body * scans.point_body(beam), low, high);
     }
   }
@@ -92,8 +95,8 @@ Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, c
   for (const PlacedScan& scan : placed) grid.add(scans, scan);
 
   return Submap{.reference = reference,
-                .first = first,
-                .last = last,
+                .scans = drawn,
+                .end_path_m = chain.path_m(last),
                 .geometry = geometry,
                 .cells = max_kernel(geometry, grid.bytes(), config.max_kernel_cells),
                 .low_m = low,

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/backend/config/backend_config.hpp"
@@ -17,18 +16,19 @@ namespace swiftlet {
 /// max kernel of eq. 22 applied. Immutable once built: shared as shared_ptr<const Submap>. A byte holds
 /// 255 * p(occupied); unknown cells hold 0.
 struct Submap {
-  KeyframeId reference{};  ///< its frame: the keyframe in the middle
-  KeyframeId first{};
-  KeyframeId last{};  ///< scans from `first` up to, not including, `last`
+  KeyframeId reference{};   ///< its frame: the keyframe in the middle
+  ScanRange scans;          ///< that were drawn; some may have been pruned since
+  double end_path_m = 0.0;  ///< travelled from the start of the run to its end
   GridGeometry geometry;
   std::vector<std::uint8_t> cells;  ///< row by row, with the kernel
   Point2 low_m;                     ///< box around all hits and the path, in the submap's frame
   Point2 high_m;
 };
 
-/// Draws the scans made between two keyframes. `T_w_keyframe`: the keyframes in one continuous frame.
+/// Draws the scans made from keyframe `first` up to, not including, `last`. `T_w_keyframe`: the keyframes in
+/// one continuous frame.
 /// Precondition: first < last. Allocates.
 Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, const KeyframeChain& chain,
-                    std::span<const Pose2> T_w_keyframe, const BackendConfig& config);
+                    const KeyframePoses& T_w_keyframe, const BackendConfig& config);
 
 }  // namespace swiftlet

@@ -17,7 +17,7 @@ constexpr double kSharedWalls =
     3.0;  // headings a few metres apart are told by the same walls: they err together
 
 double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
-  return graph.T_map_keyframe[index_of(keyframe)].yaw_rad();
+  return graph.T_map_keyframe[keyframe].yaw_rad();
 }
 
 bool is_told(double off_rad, double variance_rad2) {
@@ -33,8 +33,8 @@ double BuildingAxisPrior::building_axis_rad(const PoseGraph& graph) const {
   double x = 0.0;
   double y = 0.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const HeadingConstraint& heading = graph.headings[i];
-    const double yaw_rad = 4.0 * (yaw_map_rad(graph, heading.keyframe) + axes_[i].yaw_rad);
+    const HeadingFactor<KeyframeId>& heading = graph.headings[i];
+    const double yaw_rad = 4.0 * (yaw_map_rad(graph, heading.pose) + axes_[i].yaw_rad);
     const double weight = heading.dcs_scale * heading.dcs_scale * heading.information;
     x += weight * std::cos(yaw_rad);
     y += weight * std::sin(yaw_rad);
@@ -50,25 +50,25 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
   }
   axes_.push_back(axis);
   const double variance_rad2 = kSharedWalls * axis.sigma_rad * axis.sigma_rad;
-  graph.headings.push_back({.keyframe = keyframe, .information = 1.0 / variance_rad2});
+  graph.headings.push_back({.pose = keyframe, .information = 1.0 / variance_rad2});
 }
 
-void BuildingAxisPrior::remove(const IndexRemoval& keyframes, PoseGraph& graph) {
-  IndexRemoval gone;
-  for (std::uint32_t i = 0; i < graph.headings.size(); ++i) {
-    KeyframeId& keyframe = graph.headings[i].keyframe;
-    if (keyframes.removes(index_of(keyframe))) gone.add({i, i + 1});
-    keyframe = static_cast<KeyframeId>(keyframes.new_index(index_of(keyframe)));
+void BuildingAxisPrior::erase(const IdRanges<KeyframeId>& pruned, PoseGraph& graph) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (pruned.contains(graph.headings[i].pose)) continue;
+    graph.headings[kept] = graph.headings[i];
+    axes_[kept++] = axes_[i];
   }
-  gone.apply(graph.headings);
-  gone.apply(axes_);
+  graph.headings.resize(kept);
+  axes_.resize(kept);
 }
 
 void BuildingAxisPrior::update(PoseGraph& graph) const {
   const double building_rad = building_axis_rad(graph);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    HeadingConstraint& heading = graph.headings[i];
-    const double now_rad = yaw_map_rad(graph, heading.keyframe);
+    HeadingFactor<KeyframeId>& heading = graph.headings[i];
+    const double now_rad = yaw_map_rad(graph, heading.pose);
     heading.yaw_map_rad = now_rad - wrap_axis(now_rad + axes_[i].yaw_rad - building_rad);
   }
 }

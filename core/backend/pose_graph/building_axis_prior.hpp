@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/backend/pose_graph/pose_graph.hpp"
-#include "core/base/index_removal.hpp"
 #include "core/sensing/wall_axis.hpp"
 
 namespace swiftlet {
@@ -23,8 +22,8 @@ class BuildingAxisPrior {
   /// another one or may be a quarter turn off. Allocates.
   void add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2, PoseGraph& graph);
 
-  /// Forgets the headings of these keyframes, here and in the graph, and renumbers those of the rest.
-  void remove(const IndexRemoval& keyframes, PoseGraph& graph);
+  /// Erases the headings of these keyframes, here and in the graph.
+  void erase(const IdRanges<KeyframeId>& pruned, PoseGraph& graph);
   /// Writes what the building's axis, as the graph now has it, makes of each heading in the graph.
   void update(PoseGraph& graph) const;
 

@@ -14,21 +14,22 @@ void PoseChain::reset(std::size_t pose_count) {
   links_.assign(pose_count - 1, {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()});
 }
 
-void PoseChain::add(const PoseConstraint& step, const std::vector<Pose2>& T_map_pose) {
+void PoseChain::add(const RelativePoseFactor<PoseIndex>& step, const std::vector<Pose2>& T_map_pose) {
+  SWIFTLET_CHECK(step.to == step.from + 1, "a chain's factors join neighbours");
   const std::uint32_t from = index_of(step.from);
-  SWIFTLET_CHECK(index_of(step.to) == from + 1, "a chain's constraints join neighbours");
   const PoseResidual r = pose_residual(step.T_from_to, T_map_pose[from], T_map_pose[from + 1]);
   const Eigen::Matrix3d A = r.J_from.transpose() * step.information;
   const Eigen::Matrix3d B = r.J_to.transpose() * step.information;
-  add(from, A * r.J_from, -A * r.error);
-  add(from + 1, B * r.J_to, -B * r.error);
+  add(step.from, A * r.J_from, -A * r.error);
+  add(step.to, B * r.J_to, -B * r.error);
   links_[from].H_before += B * r.J_from;
 }
 
-void PoseChain::add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs) {
-  if (pose == 0) return;
-  links_[pose - 1].H += H;
-  links_[pose - 1].rhs += rhs;
+void PoseChain::add(PoseIndex pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs) {
+  if (pose == PoseIndex{}) return;
+  Link& link = links_[index_of(pose) - 1];
+  link.H += H;
+  link.rhs += rhs;
 }
 
 /// Block elimination; each link then holds the inverse of what is left of its block.

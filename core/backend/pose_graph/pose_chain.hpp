@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "core/backend/pose_graph/pose_graph.hpp"
@@ -17,10 +16,10 @@ class PoseChain {
  public:
   /// Begins a system of so many poses, the first of which is held. Precondition: pose_count >= 2.
   void reset(std::size_t pose_count);
-  /// Adds a constraint from a pose to the next one, at the present poses.
-  void add(const PoseConstraint& step, const std::vector<Pose2>& T_map_pose);
+  /// Adds a factor from a pose to the next one, at the present poses.
+  void add(const RelativePoseFactor<PoseIndex>& step, const std::vector<Pose2>& T_map_pose);
   /// Adds to one pose alone: H of its block and -g.
-  void add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
+  void add(PoseIndex pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
   /// Solves and moves the poses; what was added is used up. Errors: kSolver, also where the step is not
   /// finite; the poses are then as they were.
   Status step(std::vector<Pose2>& T_map_pose);

@@ -8,6 +8,21 @@
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
+namespace {
+
+template <AnId Id>
+double relative_chi_square(const RelativePoseFactor<Id>& f, const Pose2& T_map_from, const Pose2& T_map_to) {
+  const PoseResidual r = pose_residual(f.T_from_to, T_map_from, T_map_to);
+  return r.error.dot(f.information * r.error);
+}
+
+template <AnId Id>
+double heading_chi_square(const HeadingFactor<Id>& f, const Pose2& T_map_pose) {
+  const double error_rad = wrap_angle(T_map_pose.yaw_rad() - f.yaw_map_rad);
+  return f.information * error_rad * error_rad;
+}
+
+}  // namespace
 
 PoseResidual pose_residual(const Pose2& T_from_to, const Pose2& T_map_from, const Pose2& T_map_to) {
   const Pose2 T_from_map = T_map_from.inverse();
@@ -21,15 +36,20 @@ PoseResidual pose_residual(const Pose2& T_from_to, const Pose2& T_map_from, cons
   return r;
 }
 
-double chi_square(const PoseConstraint& c, const std::vector<Pose2>& T_map_keyframe) {
-  const PoseResidual r =
-      pose_residual(c.T_from_to, T_map_keyframe[index_of(c.from)], T_map_keyframe[index_of(c.to)]);
-  return r.error.dot(c.information * r.error);
+double chi_square(const RelativePoseFactor<KeyframeId>& f, const KeyframePoses& T_map_keyframe) {
+  return relative_chi_square(f, T_map_keyframe[f.from], T_map_keyframe[f.to]);
 }
 
-double chi_square(const HeadingConstraint& c, const std::vector<Pose2>& T_map_keyframe) {
-  const double error_rad = wrap_angle(T_map_keyframe[index_of(c.keyframe)].yaw_rad() - c.yaw_map_rad);
-  return c.information * error_rad * error_rad;
+double chi_square(const HeadingFactor<KeyframeId>& f, const KeyframePoses& T_map_keyframe) {
+  return heading_chi_square(f, T_map_keyframe[f.pose]);
+}
+
+double chi_square(const RelativePoseFactor<PoseIndex>& f, const std::vector<Pose2>& T_map_pose) {
+  return relative_chi_square(f, T_map_pose[index_of(f.from)], T_map_pose[index_of(f.to)]);
+}
+
+double chi_square(const HeadingFactor<PoseIndex>& f, const std::vector<Pose2>& T_map_pose) {
+  return heading_chi_square(f, T_map_pose[index_of(f.pose)]);
 }
 
 Eigen::Matrix3d residual_information(const Pose2& T_from_to, const Eigen::Matrix3d& covariance) {

@@ -3,11 +3,30 @@
 #include "core/backend/pose_graph/pose_graph_optimizer.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <vector>
 
 namespace swiftlet {
-double PoseGraphOptimizer::scale(const PoseConstraint& constraint, double chi_square) const {
-  return constraint.is_closure ? dcs_scale(chi_square, dcs_phi_) : 1.0;
+namespace {
+
+/// The graph as a solver sees it.
+struct DenseGraph {
+  explicit DenseGraph(const PoseGraph& graph)
+      : T_map_pose(graph.T_map_keyframe.values().begin(), graph.T_map_keyframe.values().end()) {
+    factors.reserve(graph.factors.size());
+    for (const RelativePoseFactor<KeyframeId>& f : graph.factors.values())
+      factors.push_back(f.joining(graph.pose_index(f.from), graph.pose_index(f.to)));
+    for (const HeadingFactor<KeyframeId>& f : graph.headings)
+      headings.push_back(f.of(graph.pose_index(f.pose)));
+  }
+  std::vector<Pose2> T_map_pose;
+  std::vector<RelativePoseFactor<PoseIndex>> factors;
+  std::vector<HeadingFactor<PoseIndex>> headings;
+};
+
+}  // namespace
+
+double PoseGraphOptimizer::scale(const RelativePoseFactor<PoseIndex>& factor, double chi_square) const {
+  return factor.is_closure ? dcs_scale(chi_square, dcs_phi_) : 1.0;
 }
 
 /// What weights of s^2 minimise: their integral over chi-square.
@@ -19,19 +38,19 @@ double PoseGraphOptimizer::robust_cost(double chi_square) const {
 Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const OptimizeEffort& effort) {
   OptimizeReport report;
   if (graph.T_map_keyframe.size() < 2) return report;
-  if (Status status = system_.prepare(graph.T_map_keyframe.size(), graph.constraints); !status)
-    return status.error();
-  std::vector<Pose2> poses = graph.T_map_keyframe;
+  DenseGraph dense(graph);
+  std::vector<Pose2>& poses = dense.T_map_pose;
+  if (Status status = system_.prepare(poses.size(), dense.factors); !status) return status.error();
   const int most = std::min(max_iterations_, effort.max_iterations);
   while (report.iterations < most) {
     system_.set_zero();
-    for (const PoseConstraint& c : graph.constraints) {
-      const double s = scale(c, chi_square(c, poses));
-      system_.add(c, s * s, poses);
+    for (const RelativePoseFactor<PoseIndex>& f : dense.factors) {
+      const double s = scale(f, chi_square(f, poses));
+      system_.add(f, s * s, poses);
     }
-    for (const HeadingConstraint& c : graph.headings) {
-      const double s = dcs_scale(chi_square(c, poses), dcs_phi_);
-      system_.add(c, s * s, poses);
+    for (const HeadingFactor<PoseIndex>& f : dense.headings) {
+      const double s = dcs_scale(chi_square(f, poses), dcs_phi_);
+      system_.add(f, s * s, poses);
     }
     const Result<double> largest = system_.step(poses);
     if (!largest) return largest.error();
@@ -39,17 +58,18 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const Opti
     report.converged = *largest < effort.converged_step;
     if (report.converged) break;
   }
-  for (PoseConstraint& c : graph.constraints) {
-    const double error = chi_square(c, poses);
-    c.dcs_scale = scale(c, error);
-    report.chi_square += c.is_closure ? robust_cost(error) : error;
+  for (std::size_t i = 0; i < dense.factors.size(); ++i) {
+    const RelativePoseFactor<PoseIndex>& f = dense.factors[i];
+    const double error = chi_square(f, poses);
+    graph.factors.values()[i].dcs_scale = scale(f, error);
+    report.chi_square += f.is_closure ? robust_cost(error) : error;
   }
-  for (HeadingConstraint& c : graph.headings) {
-    const double error = chi_square(c, poses);
-    c.dcs_scale = dcs_scale(error, dcs_phi_);
+  for (std::size_t i = 0; i < dense.headings.size(); ++i) {
+    const double error = chi_square(dense.headings[i], poses);
+    graph.headings[i].dcs_scale = dcs_scale(error, dcs_phi_);
     report.chi_square += robust_cost(error);
   }
-  graph.T_map_keyframe = std::move(poses);
+  std::copy(poses.begin(), poses.end(), graph.T_map_keyframe.values().begin());
   return report;
 }
 

@@ -11,11 +11,11 @@
 namespace swiftlet {
 namespace {
 
-std::vector<BlockSystem3::BlockIndex> pattern_of(std::span<const PoseConstraint> constraints) {
+std::vector<BlockSystem3::BlockIndex> pattern_of(std::span<const RelativePoseFactor<PoseIndex>> factors) {
   std::vector<BlockSystem3::BlockIndex> pattern;
-  for (const PoseConstraint& c : constraints) {
-    const std::uint32_t low = std::min(index_of(c.from), index_of(c.to));
-    const std::uint32_t high = std::max(index_of(c.from), index_of(c.to));
+  for (const RelativePoseFactor<PoseIndex>& f : factors) {
+    const std::uint32_t low = std::min(index_of(f.from), index_of(f.to));
+    const std::uint32_t high = std::max(index_of(f.from), index_of(f.to));
     if (low > 0) pattern.push_back({high - 1, low - 1});
   }
   return pattern;
@@ -43,9 +43,9 @@ Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_m
   return largest;
 }
 
-Status PoseSystem::prepare(std::size_t pose_count, std::span<const PoseConstraint> constraints) {
+Status PoseSystem::prepare(std::size_t pose_count, std::span<const RelativePoseFactor<PoseIndex>> factors) {
   SWIFTLET_CHECK(pose_count >= 2, "there is a pose to move");
-  std::vector<BlockSystem3::BlockIndex> pattern = pattern_of(constraints);
+  std::vector<BlockSystem3::BlockIndex> pattern = pattern_of(factors);
   if (analyzed_poses_ == pose_count && same(pattern, analyzed_pattern_)) return {};
   analyzed_poses_ = 0;
   system_ = BlockSystem3(pose_count - 1, pattern, kFirstFree);
@@ -55,32 +55,33 @@ Status PoseSystem::prepare(std::size_t pose_count, std::span<const PoseConstrain
   return {};
 }
 
-void PoseSystem::add(const PoseConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose) {
-  const std::uint32_t i = index_of(constraint.from);
-  const std::uint32_t j = index_of(constraint.to);
-  const PoseResidual r = pose_residual(constraint.T_from_to, T_map_pose[i], T_map_pose[j]);
-  const Eigen::Matrix3d W = weight * constraint.information;
+void PoseSystem::add(const RelativePoseFactor<PoseIndex>& factor, double weight,
+                     const std::vector<Pose2>& T_map_pose) {
+  const std::uint32_t i = index_of(factor.from);
+  const std::uint32_t j = index_of(factor.to);
+  const PoseResidual r = pose_residual(factor.T_from_to, T_map_pose[i], T_map_pose[j]);
+  const Eigen::Matrix3d W = weight * factor.information;
   const Eigen::Matrix3d A = r.J_from.transpose() * W;
   const Eigen::Matrix3d B = r.J_to.transpose() * W;
-  add(i, A * r.J_from, -A * r.error);
-  add(j, B * r.J_to, -B * r.error);
+  add(factor.from, A * r.J_from, -A * r.error);
+  add(factor.to, B * r.J_to, -B * r.error);
   if (i == 0 || j == 0) return;
   const Eigen::Matrix3d H = j > i ? Eigen::Matrix3d(B * r.J_from) : Eigen::Matrix3d(A * r.J_to);
   system_.add(std::max(i, j) - 1, std::min(i, j) - 1, H.data());
 }
 
-void PoseSystem::add(const HeadingConstraint& constraint, double weight,
+void PoseSystem::add(const HeadingFactor<PoseIndex>& factor, double weight,
                      const std::vector<Pose2>& T_map_pose) {
-  const std::uint32_t i = index_of(constraint.keyframe);
-  const double w = weight * constraint.information;
-  const double error_rad = wrap_angle(T_map_pose[i].yaw_rad() - constraint.yaw_map_rad);
-  add(i, Eigen::Vector3d(0.0, 0.0, w).asDiagonal(), Eigen::Vector3d(0.0, 0.0, -w * error_rad));
+  const double w = weight * factor.information;
+  const double error_rad = wrap_angle(T_map_pose[index_of(factor.pose)].yaw_rad() - factor.yaw_map_rad);
+  add(factor.pose, Eigen::Vector3d(0.0, 0.0, w).asDiagonal(), Eigen::Vector3d(0.0, 0.0, -w * error_rad));
 }
 
-void PoseSystem::add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs) {
-  if (pose == 0) return;
-  system_.add(pose - 1, pose - 1, H.data());
-  for (std::uint32_t k = 0; k < 3; ++k) system_.rhs[3 * (pose - 1) + k] += rhs[static_cast<Eigen::Index>(k)];
+void PoseSystem::add(PoseIndex pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs) {
+  if (pose == PoseIndex{}) return;
+  const std::uint32_t block = index_of(pose) - 1;
+  system_.add(block, block, H.data());
+  for (std::uint32_t k = 0; k < 3; ++k) system_.rhs[3 * block + k] += rhs[static_cast<Eigen::Index>(k)];
 }
 
 Result<double> PoseSystem::step(std::vector<Pose2>& T_map_pose) {

@@ -18,20 +18,20 @@ namespace swiftlet {
 Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_map_pose);
 
 /// One Gauss-Newton step over a list of poses, the first of which is held as gauge: gathers the normal
-/// equations of constraints and of anything else that pulls at a pose, and solves them. The symbolic analysis
-/// is kept while the constraints join the same pairs. Allocates. One thread at a time.
+/// equations of factors and of anything else that pulls at a pose, and solves them. The symbolic analysis
+/// is kept while the factors join the same pairs. Allocates. One thread at a time.
 class PoseSystem {
  public:
-  /// Sets up for `pose_count` poses joined as `constraints` say. Precondition: pose_count >= 2. Errors:
+  /// Sets up for `pose_count` poses joined by these factors. Precondition: pose_count >= 2. Errors:
   /// kSolver.
-  Status prepare(std::size_t pose_count, std::span<const PoseConstraint> constraints);
+  Status prepare(std::size_t pose_count, std::span<const RelativePoseFactor<PoseIndex>> factors);
 
   void set_zero() { system_.set_zero(); }
-  /// Adds a constraint at the present poses, its information times `weight`.
-  void add(const PoseConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose);
-  void add(const HeadingConstraint& constraint, double weight, const std::vector<Pose2>& T_map_pose);
+  /// Adds a factor at the present poses, its information times `weight`.
+  void add(const RelativePoseFactor<PoseIndex>& factor, double weight, const std::vector<Pose2>& T_map_pose);
+  void add(const HeadingFactor<PoseIndex>& factor, double weight, const std::vector<Pose2>& T_map_pose);
   /// Adds to one pose alone: H of its block and -g.
-  void add(std::uint32_t pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
+  void add(PoseIndex pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
 
   /// Solves and moves the poses. Returns the largest component of the step, in metres or radians. Errors:
   /// kSolver, also where the step is not finite; the poses are then as they were.

@@ -3,17 +3,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "core/backend/pose_graph/pose_graph.hpp"
 
 namespace swiftlet {
 
 /// How well each keyframe is known as seen from `from`: covariance of T_from_k for every k, found by carrying
-/// the constraints' covariances along the path of least uncertainty (Dijkstra projection: Olson 2008, "Robust
+/// the factors' covariances along the path of least uncertainty (Dijkstra projection: Olson 2008, "Robust
 /// and efficient robotic mapping", section 3.4). On the safe side: other paths only tell more. Closures count
 /// as far as DCS believes them (at least half), and so do headings: a keyframe that has one gets a Kalman
 /// update of its yaw on the way. Allocates; O(m log n).
-std::vector<Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from);
+IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from);
 
 }  // namespace swiftlet

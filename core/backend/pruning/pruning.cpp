@@ -32,8 +32,8 @@ struct SeenTile {
 };
 
 struct Traversal {
-  IndexRange keyframes;
-  IndexRange scans;
+  IdRange<KeyframeId> keyframes;
+  ScanRange scans;
   Point2 middle_map;
   double path_m = 0.0;
   std::vector<SeenTile> tiles;
@@ -44,53 +44,52 @@ struct Traversal {
 /// Which traversals saw which tiles.
 class Coverage {
  public:
-  Coverage(const ScanStore& scans, const KeyframeChain& chain, std::span<const Pose2> T_map_keyframe,
+  Coverage(const ScanStore& scans, const KeyframeChain& chain, const KeyframePoses& T_map_keyframe,
            std::span<const KeyframeId> anchors)
       : scans_(scans), chain_(chain), T_map_keyframe_(T_map_keyframe) {
-    const auto count = static_cast<std::uint32_t>(chain.size() / kKeyframesPerTraversal);
-    for (std::uint32_t p = 0; p < count; ++p) traversals_.push_back(make_traversal(p));
+    for (std::size_t k = 0; k + kKeyframesPerTraversal <= chain.size(); k += kKeyframesPerTraversal)
+      traversals_.push_back(make_traversal(traversal_of(chain.all().id_at(k))));
     judge();
-    if (!traversals_.empty()) keep(0);  // it holds the map's frame
-    for (const KeyframeId anchor : anchors) keep(index_of(anchor) / kKeyframesPerTraversal);
+    if (!traversals_.empty()) keep(traversals_.front());  // it holds the map's frame
+    for (const KeyframeId anchor : anchors)
+      keep(traversals_[chain.all().position(anchor) / kKeyframesPerTraversal]);
   }
 
   [[nodiscard]] const std::vector<Traversal>& traversals() const { return traversals_; }
   [[nodiscard]] std::optional<KeyframeId> anchor_of(const Traversal& traversal, double other_time_m) const;
 
  private:
-  [[nodiscard]] Traversal make_traversal(std::uint32_t number);
+  [[nodiscard]] Traversal make_traversal(TraversalId id);
   void judge();
-  void keep(std::uint32_t traversal) {
-    traversals_[traversal].stays_for_good = true;
-    traversals_[traversal].is_redundant = false;
+  static void keep(Traversal& traversal) {
+    traversal.stays_for_good = true;
+    traversal.is_redundant = false;
   }
 
   const ScanStore& scans_;
   const KeyframeChain& chain_;
-  std::span<const Pose2> T_map_keyframe_;
+  const KeyframePoses& T_map_keyframe_;
   std::vector<Traversal> traversals_;
   std::map<Tile, std::size_t> number_of_;
   std::vector<std::size_t> traversals_in_;  // of each tile
 };
 
-Traversal Coverage::make_traversal(std::uint32_t number) {
+Traversal Coverage::make_traversal(TraversalId id) {
   Traversal traversal;
-  traversal.keyframes = {number * kKeyframesPerTraversal, (number + 1) * kKeyframesPerTraversal};
-  const auto scan_at = [&](std::uint32_t k) { return chain_.scan_of(static_cast<KeyframeId>(k)); };
-  const bool is_last = traversal.keyframes.end >= chain_.size();
-  traversal.scans = {scan_at(traversal.keyframes.first),
-                     is_last ? static_cast<ScanIndex>(scans_.size()) : scan_at(traversal.keyframes.end)};
-  const auto middle = static_cast<KeyframeId>(traversal.keyframes.first + kKeyframesPerTraversal / 2);
-  traversal.middle_map = T_map_keyframe_[index_of(middle)].position();
+  traversal.keyframes = keyframes_of(id);
+  traversal.scans = chain_.scans_of(traversal.keyframes);
+  const KeyframeId middle = traversal.keyframes.first + kKeyframesPerTraversal / 2;
+  traversal.middle_map = T_map_keyframe_[middle].position();
   traversal.path_m = chain_.path_m(middle);
   std::map<Tile, std::size_t> returns_in;
   const std::size_t every = 1 + scans_.return_count(traversal.scans) / kReturnsPerTraversal;
   std::size_t number_of_return = 0;
-  for (ScanIndex i = traversal.scans.first; i < traversal.scans.end; ++i) {
-    const Pose2 T_map_body = chain_.T_w_body(i, T_map_keyframe_);
-    for (const ScanReturn& beam : scans_.returns(i)) {
+  const std::vector<Pose2> T_map_body = chain_.T_w_bodies(traversal.scans, T_map_keyframe_);
+  const std::span<const StoredScan> scans = scans_.all().values(traversal.scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    for (const ScanReturn& beam : scans_.returns(scans[i])) {
       if (number_of_return++ % every != 0 || !beam.is_hit) continue;
-      const Point2 p = T_map_body * scans_.point_body(beam);
+      const Point2 p = T_map_body[i] * scans_.point_body(beam);
       ++returns_in[{static_cast<std::int32_t>(std::floor(p.x_m / kTileM)),
                     static_cast<std::int32_t>(std::floor(p.y_m / kTileM))}];
     }
@@ -132,33 +131,34 @@ std::optional<KeyframeId> Coverage::anchor_of(const Traversal& traversal, double
                                          other.middle_map.y_m - traversal.middle_map.y_m);
     if (distance_m >= nearest_m) continue;
     nearest_m = distance_m;
-    anchor = static_cast<KeyframeId>(other.keyframes.first + kKeyframesPerTraversal / 2);
+    anchor = other.keyframes.first + kKeyframesPerTraversal / 2;
   }
   return anchor;
 }
 
 }  // namespace
 
-Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain,
-                     std::span<const Pose2> T_map_keyframe, std::span<const KeyframeId> anchors,
-                     KeyframeId first_recent, double other_time_m, std::size_t scans_wanted) {
+Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain, const KeyframePoses& T_map_keyframe,
+                     std::span<const KeyframeId> anchors, KeyframeId first_recent, double other_time_m,
+                     std::size_t scans_wanted) {
   const Coverage coverage(scans, chain, T_map_keyframe, anchors);
   const std::vector<Traversal>& traversals = coverage.traversals();
   std::vector<std::optional<KeyframeId>> anchor_of(traversals.size());  // of those that can go
   for (std::size_t p = 0; p < traversals.size(); ++p)
-    if (traversals[p].is_redundant && traversals[p].keyframes.end <= index_of(first_recent))
+    if (traversals[p].is_redundant && traversals[p].keyframes.end <= first_recent)
       anchor_of[p] = coverage.anchor_of(traversals[p], other_time_m);
   Pruning pruning;
-  for (std::size_t p = 0; p < traversals.size() && pruning.scans.size() < scans_wanted;) {
+  for (std::size_t p = 0; p < traversals.size() && pruning.scan_count < scans_wanted;) {
     std::size_t end = p;
     while (end < traversals.size() && anchor_of[end]) ++end;
     const bool widens_a_hole = end > p && (scans[traversals[p].scans.first].starts_segment ||
                                            scans[traversals[end - 1].scans.end].starts_segment);
     if (end - p >= kMinRun || widens_a_hole) {
-      for (std::size_t k = p; k < end && pruning.scans.size() < scans_wanted; ++k) {
+      for (std::size_t k = p; k < end && pruning.scan_count < scans_wanted; ++k) {
         pruning.traversals.push_back({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]});
         pruning.keyframes.add(traversals[k].keyframes);
         pruning.scans.add(traversals[k].scans);
+        pruning.scan_count += scans.all().count(traversals[k].scans);
       }
     }
     p = end + 1;
@@ -166,26 +166,26 @@ Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain,
   return pruning;
 }
 
-std::vector<PoseConstraint> ties_around(const Pruning& pruning, const ScanStore& scans,
-                                        std::span<const Pose2> T_map_keyframe) {
-  std::vector<PoseConstraint> ties;
-  const auto is_held_by_motion = [&](ScanIndex behind) {
+std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning, const ScanStore& scans,
+                                                        const KeyframePoses& T_map_keyframe) {
+  std::vector<RelativePoseFactor<KeyframeId>> ties;
+  const auto is_held_by_motion = [&](ScanId behind) {
     return !scans[behind].starts_segment || scans[behind].odometry_ran_on;
   };
-  const auto tie = [&](KeyframeId anchor, std::uint32_t end, ScanIndex behind) {
-    if (pruning.keyframes.removes(end) || !is_held_by_motion(behind)) return;
-    PoseConstraint c;
+  const auto tie = [&](KeyframeId anchor, KeyframeId end, ScanId behind) {
+    if (pruning.keyframes.contains(end) || !is_held_by_motion(behind)) return;
+    RelativePoseFactor<KeyframeId> c;
     c.from = anchor;
-    c.to = static_cast<KeyframeId>(end);
-    c.T_from_to = between(T_map_keyframe[index_of(anchor)], T_map_keyframe[end]);
+    c.to = end;
+    c.T_from_to = between(T_map_keyframe[anchor], T_map_keyframe[end]);
     const Eigen::Vector3d sigma(kTieSigmaM, kTieSigmaM, kTieSigmaRad);
     c.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
     c.is_closure = true;
     ties.push_back(c);
   };
   for (const PrunedTraversal& traversal : pruning.traversals) {
-    tie(traversal.anchor, traversal.keyframes.first - 1, traversal.scans.first);
-    tie(traversal.anchor, traversal.keyframes.end, traversal.scans.end);
+    tie(traversal.anchor, T_map_keyframe.previous(traversal.keyframes.first), traversal.scans.first);
+    tie(traversal.anchor, T_map_keyframe.at_or_after(traversal.keyframes.end), traversal.scans.end);
   }
   return ties;
 }

@@ -10,22 +10,22 @@
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/ids.hpp"
-#include "core/base/index_removal.hpp"
 
 namespace swiftlet {
 
 /// A traversal over space that others know well, which is to be forgotten.
 struct PrunedTraversal {
-  IndexRange keyframes;
-  IndexRange scans;
+  IdRange<KeyframeId> keyframes;
+  ScanRange scans;
   KeyframeId anchor{};  ///< the nearest keyframe of those that are never pruned, from another time
 };
 
 /// What the backend is to forget, so that memory and time do not grow with every lap through known space.
 struct Pruning {
   std::vector<PrunedTraversal> traversals;  ///< in order
-  IndexRemoval keyframes;                   ///< the same, of all traversals
-  IndexRemoval scans;
+  IdRanges<KeyframeId> keyframes;           ///< the same, of all traversals
+  IdRanges<ScanId> scans;
+  std::size_t scan_count = 0;
   [[nodiscard]] bool empty() const { return traversals.empty(); }
 };
 
@@ -37,13 +37,13 @@ struct Pruning {
 /// `first_recent` on is touched, nor are the `anchors` of earlier prunings. `other_time_m`: travel between a
 /// traversal and its anchor. Allocates.
 [[nodiscard]] Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain,
-                                   std::span<const Pose2> T_map_keyframe, std::span<const KeyframeId> anchors,
+                                   const KeyframePoses& T_map_keyframe, std::span<const KeyframeId> anchors,
                                    KeyframeId first_recent, double other_time_m, std::size_t scans_wanted);
 
 /// What holds the ends of the holes to the anchors: from now on no motion does. An end that no motion held
-/// before has its tie from an earlier pruning, or needs none. Numbered as before the pruning.
-/// Allocates.
-[[nodiscard]] std::vector<PoseConstraint> ties_around(const Pruning& pruning, const ScanStore& scans,
-                                                      std::span<const Pose2> T_map_keyframe);
+/// before has its tie from an earlier pruning, or needs none. Allocates.
+[[nodiscard]] std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning,
+                                                                      const ScanStore& scans,
+                                                                      const KeyframePoses& T_map_keyframe);
 
 }  // namespace swiftlet

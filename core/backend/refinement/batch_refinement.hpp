@@ -26,12 +26,12 @@ struct RefinementReport {
 /// closures, all in one sparse Gauss-Newton problem, walls and poses in turn until nothing moves. A tenth of
 /// the returns is held back: the result is taken only if it explains those at least as well as the start did.
 /// Needs a start with walls within about half a metre of each other: it polishes, it does not close loops.
-/// `T_map_body`: one pose per scan, in and out, the first one is held. `closures`: between scans, by their
-/// indices as KeyframeId (information scaled by DCS already); `headings` likewise. Errors: kSolver.
+/// `T_map_body`: one pose per scan, in and out, the first one is held. `closures` join scans (information
+/// scaled by DCS already); `headings` likewise. Errors: kSolver.
 /// Allocates. Repeatable.
 Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
-                                           std::span<const PoseConstraint> closures,
-                                           std::span<const HeadingConstraint> headings,
+                                           std::span<const RelativePoseFactor<ScanId>> closures,
+                                           std::span<const HeadingFactor<ScanId>> headings,
                                            const BackendConfig& config, std::vector<Pose2>& T_map_body);
 
 }  // namespace swiftlet

@@ -14,73 +14,79 @@ namespace swiftlet {
 namespace {
 
 constexpr double kThinningM = 0.08;  // as in a WallMap
-constexpr ScanIndex kMaxScansPerTraversal = 100;
-constexpr std::size_t kReturnsPerPlace = 5;        // neighbours lie in the same tile
-constexpr std::uint32_t kSamePlaceTraversals = 3;  // one window serves closures this close
+constexpr std::size_t kMaxScansPerTraversal = 100;
+constexpr std::size_t kReturnsPerPlace = 5;      // neighbours lie in the same tile
+constexpr std::size_t kSamePlaceTraversals = 3;  // one window serves closures this close
 
 }  // namespace
 
 void OnlineRefinement::add_scan() {
-  const StoredScan& scan = (*scans_)[static_cast<ScanIndex>(T_graph_refined_.size())];
+  const StoredScan& scan = (*scans_)[T_graph_refined_.end_id()];
   const bool is_carried_on = !T_graph_refined_.empty() && (!scan.starts_segment || scan.odometry_ran_on);
-  T_graph_refined_.push_back(is_carried_on ? T_graph_refined_.back() : Pose2());
+  T_graph_refined_.push_back(is_carried_on ? T_graph_refined_.values().back() : Pose2());
 }
 
 void OnlineRefinement::queue_around(KeyframeId place) {
-  const std::uint32_t traversal = index_of(place) / kKeyframesPerTraversal;
-  const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t w) {
-    return std::max(w, traversal) - std::min(w, traversal) < kSamePlaceTraversals;
+  const TraversalId traversal = traversal_of(place);
+  const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](TraversalId w) {
+    return traversals_between(w, traversal) < kSamePlaceTraversals;
   });
   if (waits) return;
   if (waiting_.size() == kMaxPlacesWaiting) waiting_.pop_front();
   waiting_.push_back(traversal);
 }
 
-void OnlineRefinement::remove(const IndexRemoval& scans, const IndexRemoval& keyframes) {
-  IndexRemoval traversals;
-  for (const IndexRange& hole : keyframes.ranges())
-    traversals.add({hole.first / kKeyframesPerTraversal, hole.end / kKeyframesPerTraversal});
-  scans.apply(T_graph_refined_);
-  traversals_.remove(traversals, scans);
-  std::erase_if(waiting_, [&](std::uint32_t traversal) { return traversals.removes(traversal); });
-  for (std::uint32_t& traversal : waiting_) traversal = traversals.new_index(traversal);
-  swept_ = scans.new_index(swept_);
+void OnlineRefinement::erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals) {
+  T_graph_refined_.erase(scans);
+  if (traversals_.size() > 0) traversals_.erase(traversals);  // none is filed without refinement
+  std::erase_if(waiting_, [&](TraversalId traversal) { return traversals.contains(traversal); });
 }
 
-void OnlineRefinement::follow(std::span<const Pose2> T_map_keyframe) {
-  for (std::uint32_t traversal = 0; traversal < traversals_.size(); ++traversal)
+void OnlineRefinement::follow(const KeyframePoses& T_map_keyframe) {
+  for (const TraversalId traversal : traversals_.filed({TraversalId{}, traversals_.end_id()}))
     traversals_.move(traversal, T_map_body(traversals_[traversal].reference, T_map_keyframe));
 }
 
-Pose2 OnlineRefinement::T_map_body(ScanIndex scan, std::span<const Pose2> T_map_keyframe) const {
+Pose2 OnlineRefinement::T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const {
   return refined(scan, chain_->T_w_body(scan, T_map_keyframe));
 }
 
-std::uint32_t OnlineRefinement::newest_traversal() const {
-  return static_cast<std::uint32_t>((chain_->size() - 1) / kKeyframesPerTraversal);
+TraversalId OnlineRefinement::newest_traversal() const { return traversal_of(chain_->all().last_id()); }
+
+TraversalId OnlineRefinement::before(TraversalId traversal) const {
+  return traversal_of(chain_->all().previous(keyframes_of(traversal).first));
 }
 
-ScanRange OnlineRefinement::scans_of(std::uint32_t traversal) const {
-  const auto first = static_cast<KeyframeId>(traversal * kKeyframesPerTraversal);
-  const auto next = static_cast<KeyframeId>((traversal + 1) * kKeyframesPerTraversal);
-  return {chain_->scan_of(first),
-          traversal < newest_traversal() ? chain_->scan_of(next) : static_cast<ScanIndex>(scans_->size())};
+TraversalId OnlineRefinement::after(TraversalId traversal) const {
+  return traversal_of(chain_->all().at_or_after(keyframes_of(traversal).end));
+}
+
+/// How far apart two traversals are, counting those that were not pruned.
+std::size_t OnlineRefinement::traversals_between(TraversalId a, TraversalId b) const {
+  return chain_->all().count({keyframes_of(std::min(a, b)).first, keyframes_of(std::max(a, b)).first}) /
+         kKeyframesPerTraversal;
 }
 
 /// Whole traversals, as many as fit on both sides of the middle one; of a traversal that is too long its end.
-ScanRange OnlineRefinement::window_around(std::uint32_t traversal) const {
+ScanRange OnlineRefinement::window_around(TraversalId traversal) const {
+  const IdMap<ScanId, StoredScan>& scans = scans_->all();
   ScanRange window = scans_of(traversal);
-  if (window.size() > kMaxScans) return {window.end - kMaxScans, window.end};
-  std::uint32_t lowest = traversal;
-  std::uint32_t highest = traversal;
+  if (scans.count(window) > kMaxScans)
+    return {scans.id_at(scans.position(window.end) - kMaxScans), window.end};
+  const TraversalId oldest = traversal_of(chain_->all().first_id());
+  TraversalId lowest = traversal;
+  TraversalId highest = traversal;
   for (bool grows = true; grows;) {
     grows = false;
-    if (lowest > 0 && window.end - scans_of(lowest - 1).first <= kMaxScans) {
-      window.first = scans_of(--lowest).first;
+    if (lowest > oldest && scans.count({scans_of(before(lowest)).first, window.end}) <= kMaxScans) {
+      lowest = before(lowest);
+      window.first = scans_of(lowest).first;
       grows = true;
     }
-    if (highest < newest_traversal() && scans_of(highest + 1).end - window.first <= kMaxScans) {
-      window.end = scans_of(++highest).end;
+    if (highest < newest_traversal() &&
+        scans.count({window.first, scans_of(after(highest)).end}) <= kMaxScans) {
+      highest = after(highest);
+      window.end = scans_of(highest).end;
       grows = true;
     }
   }
@@ -92,53 +98,58 @@ ScanRange OnlineRefinement::next_window() {
   const std::uint32_t turn = turn_++ % 4;
   if (turn % 2 == 0) return window_around(newest_traversal());
   if (turn == 1 && !waiting_.empty()) {
-    const std::uint32_t place = waiting_.front();
+    const TraversalId place = waiting_.front();
     waiting_.pop_front();
     return window_around(place);
   }
-  if (swept_ >= scans_of(newest_traversal()).first) swept_ = 0;
+  if (swept_ >= scans_of(newest_traversal()).first) swept_ = scans_->all().first_id();
+  swept_ = scans_->all().at_or_after(swept_);
   const ScanRange window = window_around(traversal_of((*scans_)[swept_]));
   swept_ = std::max(window.end, swept_ + 1);
   return window;
 }
 
-WindowPoses OnlineRefinement::poses_of(const ScanRange& window, std::span<const Pose2> T_map_keyframe,
-                                       std::span<const Pose2> T_local_keyframe) const {
+WindowPoses OnlineRefinement::poses_of(const ScanRange& window, const KeyframePoses& T_map_keyframe,
+                                       const KeyframePoses& T_local_keyframe) const {
+  const IdMap<ScanId, StoredScan>& scans = scans_->all();
+  const std::size_t first = scans.position(window.first);
   WindowPoses poses;
-  poses.first_scan = window.first > 0 ? window.first - 1 : 0;
-  const ScanIndex end = std::min(window.end + 1, static_cast<ScanIndex>(scans_->size()));
-  poses.T_map_graph = chain_->T_w_bodies({poses.first_scan, end}, T_map_keyframe);
-  poses.T_local_body = chain_->T_w_bodies({poses.first_scan, end}, T_local_keyframe);
-  for (ScanIndex i = poses.first_scan; i < end; ++i)
-    poses.T_map_body.push_back(refined(i, poses.T_map_graph[i - poses.first_scan]));
+  poses.scans.first = scans.id_at(first > 0 ? first - 1 : 0);
+  poses.scans.end = std::min(scans.at_or_after(window.end) + 1, scans.end_id());
+  poses.T_map_graph = chain_->T_w_bodies(poses.scans, T_map_keyframe);
+  poses.T_local_body = chain_->T_w_bodies(poses.scans, T_local_keyframe);
+  const std::span<const Pose2> T_graph_refined = T_graph_refined_.values(poses.scans);
+  for (std::size_t i = 0; i < T_graph_refined.size(); ++i)
+    poses.T_map_body.push_back(poses.T_map_graph[i] * T_graph_refined[i]);
   return poses;
 }
 
 /// What traversals outside of the window drew where its returns lie.
 std::vector<TraversalPoint> OnlineRefinement::walls_around(const ScanRange& window, const WindowPoses& poses,
-                                                           std::span<const Pose2> T_map_keyframe) const {
+                                                           const KeyframePoses& T_map_keyframe) const {
   std::vector<Point2> places_map;
   std::size_t number = 0;
-  for (ScanIndex i = window.first; i < window.end; ++i) {
-    for (const ScanReturn& beam : scans_->returns(i))
+  const std::span<const StoredScan> scans = scans_->all().values(window);
+  const Pose2* T_map_scan = &poses.T_map_body[scans_->all().count({poses.scans.first, window.first})];
+  for (const StoredScan& scan : scans) {
+    for (const ScanReturn& beam : scans_->returns(scan))
       if (beam.is_hit && number++ % kReturnsPerPlace == 0)
-        places_map.push_back(poses.T_map_body[i - poses.first_scan] * scans_->point_body(beam));
+        places_map.push_back(*T_map_scan * scans_->point_body(beam));
+    ++T_map_scan;
   }
-  const std::uint32_t first = traversal_of((*scans_)[window.first]);
-  const std::uint32_t end = traversal_of((*scans_)[window.end - 1]) + 1;
+  const IdRange<TraversalId> in_window{traversal_of(scans.front()), traversal_of(scans.back()) + 1};
   std::vector<TraversalPoint> points;
-  for (const std::uint32_t traversal : traversals_.near(places_map, first, end)) {
+  for (const TraversalId traversal : traversals_.near(places_map, in_window)) {
     const Pose2 T_map_reference = T_map_body(traversals_[traversal].reference, T_map_keyframe);
     for (const Point2& p_reference : traversals_[traversal].points_reference)
-      points.push_back({T_map_reference * p_reference, traversal});
+      points.push_back({T_map_reference * p_reference, index_of(traversal)});
   }
   return points;
 }
 
-Result<ScanRange> OnlineRefinement::step(std::span<const Pose2> T_map_keyframe,
-                                         std::span<const Pose2> T_local_keyframe) {
-  while (traversals_.size() < newest_traversal())
-    file_traversal(static_cast<std::uint32_t>(traversals_.size()), T_map_keyframe);
+Result<ScanRange> OnlineRefinement::step(const KeyframePoses& T_map_keyframe,
+                                         const KeyframePoses& T_local_keyframe) {
+  while (traversals_.end_id() < newest_traversal()) file_traversal(traversals_.end_id(), T_map_keyframe);
   const ScanRange window = next_window();
   WindowPoses poses = poses_of(window, T_map_keyframe, T_local_keyframe);
   const Result<WindowReport> report =
@@ -155,32 +166,35 @@ Result<ScanRange> OnlineRefinement::step(std::span<const Pose2> T_map_keyframe,
 }
 
 void OnlineRefinement::take(const ScanRange& window, const WindowPoses& poses,
-                            std::span<const Pose2> T_map_keyframe) {
-  for (ScanIndex i = poses.first_scan + 1; i < window.end; ++i) {
-    const std::size_t at = i - poses.first_scan;
-    T_graph_refined_[i] = between(poses.T_map_graph[at], poses.T_map_body[at]);
-  }
-  const std::uint32_t last = traversal_of((*scans_)[window.end - 1]);
-  for (std::uint32_t traversal = traversal_of((*scans_)[window.first]);
-       traversal <= last && traversal < traversals_.size(); ++traversal)
+                            const KeyframePoses& T_map_keyframe) {
+  const std::size_t first = scans_->all().position(poses.scans.first);
+  const std::size_t moved = scans_->all().count({poses.scans.first, window.end});
+  for (std::size_t i = 1; i < moved; ++i)
+    T_graph_refined_.values()[first + i] = between(poses.T_map_graph[i], poses.T_map_body[i]);
+  const std::span<const StoredScan> scans = scans_->all().values(window);
+  for (const TraversalId traversal :
+       traversals_.filed({traversal_of(scans.front()), traversal_of(scans.back()) + 1}))
     file_traversal(traversal, T_map_keyframe);
 }
 
-void OnlineRefinement::file_traversal(std::uint32_t traversal, std::span<const Pose2> T_map_keyframe) {
-  const ScanRange scans = scans_of(traversal);
+void OnlineRefinement::file_traversal(TraversalId traversal, const KeyframePoses& T_map_keyframe) {
+  const ScanRange range = scans_of(traversal);
+  const std::span<const StoredScan> scans = scans_->all().values(range);
+  const std::size_t first = scans_->all().position(range.first);
   TraversalWalls walls;
-  walls.reference = scans.first + scans.size() / 2;
+  walls.reference = scans_->all().id_at(first + scans.size() / 2);
   const Pose2 T_map_reference = T_map_body(walls.reference, T_map_keyframe);
   const Pose2 T_reference_map = T_map_reference.inverse();
-  const ScanIndex every = 1 + scans.size() / kMaxScansPerTraversal;
-  const std::vector<Pose2> T_map_graph = chain_->T_w_bodies(scans, T_map_keyframe, every);
+  const std::size_t every = 1 + scans.size() / kMaxScansPerTraversal;
+  const std::vector<Pose2> T_map_graph = chain_->T_w_bodies(range, T_map_keyframe, every);
   CellNumbers cells(kThinningM);
-  cells.reset(std::min<std::size_t>(scans_->return_count(scans), kMaxScansPerTraversal * kMaxBeams));
-  for (ScanIndex i = scans.first; i < scans.end; i += every) {
-    const Pose2 T_reference_body = T_reference_map * refined(i, T_map_graph[(i - scans.first) / every]);
-    const std::span<const ScanReturn> beams = scans_->returns(i);
+  cells.reset(std::min<std::size_t>(scans_->return_count(range), kMaxScansPerTraversal * kMaxBeams));
+  for (std::size_t i = 0; i < scans.size(); i += every) {
+    const ScanId id = scans_->all().id_at(first + i);
+    const Pose2 T_reference_body = T_reference_map * refined(id, T_map_graph[i / every]);
+    const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
     for (std::size_t k = 0; k < beams.size(); ++k) {
-      if (!beams[k].is_hit || is_held_out(*scans_, i, k)) continue;
+      if (!beams[k].is_hit || is_held_out(id, k)) continue;
       const Point2 p = T_reference_body * scans_->point_body(beams[k]);
       if (cells.is_first(p)) walls.points_reference.push_back(p);
     }

@@ -10,6 +10,7 @@
 #include "core/backend/refinement/traversal_index.hpp"
 #include "core/backend/refinement/window_refinement.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
+#include "core/backend/store/traversal.hpp"
 
 namespace swiftlet {
 
@@ -19,7 +20,7 @@ namespace swiftlet {
 /// Allocates. One thread at a time. Repeatable.
 class OnlineRefinement {
  public:
-  static constexpr ScanIndex kMaxScans = 300;  ///< of a window
+  static constexpr std::size_t kMaxScans = 300;  ///< of a window
   static constexpr std::size_t kMaxPlacesWaiting = 32;
 
   OnlineRefinement(const ScanStore& scans, const KeyframeChain& chain, const SensorModel& sensor)
@@ -30,17 +31,17 @@ class OnlineRefinement {
   /// A loop has closed there: scans around it are refined in due course. With the most places waiting, the
   /// one that waits longest is given up.
   void queue_around(KeyframeId place);
-  /// Follows the store and the chain, from which the same whole traversals were removed.
-  void remove(const IndexRemoval& scans, const IndexRemoval& keyframes);
+  /// Follows the store and the chain, from which the same whole traversals were erased.
+  void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
   /// The graph was optimised.
-  void follow(std::span<const Pose2> T_map_keyframe);
+  void follow(const KeyframePoses& T_map_keyframe);
   /// After each keyframe: refines the newest scans or, every other time, elsewhere: around a place that
   /// waits, or the next scans of the whole run in turn. Takes the poses of all keyframes by the graph and by
   /// the frontend. Returns what moved. Errors: kSolver; nothing has moved then.
-  Result<ScanRange> step(std::span<const Pose2> T_map_keyframe, std::span<const Pose2> T_local_keyframe);
+  Result<ScanRange> step(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
 
   /// The refined pose of a scan that the graph puts there.
-  [[nodiscard]] Pose2 refined(ScanIndex scan, const Pose2& T_map_graph) const {
+  [[nodiscard]] Pose2 refined(ScanId scan, const Pose2& T_map_graph) const {
     return T_map_graph * T_graph_refined_[scan];
   }
   /// What the last step was about.
@@ -49,25 +50,30 @@ class OnlineRefinement {
   [[nodiscard]] std::uint64_t windows_refused() const { return windows_refused_; }
 
  private:
-  [[nodiscard]] Pose2 T_map_body(ScanIndex scan, std::span<const Pose2> T_map_keyframe) const;
-  [[nodiscard]] std::uint32_t newest_traversal() const;
-  [[nodiscard]] ScanRange scans_of(std::uint32_t traversal) const;
-  [[nodiscard]] ScanRange window_around(std::uint32_t traversal) const;
+  [[nodiscard]] Pose2 T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const;
+  [[nodiscard]] TraversalId newest_traversal() const;
+  [[nodiscard]] TraversalId before(TraversalId traversal) const;
+  [[nodiscard]] TraversalId after(TraversalId traversal) const;
+  [[nodiscard]] std::size_t traversals_between(TraversalId a, TraversalId b) const;
+  [[nodiscard]] ScanRange scans_of(TraversalId traversal) const {
+    return chain_->scans_of(keyframes_of(traversal));
+  }
+  [[nodiscard]] ScanRange window_around(TraversalId traversal) const;
   [[nodiscard]] ScanRange next_window();
-  [[nodiscard]] WindowPoses poses_of(const ScanRange& window, std::span<const Pose2> T_map_keyframe,
-                                     std::span<const Pose2> T_local_keyframe) const;
+  [[nodiscard]] WindowPoses poses_of(const ScanRange& window, const KeyframePoses& T_map_keyframe,
+                                     const KeyframePoses& T_local_keyframe) const;
   [[nodiscard]] std::vector<TraversalPoint> walls_around(const ScanRange& window, const WindowPoses& poses,
-                                                         std::span<const Pose2> T_map_keyframe) const;
-  void take(const ScanRange& window, const WindowPoses& poses, std::span<const Pose2> T_map_keyframe);
-  void file_traversal(std::uint32_t traversal, std::span<const Pose2> T_map_keyframe);
+                                                         const KeyframePoses& T_map_keyframe) const;
+  void take(const ScanRange& window, const WindowPoses& poses, const KeyframePoses& T_map_keyframe);
+  void file_traversal(TraversalId traversal, const KeyframePoses& T_map_keyframe);
 
   const ScanStore* scans_;
   const KeyframeChain* chain_;
   WindowRefinement window_refinement_;
-  TraversalIndex traversals_;           // all but the newest, which is not complete
-  std::vector<Pose2> T_graph_refined_;  // of each scan
-  std::deque<std::uint32_t> waiting_;   // traversals
-  ScanIndex swept_ = 0;                 // scans before this one had their turn
+  TraversalIndex traversals_;  // all but the newest, which is not complete
+  IdMap<ScanId, Pose2> T_graph_refined_;
+  std::deque<TraversalId> waiting_;
+  ScanId swept_{};  // scans before this one had their turn
   std::uint32_t turn_ = 0;
   WindowReport last_window_;
   std::uint64_t windows_refined_ = 0;

@@ -25,9 +25,9 @@ void sort_unique(std::vector<T>& values) {
 
 }  // namespace
 
-void TraversalIndex::set(std::uint32_t traversal, TraversalWalls walls, const Pose2& T_map_reference) {
-  SWIFTLET_CHECK(traversal <= traversals_.size(), "traversals are numbered without gaps");
-  if (traversal == traversals_.size()) traversals_.emplace_back();
+void TraversalIndex::set(TraversalId traversal, TraversalWalls walls, const Pose2& T_map_reference) {
+  SWIFTLET_CHECK(traversal <= traversals_.end_id(), "traversals are filed in order");
+  if (traversal == traversals_.end_id()) traversals_.push_back({});
   unfile(traversal);
   Filed& filed = traversals_[traversal];
   filed.walls = std::move(walls);
@@ -42,17 +42,21 @@ void TraversalIndex::set(std::uint32_t traversal, TraversalWalls walls, const Po
   file(traversal, T_map_reference);
 }
 
-void TraversalIndex::remove(const IndexRemoval& traversals, const IndexRemoval& scans) {
-  traversals.apply(traversals_);
-  tiles_.clear();
-  for (std::uint32_t traversal = 0; traversal < traversals_.size(); ++traversal) {
-    Filed& filed = traversals_[traversal];
-    filed.walls.reference = scans.new_index(filed.walls.reference);
-    for (const Tile& tile : filed.tiles) tiles_[tile].push_back(traversal);
-  }
+void TraversalIndex::erase(const IdRanges<TraversalId>& pruned) {
+  for (const IdRange<TraversalId>& range : pruned)
+    for (const TraversalId traversal : filed(range)) unfile(traversal);
+  traversals_.erase(pruned);
 }
 
-void TraversalIndex::move(std::uint32_t traversal, const Pose2& T_map_reference) {
+std::vector<TraversalId> TraversalIndex::filed(IdRange<TraversalId> range) const {
+  std::vector<TraversalId> ids;
+  range.end = std::min(range.end, traversals_.end_id());
+  for (TraversalId id = traversals_.at_or_after(range.first); id < range.end; id = traversals_.next(id))
+    ids.push_back(id);
+  return ids;
+}
+
+void TraversalIndex::move(TraversalId traversal, const Pose2& T_map_reference) {
   const Filed& filed = traversals_[traversal];
   const Pose2 moved = between(filed.T_map_reference, T_map_reference);
   const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * filed.reach_m;
@@ -61,7 +65,7 @@ void TraversalIndex::move(std::uint32_t traversal, const Pose2& T_map_reference)
   file(traversal, T_map_reference);
 }
 
-void TraversalIndex::file(std::uint32_t traversal, const Pose2& T_map_reference) {
+void TraversalIndex::file(TraversalId traversal, const Pose2& T_map_reference) {
   Filed& filed = traversals_[traversal];
   filed.T_map_reference = T_map_reference;
   for (const Point2& p_reference : filed.walls.points_reference) {
@@ -70,12 +74,12 @@ void TraversalIndex::file(std::uint32_t traversal, const Pose2& T_map_reference)
   }
   sort_unique(filed.tiles);
   for (const Tile& tile : filed.tiles) {
-    std::vector<std::uint32_t>& there = tiles_[tile];
+    std::vector<TraversalId>& there = tiles_[tile];
     there.insert(std::lower_bound(there.begin(), there.end(), traversal), traversal);
   }
 }
 
-void TraversalIndex::unfile(std::uint32_t traversal) {
+void TraversalIndex::unfile(TraversalId traversal) {
   for (const Tile& tile : traversals_[traversal].tiles) {
     const auto at = tiles_.find(tile);
     at->second.erase(std::lower_bound(at->second.begin(), at->second.end(), traversal));
@@ -84,9 +88,8 @@ void TraversalIndex::unfile(std::uint32_t traversal) {
   traversals_[traversal].tiles.clear();
 }
 
-std::vector<std::uint32_t> TraversalIndex::near(std::span<const Point2> places_map,
-                                                std::uint32_t excluded_first,
-                                                std::uint32_t excluded_end) const {
+std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map,
+                                              const IdRange<TraversalId>& excluded) const {
   std::vector<Tile> tiles;
   for (const Point2& p : places_map) {
     const Tile low(tile_of(p.x_m - kMarginM), tile_of(p.y_m - kMarginM));
@@ -97,26 +100,26 @@ std::vector<std::uint32_t> TraversalIndex::near(std::span<const Point2> places_m
   }
   sort_unique(tiles);
 
-  std::vector<std::vector<std::uint32_t>> choices;  // of each tile
+  std::vector<std::vector<TraversalId>> choices;  // of each tile
   for (const Tile& tile : tiles) {
     const auto at = tiles_.find(tile);
     if (at == tiles_.end()) continue;
-    const std::vector<std::uint32_t>& there = at->second;
-    const auto first_out = std::lower_bound(there.begin(), there.end(), excluded_first);
-    const auto first_after = std::lower_bound(first_out, there.end(), excluded_end);
+    const std::vector<TraversalId>& there = at->second;
+    const auto first_out = std::lower_bound(there.begin(), there.end(), excluded.first);
+    const auto first_after = std::lower_bound(first_out, there.end(), excluded.end);
     const auto before = static_cast<std::size_t>(first_out - there.begin());
     const auto gap = static_cast<std::size_t>(first_after - first_out);
     const std::size_t count = there.size() - gap;
     const std::size_t taken = std::min(count, kMaxTraversalsPerTile);
-    std::vector<std::uint32_t>& chosen = choices.emplace_back();
+    std::vector<TraversalId>& chosen = choices.emplace_back();
     for (std::size_t k = 0; k < taken; ++k) {
       const std::size_t i = taken == 1 ? 0 : k * (count - 1) / (taken - 1);
       chosen.push_back(there[i < before ? i : i + gap]);
     }
   }
-  std::vector<std::uint32_t> found;
+  std::vector<TraversalId> found;
   for (std::size_t k = 0; k < kMaxTraversalsPerTile && found.size() < kMaxTraversalsNearby; ++k) {
-    for (const std::vector<std::uint32_t>& chosen : choices)
+    for (const std::vector<TraversalId>& chosen : choices)
       if (k < chosen.size()) found.push_back(chosen[k]);
     sort_unique(found);
   }

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/backend/store/scan_store.hpp"
+#include "core/base/id_map.hpp"
+#include "core/base/ids.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace swiftlet {
@@ -16,7 +17,7 @@ namespace swiftlet {
 /// What a traversal over a place saw of its walls, one point a cell, as seen from one of its scans: it moves
 /// as a whole with that scan.
 struct TraversalWalls {
-  ScanIndex reference = 0;
+  ScanId reference{};
   std::vector<Point2> points_reference;
 };
 
@@ -28,23 +29,24 @@ class TraversalIndex {
   static constexpr std::size_t kMaxTraversalsNearby = 64;
   static constexpr std::size_t kMaxTraversalsPerTile = 8;
 
-  /// Files a traversal, or files it anew. Passes are numbered from 0 without gaps. More than the most points:
-  /// some are left out, evenly.
-  void set(std::uint32_t traversal, TraversalWalls walls, const Pose2& T_map_reference);
-  /// Forgets traversals; their scans were removed too.
-  void remove(const IndexRemoval& traversals, const IndexRemoval& scans);
+  /// Files the next traversal, or an earlier one anew. More than the most points: some are left out, evenly.
+  void set(TraversalId traversal, TraversalWalls walls, const Pose2& T_map_reference);
+  void erase(const IdRanges<TraversalId>& pruned);
   /// The traversal is now there; nothing to do unless it left its tiles.
-  void move(std::uint32_t traversal, const Pose2& T_map_reference);
+  void move(TraversalId traversal, const Pose2& T_map_reference);
 
   [[nodiscard]] std::size_t size() const { return traversals_.size(); }
-  [[nodiscard]] const TraversalWalls& operator[](std::uint32_t traversal) const {
+  /// The traversal that is filed next.
+  [[nodiscard]] TraversalId end_id() const { return traversals_.end_id(); }
+  /// Those of the range that were filed and not erased, ascending.
+  [[nodiscard]] std::vector<TraversalId> filed(IdRange<TraversalId> range) const;
+  [[nodiscard]] const TraversalWalls& operator[](TraversalId traversal) const {
     return traversals_[traversal].walls;
   }
-  /// Passes with walls within about half a metre of the places, ascending. Where a tile has more than the
-  /// most, they are chosen evenly from the first to the last. None in [excluded_first, excluded_end).
-  [[nodiscard]] std::vector<std::uint32_t> near(std::span<const Point2> places_map,
-                                                std::uint32_t excluded_first,
-                                                std::uint32_t excluded_end) const;
+  /// Traversals with walls within about half a metre of the places, ascending, but for the excluded ones.
+  /// Where a tile has more than the most, they are chosen evenly from the first to the last.
+  [[nodiscard]] std::vector<TraversalId> near(std::span<const Point2> places_map,
+                                              const IdRange<TraversalId>& excluded) const;
 
  private:
   using Tile = std::pair<std::int32_t, std::int32_t>;
@@ -54,11 +56,11 @@ class TraversalIndex {
     double reach_m = 0.0;   // of its farthest point from the reference
     std::vector<Tile> tiles;
   };
-  void file(std::uint32_t traversal, const Pose2& T_map_reference);
-  void unfile(std::uint32_t traversal);
+  void file(TraversalId traversal, const Pose2& T_map_reference);
+  void unfile(TraversalId traversal);
 
-  std::vector<Filed> traversals_;
-  std::map<Tile, std::vector<std::uint32_t>> tiles_;  // traversals ascending
+  IdMap<TraversalId, Filed> traversals_;
+  std::map<Tile, std::vector<TraversalId>> tiles_;  // traversals ascending
 };
 
 }  // namespace swiftlet

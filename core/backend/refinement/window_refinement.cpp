@@ -23,22 +23,25 @@ std::uint32_t scattered(std::size_t number) {
 
 }  // namespace
 
-bool is_held_out(const ScanStore& scans, ScanIndex scan, std::size_t return_of_scan) {
-  return scattered(scans[scan].number * kMaxBeams + return_of_scan) % kHoldOutEvery == 0;
+bool is_held_out(ScanId scan, std::size_t return_of_scan) {
+  return scattered(index_of(scan) * kMaxBeams + return_of_scan) % kHoldOutEvery == 0;
 }
 
-void WindowRefinement::take_returns(const ScanRange& window, ScanIndex first_scan) {
-  std::size_t count = 0;
-  for (ScanIndex i = window.first; i < window.end; ++i) count += scans_->returns(i).size();
+/// `first_pose`: of the window's first scan.
+void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_pose) {
+  const std::size_t count = scans_->return_count(window);
   const std::size_t every = (count + kMaxReturns - 1) / kMaxReturns;
   returns_.clear();
   std::size_t number = 0;
-  for (ScanIndex i = window.first; i < window.end; ++i) {
-    const std::span<const ScanReturn> beams = scans_->returns(i);
+  const std::span<const StoredScan> scans = scans_->all().values(window);
+  const std::size_t first = scans_->all().position(window.first);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const ScanId id = scans_->all().id_at(first + i);
+    const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
     for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
       if (!beams[k].is_hit || number % every != 0) continue;
-      returns_.push_back({i - first_scan, traversal_of((*scans_)[i]), is_held_out(*scans_, i, k),
-                          scans_->point_body(beams[k])});
+      returns_.push_back({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])),
+                          is_held_out(id, k), scans_->point_body(beams[k])});
     }
   }
 }
@@ -49,7 +52,7 @@ WallMap WindowRefinement::walls_at(const std::vector<Pose2>& T_map_body,
   std::vector<TraversalPoint> points;
   points.reserve(returns_.size());
   for (const PlacedReturn& r : returns_)
-    if (!r.held_out) points.push_back({T_map_body[r.pose] * r.p_body, r.traversal});
+    if (!r.held_out) points.push_back({T_map_body[index_of(r.pose)] * r.p_body, r.traversal});
   return {others_thinned, points, kRadiusM};
 }
 
@@ -58,7 +61,7 @@ double WindowRefinement::held_out_error_m(const WallMap& walls, const std::vecto
   std::size_t count = 0;
   for (const PlacedReturn& r : returns_) {
     if (!r.held_out) continue;
-    const TraversalPoint at{T_map_body[r.pose] * r.p_body, r.traversal};
+    const TraversalPoint at{T_map_body[index_of(r.pose)] * r.p_body, r.traversal};
     sum += judged_distance_m(walls.wall_near(at), at.p_map);
     ++count;
   }
@@ -67,13 +70,13 @@ double WindowRefinement::held_out_error_m(const WallMap& walls, const std::vecto
 
 void WindowRefinement::take_steps(const WindowPoses& poses) {
   steps_.clear();
-  for (std::uint32_t to = 1; to < poses.T_map_body.size(); ++to) {
-    PoseConstraint step;
-    step.from = static_cast<KeyframeId>(to - 1);
-    step.to = static_cast<KeyframeId>(to);
+  const std::span<const StoredScan> scans = scans_->all().values(poses.scans);
+  for (std::size_t to = 1; to < scans.size(); ++to) {
+    RelativePoseFactor<PoseIndex> step;
+    step.from = make_id<PoseIndex>(to - 1);
+    step.to = make_id<PoseIndex>(to);
     step.T_from_to = between(poses.T_local_body[to - 1], poses.T_local_body[to]);
-    const ScanIndex scan = poses.first_scan + to;
-    step.information = kStepWeight * motion_information((*scans_)[scan - 1], (*scans_)[scan], noise_);
+    step.information = kStepWeight * motion_information(scans[to - 1], scans[to], noise_);
     steps_.push_back(step);
   }
 }
@@ -81,7 +84,7 @@ void WindowRefinement::take_steps(const WindowPoses& poses) {
 void WindowRefinement::add_walls(const WallMap& walls, const std::vector<Pose2>& T_map_body) {
   for (const PlacedReturn& r : returns_) {
     if (r.held_out) continue;
-    const Pose2& T = T_map_body[r.pose];
+    const Pose2& T = T_map_body[index_of(r.pose)];
     const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.traversal});
     if (!wall) continue;
     const PointToLineFactor pull = point_to_line_factor(*wall, T, r.p_body);
@@ -90,17 +93,16 @@ void WindowRefinement::add_walls(const WallMap& walls, const std::vector<Pose2>&
 }
 
 void WindowRefinement::add_steps(const std::vector<Pose2>& T_map_body, std::size_t moving) {
-  for (const PoseConstraint& step : steps_) {
-    const std::uint32_t from = index_of(step.from);
-    const std::uint32_t to = index_of(step.to);
-    if (to < moving) {
+  for (const RelativePoseFactor<PoseIndex>& step : steps_) {
+    if (index_of(step.to) < moving) {
       chain_.add(step, T_map_body);
       continue;
     }
     // To the scan behind the window, which stays.
-    const PoseResidual r = pose_residual(step.T_from_to, T_map_body[from], T_map_body[to]);
+    const PoseResidual r =
+        pose_residual(step.T_from_to, T_map_body[index_of(step.from)], T_map_body[index_of(step.to)]);
     const Eigen::Matrix3d A = r.J_from.transpose() * step.information;
-    chain_.add(from, A * r.J_from, -A * r.error);
+    chain_.add(step.from, A * r.J_from, -A * r.error);
   }
 }
 
@@ -109,21 +111,22 @@ void WindowRefinement::add_ties(const WindowPoses& poses, std::size_t moving) {
       Eigen::Vector3d(1.0 / (kTieSigmaM * kTieSigmaM), 1.0 / (kTieSigmaM * kTieSigmaM),
                       1.0 / (kTieSigmaRad * kTieSigmaRad))
           .asDiagonal();
-  for (std::uint32_t i = 1; i < moving; ++i) {
-    const ScanIndex scan = poses.first_scan + i;
-    if ((*scans_)[scan].keyframe == (*scans_)[scan - 1].keyframe) continue;
+  const std::span<const StoredScan> scans = scans_->all().values(poses.scans);
+  for (std::size_t i = 1; i < moving; ++i) {
+    if (scans[i].keyframe == scans[i - 1].keyframe) continue;
     const PoseResidual r = pose_residual(Pose2(), poses.T_map_graph[i], poses.T_map_body[i]);
     const Eigen::Matrix3d A = r.J_to.transpose() * information;
-    chain_.add(i, A * r.J_to, -A * r.error);
+    chain_.add(make_id<PoseIndex>(i), A * r.J_to, -A * r.error);
   }
 }
 
 Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span<const TraversalPoint> others,
                                               WindowPoses& poses) {
   WindowReport report;
-  const std::size_t moving = window.end - poses.first_scan;  // the first of which stays
+  const std::size_t moving =
+      scans_->all().count({poses.scans.first, window.end});  // the first of which stays
   if (moving < 2) return report;
-  take_returns(window, poses.first_scan);
+  take_returns(window, scans_->all().count({poses.scans.first, window.first}));
   take_steps(poses);
   std::vector<TraversalPoint> others_thinned;
   append_thinned(others, others_thinned);

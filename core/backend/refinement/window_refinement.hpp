@@ -23,10 +23,9 @@ struct WindowReport {
   bool accepted = false;  ///< false: it would have explained the held-out returns worse; poses untouched
 };
 
-/// Poses of a window's scans and of its neighbours, which stay: from `first_scan`, which is the one before
-/// the window or, where it begins with the run, its first, to the one behind the window if there is one.
+/// Poses of a window's scans and of its neighbours, which stay.
 struct WindowPoses {
-  ScanIndex first_scan = 0;
+  ScanRange scans;  ///< the window with the scan before it, if there is one, and the one behind it
   std::vector<Pose2> T_map_body;    ///< as refined so far: in and out; the first stays
   std::vector<Pose2> T_map_graph;   ///< where the pose graph puts them
   std::vector<Pose2> T_local_body;  ///< along the frontend's path, which gives the steps between them
@@ -34,7 +33,7 @@ struct WindowPoses {
 
 /// A tenth of the returns, the same for all windows, has no say and judges. `return_of_scan`: its place in
 /// ScanStore::returns().
-[[nodiscard]] bool is_held_out(const ScanStore& scans, ScanIndex scan, std::size_t return_of_scan);
+[[nodiscard]] bool is_held_out(ScanId scan, std::size_t return_of_scan);
 
 /// One Gauss-Newton step of joint refinement over a window of consecutive scans: their returns are pulled to
 /// the walls that other traversals draw, with the frontend's path between neighbouring scans and each
@@ -53,12 +52,12 @@ class WindowRefinement {
 
  private:
   struct PlacedReturn {
-    std::uint32_t pose = 0;  // of its scan, in the window's poses
+    PoseIndex pose{};  // of its scan, in the window's poses
     std::uint32_t traversal = 0;
     bool held_out = false;
     Point2 p_body;
   };
-  void take_returns(const ScanRange& window, ScanIndex first_scan);
+  void take_returns(const ScanRange& window, std::size_t first_pose);
   [[nodiscard]] WallMap walls_at(const std::vector<Pose2>& T_map_body,
                                  std::span<const TraversalPoint> others_thinned) const;
   [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
@@ -71,7 +70,7 @@ class WindowRefinement {
   OdometryNoise noise_;
   PoseChain chain_;
   std::vector<PlacedReturn> returns_;
-  std::vector<PoseConstraint> steps_;  // from each pose to the next
+  std::vector<RelativePoseFactor<PoseIndex>> steps_;  // from each pose to the next
 };
 
 }  // namespace swiftlet

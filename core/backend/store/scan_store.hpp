@@ -7,16 +7,15 @@
 #include <span>
 #include <vector>
 
+#include "core/base/id_map.hpp"
 #include "core/base/ids.hpp"
-#include "core/base/index_removal.hpp"
 #include "core/base/time.hpp"
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
 
-using ScanIndex = std::uint32_t;  ///< counts up from 0; what is pruned gives way
-using ScanRange = IndexRange;
+using ScanRange = IdRange<ScanId>;
 
 /// One beam of a stored scan; beams without information are not stored.
 struct ScanReturn {
@@ -28,12 +27,11 @@ struct ScanReturn {
 /// One scan as the backend remembers it: about 250 bytes with four beams.
 struct StoredScan {
   HostTime stamp{};
-  std::uint32_t number = 0;  ///< counts all scans of the run, those pruned too
   Pose2 T_odom_body;
   Pose2 T_dead_body;      ///< dead reckoning less its learnt drift
   Pose2 T_keyframe_body;  ///< by dead reckoning from `keyframe`
   Pose2 T_map_live;       ///< the body in the map as it was published at the time
-  KeyframeId keyframe{};  ///< the newest keyframe at the time, as numbered without those pruned
+  KeyframeId keyframe{};  ///< the newest keyframe at the time
   double path_m = 0.0;    ///< travelled since the start of the run
   std::uint32_t first_return = 0;
   std::uint16_t return_count = 0;
@@ -46,18 +44,20 @@ class ScanStore {
  public:
   explicit ScanStore(const BeamLayout& beams) : beams_(beams) {}
 
-  ScanIndex add(const FrontendStep& step);
-  /// Forgets scans together with their keyframes. After a hole begins a segment.
-  void remove(const IndexRemoval& scans, const IndexRemoval& keyframes);
+  ScanId add(const FrontendStep& step);
+  /// After a hole begins a segment.
+  void erase(const IdRanges<ScanId>& pruned);
+  [[nodiscard]] const IdMap<ScanId, StoredScan>& all() const { return scans_; }
   [[nodiscard]] std::size_t size() const { return scans_.size(); }
-  [[nodiscard]] const StoredScan& operator[](ScanIndex i) const { return scans_[i]; }
-  [[nodiscard]] std::span<const ScanReturn> returns(ScanIndex i) const {
-    return {returns_.data() + scans_[i].first_return, scans_[i].return_count};
+  [[nodiscard]] const StoredScan& operator[](ScanId id) const { return scans_[id]; }
+  [[nodiscard]] std::span<const ScanReturn> returns(const StoredScan& scan) const {
+    return {returns_.data() + scan.first_return, scan.return_count};
   }
-  [[nodiscard]] std::size_t return_count(const ScanRange& scans) const {
-    if (scans.size() == 0) return 0;
-    const StoredScan& last = scans_[scans.end - 1];
-    return last.first_return + last.return_count - scans_[scans.first].first_return;
+  [[nodiscard]] std::span<const ScanReturn> returns(ScanId id) const { return returns(scans_[id]); }
+  [[nodiscard]] std::size_t return_count(const ScanRange& range) const {
+    const std::span<const StoredScan> scans = scans_.values(range);
+    if (scans.empty()) return 0;
+    return scans.back().first_return + scans.back().return_count - scans.front().first_return;
   }
   [[nodiscard]] const BeamLayout& beams() const { return beams_; }
   /// Where a return lies in the body frame.
@@ -69,10 +69,8 @@ class ScanStore {
  private:
   BeamLayout beams_;
   std::array<Point2, kMaxBeams> direction_ = unit_directions(beams_);
-  std::vector<StoredScan> scans_;
+  IdMap<ScanId, StoredScan> scans_;
   std::vector<ScanReturn> returns_;
-  std::uint32_t next_number_ = 0;
-  std::uint32_t keyframes_removed_ = 0;
 
   static std::array<Point2, kMaxBeams> unit_directions(const BeamLayout& beams);
 };

@@ -10,11 +10,17 @@
 namespace swiftlet {
 
 /// Keyframes of one traversal of its surroundings, about 1.5 m: scans closer in time agree by dead reckoning.
+/// Traversals are pruned as a whole.
 inline constexpr std::uint32_t kKeyframesPerTraversal = 3;
 
-/// Which traversal over its surroundings a scan belongs to.
-[[nodiscard]] inline std::uint32_t traversal_of(const StoredScan& scan) {
-  return index_of(scan.keyframe) / kKeyframesPerTraversal;
+[[nodiscard]] inline TraversalId traversal_of(KeyframeId keyframe) {
+  return make_id<TraversalId>(index_of(keyframe) / kKeyframesPerTraversal);
+}
+[[nodiscard]] inline TraversalId traversal_of(const StoredScan& scan) { return traversal_of(scan.keyframe); }
+
+[[nodiscard]] inline IdRange<KeyframeId> keyframes_of(TraversalId traversal) {
+  const auto first = make_id<KeyframeId>(index_of(traversal) * kKeyframesPerTraversal);
+  return {first, first + kKeyframesPerTraversal};
 }
 
 }  // namespace swiftlet

@@ -58,21 +58,18 @@ MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
   for (const TileIndex index : tiles) scene.tiles.push_back(map.tile(index));
 
   const ScanStore& scans = backend.scans();
-  const auto scan_count = static_cast<ScanIndex>(scans.size());
-  scene.scans.reserve(scan_count);
-  if (scan_count > 0) {
-    Pose2 T_map_odom;
-    for (ScanIndex i = 0; i < scan_count; ++i) {
-      const Pose2 T_map_body = backend.T_map_body(i);
-      const bool starts_segment = i == 0 || scans[i].starts_segment;
-      if (starts_segment) T_map_odom = T_map_body * scans[i].T_odom_body.inverse();
-      scene.scans.push_back(
-          {T_map_body.position(), T_map_odom * scans[i].T_odom_body.position(), starts_segment});
-    }
-    scene.duration = scans[scan_count - 1].stamp - scans[0].stamp;
+  scene.scans.reserve(scans.size());
+  Pose2 T_map_odom;
+  for (const auto& [id, scan] : scans.all()) {
+    const Pose2 T_map_body = backend.T_map_body(id);
+    const bool starts_segment = scene.scans.empty() || scan.starts_segment;
+    if (starts_segment) T_map_odom = T_map_body * scan.T_odom_body.inverse();
+    scene.scans.push_back({T_map_body.position(), T_map_odom * scan.T_odom_body.position(), starts_segment});
   }
+  if (scans.size() > 0)
+    scene.duration = scans.all().values().back().stamp - scans.all().values().front().stamp;
   add_walls(scene, backend);
-  for (const LoopClosure& closure : backend.closures()) {
+  for (const LoopClosure& closure : backend.closures().values()) {
     const MapSegment ends{backend.T_map_keyframe(closure.from).position(),
                           backend.T_map_keyframe(closure.to).position()};
     (closure.dropped ? scene.dropped_closures : scene.closures).push_back(ends);

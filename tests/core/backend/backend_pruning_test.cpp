@@ -31,17 +31,21 @@ const TestVehicle& patrol() {
   return kVehicle;
 }
 
+BackendConfig holding(int scans) {
+  BackendConfig config;
+  config.max_scans = scans;
+  return config;
+}
+
 /// A patrol through a backend that forgets, and where each scan that it still has was in truth.
 struct Patrol {
-  explicit Patrol(int max_scans_kept) {
-    BackendConfig config;
-    config.max_scans = max_scans_kept;
+  explicit Patrol(const BackendConfig& config) {
     backend = std::make_unique<Backend>(config, SensorModel::crazyflie(), BeamLayout::multiranger());
     DeadReckoningFrontend frontend;
     for (const RangeSample& sample : patrol().samples()) {
       backend->add(frontend.process(sample));
       const Pruning pruning = backend->next_pruning();
-      pruned += pruning.scans.size();
+      pruned += pruning.scan_count;
       backend->prune(pruning);
       max_scans = std::max(max_scans, backend->scans().size());
     }
@@ -49,9 +53,9 @@ struct Patrol {
   [[nodiscard]] double error_m() const {
     std::vector<Pose2> estimate;
     std::vector<Pose2> truth;
-    for (ScanIndex i = 0; i < backend->scans().size(); ++i) {
-      estimate.push_back(backend->T_map_body(i));
-      truth.push_back(patrol().T_world_body()[backend->scans()[i].number]);
+    for (const auto& [id, scan] : backend->scans().all()) {
+      estimate.push_back(backend->T_map_body(id));
+      truth.push_back(patrol().T_world_body()[index_of(id)]);
     }
     return aligned_rms_error_m(estimate, truth);
   }
@@ -62,7 +66,7 @@ struct Patrol {
 
 const Patrol& finished_patrol() {
   static const Patrol kPatrol = [] {
-    Patrol run(kMaxScans);
+    Patrol run(holding(kMaxScans));
     run.backend->finish();
     return run;
   }();
@@ -78,7 +82,7 @@ TEST(BackendPruning, HoldsNoMoreScansThanItIsAllowedInKnownSpace) {
 }
 
 TEST(BackendPruning, KeepsTheMapAsGoodAsWithoutForgetting) {
-  Patrol all(1'000'000);
+  Patrol all(holding(1'000'000));
   all.backend->finish();
   EXPECT_EQ(all.pruned, 0U);
   EXPECT_LT(finished_patrol().error_m(), all.error_m() + 0.03);
@@ -86,51 +90,51 @@ TEST(BackendPruning, KeepsTheMapAsGoodAsWithoutForgetting) {
 }
 
 TEST(BackendPruning, IsTheSameFromRunToRun) {
-  Patrol again(kMaxScans);
+  Patrol again(holding(kMaxScans));
   again.backend->finish();
   ASSERT_EQ(again.backend->scans().size(), finished_patrol().backend->scans().size());
-  for (ScanIndex i = 0; i < again.backend->scans().size(); ++i) {
-    ASSERT_EQ(again.backend->scans()[i].number, finished_patrol().backend->scans()[i].number);
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(again.backend->T_map_body(i).x_m()),
-              std::bit_cast<std::uint64_t>(finished_patrol().backend->T_map_body(i).x_m()));
+  for (const auto& [id, scan] : again.backend->scans().all()) {
+    ASSERT_TRUE(finished_patrol().backend->scans().all().contains(id));
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(again.backend->T_map_body(id).x_m()),
+              std::bit_cast<std::uint64_t>(finished_patrol().backend->T_map_body(id).x_m()));
   }
 }
 
-TEST(BackendPruning, NumbersEverythingAnew) {
+TEST(BackendPruning, EverythingThatStaysKeepsItsId) {
   const Backend& backend = *finished_patrol().backend;
-  const auto keyframes = static_cast<std::uint32_t>(backend.keyframe_count());
-  for (std::uint32_t k = 0; k < keyframes; ++k) {
-    const auto id = static_cast<KeyframeId>(k);
-    EXPECT_EQ(backend.keyframe_of(backend.frontend_id(id)), id);
-    EXPECT_TRUE(k == 0 || backend.frontend_id(static_cast<KeyframeId>(k - 1)) < backend.frontend_id(id));
+  EXPECT_EQ(index_of(backend.keyframes().all().end_id()), backend.counters().keyframes);
+  EXPECT_EQ(index_of(backend.scans().all().end_id()), backend.counters().scans);
+  std::uint32_t expected = 0;
+  for (const auto& [id, scan] : backend.scans().all()) {
+    EXPECT_EQ(scan.stamp, patrol().samples()[index_of(id)].stamp);
+    EXPECT_TRUE(index_of(id) == expected || scan.starts_segment) << "after a hole begins a segment";
+    expected = index_of(id) + 1;
+    ASSERT_TRUE(backend.keyframes().all().contains(scan.keyframe));
   }
-  std::uint32_t number = 0;
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) {
-    const StoredScan& scan = backend.scans()[i];
-    EXPECT_TRUE(i == 0 || scan.number > number);
-    if (i > 0 && scan.number != number + 1) {
-      EXPECT_TRUE(scan.starts_segment) << "after a hole begins a segment";
-    }
-    number = scan.number;
-    ASSERT_LT(index_of(scan.keyframe), keyframes);
+  for (const auto& [id, closure] : backend.closures()) {
+    EXPECT_EQ(closure.id, id);
+    EXPECT_TRUE(backend.keyframes().all().contains(closure.from));
+    EXPECT_TRUE(backend.keyframes().all().contains(closure.to));
   }
-  for (const LoopClosure& closure : backend.closures()) {
-    EXPECT_LT(index_of(closure.from), keyframes);
-    EXPECT_LT(index_of(closure.to), keyframes);
-    EXPECT_LT(closure.number, backend.counters().closures_accepted);
-  }
+  EXPECT_EQ(index_of(backend.closures().end_id()), backend.counters().closures_accepted);
+}
+
+TEST(BackendPruning, NeedsNoRefinement) {
+  BackendConfig config = holding(kMaxScans);
+  config.refine = false;
+  const Patrol run(config);
+  EXPECT_GT(run.pruned, 0U);
+  EXPECT_LE(run.max_scans, kMaxScans + kMaxScans / 10);
 }
 
 TEST(BackendPruning, ClosuresThatStayAreStillTrue) {
   const Backend& backend = *finished_patrol().backend;
   const auto truth_at = [&](KeyframeId keyframe) {
-    ScanIndex scan = 0;
-    while (backend.scans()[scan].keyframe != keyframe) ++scan;
-    return patrol().T_world_body()[backend.scans()[scan].number];
+    return patrol().T_world_body()[index_of(backend.keyframes().scan_of(keyframe))];
   };
   ASSERT_GT(backend.closures().size(), 20U);
   std::size_t within = 0;
-  for (const LoopClosure& closure : backend.closures()) {
+  for (const LoopClosure& closure : backend.closures().values()) {
     const Pose2 T_truth = between(truth_at(closure.from), truth_at(closure.to));
     within += chi_square_against(closure, T_truth) < kChiSquare99 ? 1U : 0U;
   }
@@ -140,12 +144,9 @@ TEST(BackendPruning, ClosuresThatStayAreStillTrue) {
 TEST(BackendPruningDeathTest, WhatWasPrunedCannotBeAskedFor) {
   const Backend& backend = *finished_patrol().backend;
   std::uint32_t gone = 0;
-  for (std::uint32_t k = 1; k < backend.keyframe_count(); ++k) {
-    const std::uint32_t before = index_of(backend.frontend_id(static_cast<KeyframeId>(k - 1)));
-    if (index_of(backend.frontend_id(static_cast<KeyframeId>(k))) > before + 1) gone = before + 1;
-  }
-  ASSERT_GT(gone, 0U);
-  EXPECT_DEATH((void)backend.keyframe_of(static_cast<KeyframeId>(gone)), "broken promise.*not pruned");
+  while (backend.keyframes().all().contains(make_id<KeyframeId>(gone))) ++gone;
+  ASSERT_LT(gone, index_of(backend.keyframes().all().end_id()));
+  EXPECT_DEATH((void)backend.T_map_keyframe(make_id<KeyframeId>(gone)), "broken promise.*not erased");
 }
 
 }  // namespace

@@ -23,8 +23,6 @@
 namespace swiftlet {
 namespace {
 
-using testing::IsEmpty;
-
 constexpr double kChiSquare99 = 11.34;  // of three degrees of freedom
 
 /// Errs in what loops can tell; none of them shows a wrong scale.
@@ -67,7 +65,7 @@ const Backend& finished_two_laps() {
 
 std::vector<Pose2> corrected(const Backend& backend) {
   std::vector<Pose2> T_map_body;
-  for (ScanIndex i = 0; i < backend.scans().size(); ++i) T_map_body.push_back(backend.T_map_body(i));
+  for (const auto& [id, scan] : backend.scans().all()) T_map_body.push_back(backend.T_map_body(id));
   return T_map_body;
 }
 std::vector<Pose2> dead_reckoned(const TestVehicle& vehicle) {
@@ -78,9 +76,7 @@ std::vector<Pose2> dead_reckoned(const TestVehicle& vehicle) {
 
 Pose2 T_from_to_truth(const TestVehicle& vehicle, const Backend& backend, const LoopClosure& closure) {
   const auto truth_at = [&](KeyframeId keyframe) {
-    ScanIndex scan = 0;
-    while (backend.scans()[scan].keyframe != keyframe) ++scan;
-    return vehicle.T_world_body()[scan];
+    return vehicle.T_world_body()[index_of(backend.keyframes().scan_of(keyframe))];
   };
   return between(truth_at(closure.from), truth_at(closure.to));
 }
@@ -96,7 +92,7 @@ TEST(Backend, LoopsBringTheFlightNearTheTruth) {
 TEST(Backend, ClosuresLieWithinTheUncertaintyTheyClaim) {
   const Backend& backend = finished_two_laps();
   std::size_t within = 0;
-  for (const LoopClosure& c : backend.closures())
+  for (const LoopClosure& c : backend.closures().values())
     within += chi_square_against(c, T_from_to_truth(two_laps(), backend, c)) < kChiSquare99 ? 1U : 0U;
   EXPECT_GE(static_cast<double>(within), 0.95 * static_cast<double>(backend.closures().size()));
 }
@@ -106,14 +102,14 @@ TEST(Backend, CountersTellWhatItHolds) {
   const BackendCounters& counters = backend.counters();
   EXPECT_EQ(counters.scans, two_laps().samples().size());
   EXPECT_EQ(counters.scans, backend.scans().size());
-  EXPECT_EQ(counters.keyframes, backend.keyframe_count());
+  EXPECT_EQ(counters.keyframes, backend.keyframes().size());
   EXPECT_EQ(counters.closures_accepted, backend.closures().size());
   EXPECT_GE(counters.candidates_matched, counters.closures_accepted);
   EXPECT_GT(counters.submaps, 20U) << "76 m in submaps of 6 m that overlap by half";
   EXPECT_GT(counters.optimizations, 0U);
   EXPECT_EQ(counters.solver_failures, 0U);
   std::uint64_t dropped = 0;
-  for (const LoopClosure& c : backend.closures()) dropped += c.dropped ? 1U : 0U;
+  for (const LoopClosure& c : backend.closures().values()) dropped += c.dropped ? 1U : 0U;
   EXPECT_EQ(counters.closures_dropped, dropped);
 }
 
@@ -122,17 +118,19 @@ TEST(Backend, TwoRunsGiveTheSameBytes) {
   const auto other = make_backend();
   feed(*other, two_laps().samples());
   other->finish();
-  for (ScanIndex i = 0; i < one.scans().size(); ++i) {
+  for (const auto& [i, scan] : one.scans().all()) {
     const Eigen::Vector3d a = one.T_map_body(i).vector();
     const Eigen::Vector3d b = other->T_map_body(i).vector();
     for (int k = 0; k < 3; ++k)
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(a[k]), std::bit_cast<std::uint64_t>(b[k])) << "scan " << i;
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a[k]), std::bit_cast<std::uint64_t>(b[k]))
+          << "scan " << index_of(i);
   }
   ASSERT_EQ(one.closures().size(), other->closures().size());
-  for (std::size_t i = 0; i < one.closures().size(); ++i) {
-    EXPECT_EQ(one.closures()[i].from, other->closures()[i].from);
-    EXPECT_EQ(one.closures()[i].to, other->closures()[i].to);
-    EXPECT_EQ(one.closures()[i].dcs_scale, other->closures()[i].dcs_scale);
+  for (const auto& [id, closure] : one.closures()) {
+    EXPECT_EQ(closure.id, id);
+    EXPECT_EQ(closure.from, other->closures()[id].from);
+    EXPECT_EQ(closure.to, other->closures()[id].to);
+    EXPECT_EQ(closure.dcs_scale, other->closures()[id].dcs_scale);
   }
 }
 
@@ -143,10 +141,12 @@ TEST(Backend, WithoutLoopClosingTheFrontendsPathStays) {
   feed(*backend, two_laps().samples());
   const BackendUpdate last = backend->finish();
   EXPECT_FALSE(last.poses_changed);
-  EXPECT_THAT(backend->closures(), IsEmpty());
+  EXPECT_TRUE(backend->closures().empty());
   EXPECT_EQ(backend->counters().candidates_matched, 0U);
-  for (ScanIndex i = 0; i < backend->scans().size(); ++i)
-    ASSERT_TRUE(poses_near(backend->T_map_body(i), two_laps().samples()[i].T_odom_body, 1e-9, 1e-9)) << i;
+  for (const auto& [id, scan] : backend->scans().all())
+    ASSERT_TRUE(
+        poses_near(backend->T_map_body(id), two_laps().samples()[index_of(id)].T_odom_body, 1e-9, 1e-9))
+        << index_of(id);
 }
 
 TEST(Backend, EachStepSaysWhatItDid) {
@@ -166,7 +166,7 @@ TEST(Backend, EachStepSaysWhatItDid) {
     ASSERT_TRUE(!update.poses_changed || correction.version > version) << "a change is announced";
     ASSERT_TRUE(step.has_keyframe || update.new_closures == 0) << "only keyframes close loops";
     version = correction.version;
-    ASSERT_EQ(index_of(correction.keyframe) + 1, backend->keyframe_count());
+    ASSERT_EQ(index_of(correction.keyframe) + 1, backend->keyframes().size());
     ASSERT_TRUE(!step.has_keyframe || poses_near(correction.T_map_local * step.T_local_body,
                                                  backend->T_map_keyframe(correction.keyframe), 1e-9, 1e-9))
         << "the correction leads to the newest keyframe";
@@ -184,15 +184,15 @@ TEST(Backend, NoOldPoseMovesUnannounced) {
     const FrontendStep step = frontend.process(sample);
     const BackendUpdate update = backend->add(step);
     const MapCorrection correction = backend->correction();
-    ASSERT_TRUE(step.has_keyframe || update.refined.size() == 0) << "only keyframes refine";
-    ASSERT_TRUE(update.refined.size() == 0 || correction.version > version) << "a change is announced";
+    ASSERT_TRUE(step.has_keyframe || update.refined.empty()) << "only keyframes refine";
+    ASSERT_TRUE(update.refined.empty() || correction.version > version) << "a change is announced";
     version = correction.version;
     if (!step.has_keyframe) continue;
-    windows += update.refined.size() > 0 ? 1U : 0U;
+    windows += update.refined.empty() ? 0U : 1U;
     // The newest scans hung on the keyframe before and have now found their place.
     const std::vector<Pose2> now = corrected(*backend);
-    for (ScanIndex i = 0; i + 60 < before.size() && !update.poses_changed; ++i) {
-      const bool announced = i >= update.refined.first && i < update.refined.end;
+    for (std::size_t i = 0; i + 60 < before.size() && !update.poses_changed; ++i) {
+      const bool announced = update.refined.contains(make_id<ScanId>(i));
       ASSERT_TRUE(announced || poses_near(now[i], before[i], 0.0, 0.0)) << "scan " << i;
     }
     before = now;
@@ -203,7 +203,7 @@ TEST(Backend, NoOldPoseMovesUnannounced) {
   EXPECT_GT(windows, 40U);
   EXPECT_EQ(backend->counters().windows_refined, windows);
   EXPECT_EQ(backend->counters().windows_refined + backend->counters().windows_refused,
-            backend->keyframe_count());
+            backend->keyframes().size());
 }
 
 /// How far scans of the second half lie from where the nearest one of the first half should see them.
@@ -240,14 +240,10 @@ TEST(Backend, KeyframesLieWhereTheirScansDo) {
   const auto backend = make_backend();
   feed(*backend, two_laps().samples());
   const auto expect_agreement = [&] {
-    std::uint32_t next = 0;
-    for (ScanIndex i = 0; i < backend->scans().size(); ++i) {
-      if (index_of(backend->scans()[i].keyframe) != next) continue;
-      EXPECT_TRUE(poses_near(backend->T_map_body(i), backend->T_map_keyframe(static_cast<KeyframeId>(next)),
-                             1e-9, 1e-9));
-      ++next;
+    for (const auto& [keyframe, scan] : backend->keyframes().all()) {
+      EXPECT_EQ(backend->scans()[scan].keyframe, keyframe);
+      EXPECT_TRUE(poses_near(backend->T_map_body(scan), backend->T_map_keyframe(keyframe), 1e-9, 1e-9));
     }
-    EXPECT_EQ(next, backend->keyframe_count());
   };
   expect_agreement();
   backend->finish();
@@ -274,7 +270,7 @@ TEST(Backend, TheFinalPassDropsTheClosuresThatContradictTheRest) {
   backend->finish();
   std::size_t good = 0;
   std::size_t planted = 0;
-  for (const LoopClosure& c : backend->closures()) {
+  for (const LoopClosure& c : backend->closures().values()) {
     const double chi_square = chi_square_against(c, T_from_to_truth(vehicle, *backend, c));
     good += chi_square < kChiSquare99 ? 1U : 0U;
     planted += chi_square > 3.0 * kChiSquare99 ? 1U : 0U;
@@ -310,8 +306,8 @@ TEST(Backend, ALongWayIsGoneOverTheNextKeyframes) {
   std::vector<std::size_t> changed_at;
   for (const RangeSample& sample : two_laps().samples()) {
     const BackendUpdate update = backend->add(frontend.process(sample));
-    if (update.poses_changed) changed_at.push_back(backend->keyframe_count());
-    if (backend->keyframe_count() == 105) break;
+    if (update.poses_changed) changed_at.push_back(backend->keyframes().size());
+    if (backend->keyframes().size() == 105) break;
   }
   ASSERT_FALSE(backend->closures().empty());
   ASSERT_GT(changed_at.size(), 1U) << "one call alone does not get there";
@@ -320,8 +316,8 @@ TEST(Backend, ALongWayIsGoneOverTheNextKeyframes) {
   const std::uint64_t steps = backend->counters().optimizations;
   backend->finish();
   EXPECT_LT(steps, 5U) << "and rests once it is there";
-  for (ScanIndex i = 0; i < live.size(); ++i)
-    ASSERT_TRUE(poses_near(live[i], backend->T_map_body(i), 0.01, 0.01)) << "scan " << i;
+  for (std::size_t i = 0; i < live.size(); ++i)
+    ASSERT_TRUE(poses_near(live[i], backend->T_map_body(make_id<ScanId>(i)), 0.01, 0.01)) << "scan " << i;
 }
 
 TEST(Backend, MatchesTooWeakAloneCloseLoopsTogether) {
@@ -336,7 +332,7 @@ TEST(Backend, MatchesTooWeakAloneCloseLoopsTogether) {
   const auto alone = make_backend(config);
   feed(*alone, two_laps().samples());
   alone->finish();
-  EXPECT_THAT(alone->closures(), IsEmpty());
+  EXPECT_TRUE(alone->closures().empty());
 }
 
 TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
@@ -368,7 +364,7 @@ TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
 
 /// Error of the heading at the end of two laps against the one at scan `from`, with a frontend that sees two
 /// walls at every keyframe, along and across the building. `samples`: of two_laps(), dead reckoning changed.
-double yaw_error_at_the_end_rad(const std::vector<RangeSample>& samples, ScanIndex from,
+double yaw_error_at_the_end_rad(const std::vector<RangeSample>& samples, std::size_t from,
                                 bool align_to_walls) {
   BackendConfig config;
   config.close_loops = false;
@@ -381,16 +377,18 @@ double yaw_error_at_the_end_rad(const std::vector<RangeSample>& samples, ScanInd
     const Pose2 T_body_world = T_world_body[i].inverse();
     const Point2 here = T_world_body[i].position();
     for (const Point2& end : {Point2{here.x_m + 4.0, here.y_m}, Point2{here.x_m, here.y_m + 3.0}}) {
-      const auto id = static_cast<LandmarkId>(2 * index_of(step.made.id) + (end.y_m > here.y_m ? 1 : 0));
+      const auto id = make_id<LandmarkId>(2 * index_of(step.made.id) + (end.y_m > here.y_m ? 1 : 0));
       if (step.has_keyframe)
         (void)step.made.walls.try_push_back({id, T_body_world * here, T_body_world * end});
     }
     backend->add(step);
   }
   backend->finish();
-  const auto last = static_cast<ScanIndex>(samples.size()) - 1;
-  return std::abs(wrap_angle(between(backend->T_map_body(from), backend->T_map_body(last)).yaw_rad() -
-                             between(T_world_body[from], T_world_body[last]).yaw_rad()));
+  const std::size_t last = samples.size() - 1;
+  return std::abs(wrap_angle(
+      between(backend->T_map_body(make_id<ScanId>(from)), backend->T_map_body(make_id<ScanId>(last)))
+          .yaw_rad() -
+      between(T_world_body[from], T_world_body[last]).yaw_rad()));
 }
 
 TEST(Backend, WallsHoldTheHeadingWhereNoLoopCloses) {
@@ -403,12 +401,12 @@ TEST(Backend, WallsHoldTheHeadingWhereNoLoopCloses) {
 TEST(Backend, WallsFromBeforeAnUnknownMotionTellNoHeading) {
   std::vector<RangeSample> samples = two_laps().samples();
   const double heading_sought_m = 0.5 * BackendConfig().submap_length_m;
-  ScanIndex restart = 0;  // where it is sought: nearly all walls were seen before
+  std::size_t restart = 0;  // where it is sought: nearly all walls were seen before
   for (double path_m = 0.0; path_m < heading_sought_m; ++restart) {
     const Pose2 moved = between(samples[restart].T_odom_body, samples[restart + 1].T_odom_body);
     path_m += std::hypot(moved.x_m(), moved.y_m());
   }
-  for (ScanIndex i = 0; i < restart; ++i)
+  for (std::size_t i = 0; i < restart; ++i)
     samples[i].T_odom_body = Pose2(0.0, 0.0, radians(25)) * samples[i].T_odom_body;
   samples[restart].starts_segment = true;
   EXPECT_LT(3.0 * yaw_error_at_the_end_rad(samples, restart, true),
@@ -429,10 +427,8 @@ TEST(Backend, AGroupThatDoesNotHoldTogetherAgainstTheRestIsRefused) {
   feed(*backend, vehicle.samples(),
        {.floor_m = 1e-4, .per_metre_m = 1e-4, .floor_rad = 1e-5, .per_metre_rad = 1e-5});
   EXPECT_GE(backend->closures().size(), 6U) << "of the second lap";
-  for (const LoopClosure& c : backend->closures()) {
-    ScanIndex scan = 0;
-    while (backend->scans()[scan].keyframe != c.to) ++scan;
-    EXPECT_LT(scan, moved_at);
+  for (const LoopClosure& c : backend->closures().values()) {
+    EXPECT_LT(index_of(backend->keyframes().scan_of(c.to)), moved_at);
   }
   EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.05);
 }
@@ -440,7 +436,7 @@ TEST(Backend, AGroupThatDoesNotHoldTogetherAgainstTheRestIsRefused) {
 TEST(Backend, AnEmptyRunFinishesQuietly) {
   const auto backend = make_backend();
   EXPECT_FALSE(backend->finish().poses_changed);
-  EXPECT_EQ(backend->keyframe_count(), 0U);
+  EXPECT_EQ(backend->keyframes().size(), 0U);
   EXPECT_EQ(backend->correction().version, 0U);
 }
 

@@ -116,7 +116,7 @@ TEST(MapBuilder, LeavesInPlaceWhatMovedByLessThanHalfACell) {
     next.sample.stamp += std::chrono::milliseconds(100);
     next.has_keyframe = true;
     next.made = steps[95].made;
-    next.made.id = next.keyframe = static_cast<KeyframeId>(index_of(next.keyframe) + 1);
+    next.made.id = next.keyframe = next.keyframe + 1;
     next.made.T_local_keyframe.clear();
     for (std::uint32_t k = 0; k <= index_of(next.keyframe); ++k)
       (void)next.made.T_local_keyframe.try_push_back(Pose2(0.5 * k, k < 3 ? 0.0 : shift_m, 0.0));

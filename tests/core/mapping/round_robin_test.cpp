@@ -12,64 +12,77 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<std::size_t> take_all(RoundRobin& turns, std::size_t count) {
-  std::vector<std::size_t> taken;
-  while (!turns.is_done()) taken.push_back(turns.take(count));
+using Map = IdMap<KeyframeId, char>;
+
+Map map_of(std::size_t count) { return Map(std::vector<char>(count)); }
+
+std::vector<std::uint32_t> take_all(RoundRobin<KeyframeId>& turns, const Map& map) {
+  std::vector<std::uint32_t> taken;
+  while (!turns.is_done()) taken.push_back(index_of(turns.take(map)));
   return taken;
 }
 
-void take(RoundRobin& turns, int times, std::size_t count) {
-  for (int i = 0; i < times; ++i) turns.take(count);
+void take(RoundRobin<KeyframeId>& turns, int times, const Map& map) {
+  for (int i = 0; i < times; ++i) turns.take(map);
 }
 
-IndexRemoval removal(std::vector<IndexRange> ranges) {
-  IndexRemoval removal;
-  for (const IndexRange& range : ranges) removal.add(range);
-  return removal;
+void erase(RoundRobin<KeyframeId>& turns, const std::vector<IdRange<KeyframeId>>& ranges, Map& map) {
+  IdRanges<KeyframeId> gone;
+  for (const IdRange<KeyframeId>& range : ranges) gone.add(range);
+  turns.erase(gone, map);
+  map.erase(gone);
 }
 
-TEST(RoundRobin, NothingIsDueAtFirst) { EXPECT_TRUE(RoundRobin().is_done()); }
+IdRange<KeyframeId> range(std::uint32_t first, std::uint32_t end) {
+  return {make_id<KeyframeId>(first), make_id<KeyframeId>(end)};
+}
+
+TEST(RoundRobin, NothingIsDueAtFirst) { EXPECT_TRUE(RoundRobin<KeyframeId>().is_done()); }
 
 TEST(RoundRobin, VisitsEachOnceFromWhereItEnded) {
-  RoundRobin turns;
+  RoundRobin<KeyframeId> turns;
   turns.begin(5);
-  take(turns, 3, 5);
+  take(turns, 3, map_of(5));
   turns.begin(6);
-  EXPECT_THAT(take_all(turns, 6), ElementsAre(3, 4, 5, 0, 1, 2));
+  EXPECT_THAT(take_all(turns, map_of(6)), ElementsAre(3, 4, 5, 0, 1, 2));
 }
 
-TEST(RoundRobin, WhatIsRemovedBeforeTheTurnMovesItUp) {
-  RoundRobin turns;
+TEST(RoundRobin, WhatIsErasedBeforeTheTurnChangesNothing) {
+  RoundRobin<KeyframeId> turns;
+  Map map = map_of(8);
   turns.begin(8);
-  take(turns, 4, 8);
-  turns.remove(removal({{1, 3}}), 8);  // 0 3 | 4 5 6 7 are now 0 1 | 2 3 4 5
-  EXPECT_THAT(take_all(turns, 6), ElementsAre(2, 3, 4, 5));
+  take(turns, 4, map);
+  erase(turns, {range(1, 3)}, map);
+  EXPECT_THAT(take_all(turns, map), ElementsAre(4, 5, 6, 7));
 }
 
-TEST(RoundRobin, WhatIsRemovedAndWasDueIsDueNoMore) {
-  RoundRobin turns;
+TEST(RoundRobin, WhatIsErasedAndWasDueIsDueNoMore) {
+  RoundRobin<KeyframeId> turns;
+  Map map = map_of(8);
   turns.begin(8);
-  take(turns, 3, 8);
-  turns.remove(removal({{2, 4}, {6, 7}}), 8);  // due are 4 5 7, now 2 3 4
-  EXPECT_THAT(take_all(turns, 5), ElementsAre(2, 3, 4));
+  take(turns, 3, map);
+  erase(turns, {range(2, 4), range(6, 7)}, map);
+  EXPECT_THAT(take_all(turns, map), ElementsAre(4, 5, 7));
 }
 
 TEST(RoundRobin, TheSameStayDueAcrossTheEnd) {
-  RoundRobin turns;
+  RoundRobin<KeyframeId> turns;
+  Map map = map_of(8);
   turns.begin(8);
-  take(turns, 6, 8);
+  take(turns, 6, map);
   turns.begin(8);
-  take(turns, 1, 8);                           // due are 7 and 0 to 5
-  turns.remove(removal({{1, 3}, {5, 7}}), 8);  // of 0 3 4 7, now 0 1 2 3, all but none
-  EXPECT_THAT(take_all(turns, 4), ElementsAre(3, 0, 1, 2));
+  take(turns, 1, map);  // due are 7 and 0 to 5, and 6 again
+  erase(turns, {range(1, 3), range(5, 7)}, map);
+  EXPECT_THAT(take_all(turns, map), ElementsAre(7, 0, 3, 4));
 }
 
 TEST(RoundRobin, WithNothingDueNothingBecomesDue) {
-  RoundRobin turns;
+  RoundRobin<KeyframeId> turns;
+  Map map = map_of(3);
   turns.begin(3);
-  take(turns, 3, 3);
-  turns.remove(removal({{0, 2}}), 3);
-  EXPECT_THAT(take_all(turns, 1), IsEmpty());
+  take(turns, 3, map);
+  erase(turns, {range(0, 2)}, map);
+  EXPECT_THAT(take_all(turns, map), IsEmpty());
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST_F(LcmPublisherTest, NoWallsAreSaidToo) {
 
 TEST_F(LcmPublisherTest, AClosureCarriesItsUncertaintyAndItsEnds) {
   publish([](Publisher& publisher) {
-    publisher.publish_closure(kNow, {.closure = {.number = 2,
+    publisher.publish_closure(kNow, {.closure = {.id = ClosureId{2},
                                                  .from = KeyframeId{10},
                                                  .to = KeyframeId{90},
                                                  .T_from_to = Pose2(0.5, -0.25, 0.1),

@@ -106,7 +106,7 @@ TEST(MapFeed, TakesBackTheWallsThatGoWithWhatIsPrunedAndSendsNoClosureTwice) {
   const auto queues = std::make_unique<PublisherQueues>();
   MapFeed feed(queues->backend_outlet());
   std::map<LandmarkId, WallInMap> known;
-  std::set<std::uint32_t> closures;
+  std::set<ClosureId> closures;
   std::size_t gone = 0;
   const auto receive = [&] {
     feed.note_changes({});
@@ -122,7 +122,7 @@ TEST(MapFeed, TakesBackTheWallsThatGoWithWhatIsPrunedAndSendsNoClosureTwice) {
     }
     ClosureUpdate closure;
     while (queues->closures.consumer().try_pop(closure))
-      EXPECT_TRUE(closures.insert(closure.closure.number).second) << closure.closure.number;
+      EXPECT_TRUE(closures.insert(closure.closure.id).second) << index_of(closure.closure.id);
   };
   run.fly([&](const Pruning& pruning) { feed.prune(run.backend, pruning); },
           [&](const BackendUpdate&) { receive(); });

@@ -55,8 +55,8 @@ TEST(Pipeline, TwoRunsOfTheSameInputAgreeToTheLastBit) {
     Pipeline pipeline(Configuration{}, source);
     EXPECT_TRUE(run_to_end(pipeline));
     std::vector<double> out;
-    for (ScanIndex i = 0; i < pipeline.backend().scans().size(); ++i) {
-      const Pose2 T_map_body = pipeline.backend().T_map_body(i);
+    for (const auto& [id, scan] : pipeline.backend().scans().all()) {
+      const Pose2 T_map_body = pipeline.backend().T_map_body(id);
       out.insert(out.end(), {T_map_body.x_m(), T_map_body.y_m(), T_map_body.yaw_rad()});
     }
     return out;

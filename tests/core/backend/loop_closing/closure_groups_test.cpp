@@ -32,7 +32,7 @@ class ClosureGroupsTest : public testing::Test {
       if (k == 0) continue;
       const Pose2 T_step(1.0, 0.0, 0.0);
       const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
-      graph_.constraints.push_back(
+      graph_.factors.push_back(
           {keyframe(k - 1), keyframe(k), T_step, residual_information(T_step, covariance)});
     }
   }

@@ -40,8 +40,7 @@ class CrossCheckTest : public testing::Test {
   }
   [[nodiscard]] double flown_m() const { return run_.chain().path_m(run_.newest()); }
   [[nodiscard]] Pose2 T_submap_newest(const Submap& submap) const {
-    return between(run_.T_local_keyframe()[index_of(submap.reference)],
-                   run_.T_local_keyframe()[index_of(run_.newest())]);
+    return between(run_.T_local_keyframe()[submap.reference], run_.T_local_keyframe()[run_.newest()]);
   }
   /// By the last six metres, which lead along the side from a to b.
   [[nodiscard]] bool holds(const Submap& submap, const Pose2& T_submap_query) const {
@@ -94,7 +93,7 @@ TEST_F(CrossCheckTest, ThinnedHitsLieInTheirFrameOnePerCell) {
     cells.emplace(static_cast<int>(std::floor(p.x_m / 0.1)), static_cast<int>(std::floor(p.y_m / 0.1)));
   EXPECT_EQ(cells.size(), points.size());
   std::size_t hits = 0;
-  for (ScanIndex i = range.first; i < range.end; ++i) {
+  for (ScanId i = range.first; i < range.end; ++i) {
     for (const ScanReturn& beam : run_.scans().returns(i)) {
       if (!beam.is_hit) continue;
       ++hits;

@@ -40,9 +40,10 @@ class LoopDetectorTest : public testing::Test {
     graph_.T_map_keyframe = run_.T_local_keyframe();
     const Eigen::Matrix3d step_covariance = Eigen::Vector3d(4e-4, 4e-4, 1e-4).asDiagonal();
     for (std::uint32_t to = 1; to <= index_of(run_.newest()); ++to) {
-      const Pose2 T_from_to = between(graph_.T_map_keyframe[to - 1], graph_.T_map_keyframe[to]);
-      graph_.constraints.push_back({static_cast<KeyframeId>(to - 1), static_cast<KeyframeId>(to), T_from_to,
-                                    residual_information(T_from_to, step_covariance)});
+      const Pose2 T_from_to =
+          between(graph_.T_map_keyframe.values()[to - 1], graph_.T_map_keyframe.values()[to]);
+      graph_.factors.push_back({static_cast<KeyframeId>(to - 1), static_cast<KeyframeId>(to), T_from_to,
+                                residual_information(T_from_to, step_covariance)});
     }
   }
 
@@ -53,7 +54,7 @@ class LoopDetectorTest : public testing::Test {
   }
   std::vector<LoopClosure> find(KeyframeId query) { return find_all(query).sure; }
   [[nodiscard]] Pose2 T_from_to_truth(const LoopClosure& c) const {
-    return between(run_.T_local_keyframe()[index_of(c.from)], run_.T_local_keyframe()[index_of(c.to)]);
+    return between(run_.T_local_keyframe()[c.from], run_.T_local_keyframe()[c.to]);
   }
 
   BackendConfig config_;
@@ -79,7 +80,7 @@ TEST_F(LoopDetectorTest, FindsThemFromAPredictionThatHasDrifted) {
   // From the second lap on the map is off, as before a loop is closed.
   const Pose2 T_drift(0.4, -0.3, 0.04);
   for (std::size_t k = index_of(run_.newest()) - 25; k < graph_.T_map_keyframe.size(); ++k)
-    graph_.T_map_keyframe[k] = T_drift * graph_.T_map_keyframe[k];
+    graph_.T_map_keyframe.values()[k] = T_drift * graph_.T_map_keyframe.values()[k];
   const std::vector<LoopClosure> closures = find(run_.newest());
   ASSERT_FALSE(closures.empty());
   for (const LoopClosure& c : closures) EXPECT_LT(chi_square_against(c, T_from_to_truth(c)), kChiSquare99);
@@ -178,12 +179,12 @@ TEST_F(LoopDetectorTest, SearchesAsFarAsTheHeadingAtTheSubmapLeavesOpen) {
   const Eigen::Matrix3d tight = 1e-8 * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d open = Eigen::Vector3d(1e-8, 1e-8, kSigmaRad * kSigmaRad).asDiagonal();
   const std::uint32_t reference = index_of(far->reference);
-  for (PoseConstraint& c : graph_.constraints)
+  for (RelativePoseFactor<KeyframeId>& c : graph_.factors.values())
     c.information = residual_information(c.T_from_to, index_of(c.from) == reference ? open : tight);
-  const Pose2 T_map_reference = graph_.T_map_keyframe[reference];
+  const Pose2 T_map_reference = graph_.T_map_keyframe.values()[reference];
   const Pose2 T_turned = T_map_reference * Pose2(0.0, 0.0, kSigmaRad) * T_map_reference.inverse();
   for (std::size_t k = reference + 1; k < graph_.T_map_keyframe.size(); ++k)
-    graph_.T_map_keyframe[k] = T_turned * graph_.T_map_keyframe[k];
+    graph_.T_map_keyframe.values()[k] = T_turned * graph_.T_map_keyframe.values()[k];
   const std::vector<LoopClosure> closures = find(run_.newest());
   ASSERT_EQ(closures.size(), 1U);
   EXPECT_LT(chi_square_against(closures[0], T_from_to_truth(closures[0])), kChiSquare99);

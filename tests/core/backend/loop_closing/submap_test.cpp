@@ -51,7 +51,7 @@ class SubmapTest : public testing::Test {
     return build_submap(first, last, run.scans(), run.chain(), run.T_local_keyframe(), config);
   }
   [[nodiscard]] Pose2 T_world_submap(const StoredRun& run, const Submap& submap) const {
-    return start_ * run.T_local_keyframe()[index_of(submap.reference)];
+    return start_ * run.T_local_keyframe()[submap.reference];
   }
 
   TextRoom room_{kRoomPicture, kBlockM, kRoomCorner};
@@ -68,8 +68,8 @@ std::uint8_t occupied_at(const Submap& submap, const Point2& p_submap) {
 TEST_F(SubmapTest, ItsFrameIsTheKeyframeInTheMiddle) {
   const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{4}, KeyframeId{10});
-  EXPECT_EQ(submap.first, KeyframeId{4});
-  EXPECT_EQ(submap.last, KeyframeId{10});
+  EXPECT_EQ(submap.scans, run.chain().scans_of({KeyframeId{4}, KeyframeId{10}}));
+  EXPECT_EQ(submap.end_path_m, run.chain().path_m(KeyframeId{10}));
   EXPECT_EQ(submap.reference, KeyframeId{7});
 }
 
@@ -82,7 +82,7 @@ TEST_F(SubmapTest, EveryHitMakesAnOccupiedCellAndEveryOccupiedCellHasAWall) {
   const GridGeometry& grid = submap.geometry;
   std::size_t hits = 0;
   std::size_t high = 0;
-  for (ScanIndex i = 0; i < run.chain().scan_of(run.newest()); ++i) {
+  for (ScanId i{}; i < run.chain().scan_of(run.newest()); ++i) {
     for (const ScanReturn& beam : run.scans().returns(i)) {
       if (!beam.is_hit) continue;
       const Point2 p =
@@ -103,11 +103,11 @@ TEST_F(SubmapTest, FlownThroughSpaceIsFreeAndSolidWallUnknown) {
   const StoredRun run(vehicle_.samples());
   const Submap submap = build(run, KeyframeId{0}, run.newest());
   const Pose2 T_submap_world = T_world_submap(run, submap).inverse();
-  for (ScanIndex i = 0; i < run.chain().scan_of(run.newest()); ++i) {
+  for (ScanId i{}; i < run.chain().scan_of(run.newest()); ++i) {
     const std::uint8_t value =
         occupied_at(submap, T_submap_world * (start_ * run.scans()[i].T_odom_body).position());
-    EXPECT_GT(value, 0) << "scan " << i;
-    EXPECT_LT(value, kEven) << "scan " << i;
+    EXPECT_GT(value, 0) << "scan " << index_of(i);
+    EXPECT_LT(value, kEven) << "scan " << index_of(i);
   }
   // The middle of the pillar, which no beam can reach.
   const Point2 pillar{kRoomCorner.x_m + 8.0 * kBlockM, kRoomCorner.y_m + 4.0 * kBlockM};

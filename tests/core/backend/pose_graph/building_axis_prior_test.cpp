@@ -30,17 +30,16 @@ struct Flight {
   PoseGraphOptimizer optimizer{5.0, 20};
   double true_yaw_rad = 0.0;
 
-  Flight() { graph.T_map_keyframe.emplace_back(); }
+  Flight() { graph.T_map_keyframe.push_back({}); }
 
   void step(bool sees_walls, double building_rad = 0.0) {
     const std::size_t count = graph.T_map_keyframe.size();
     const double turn_rad = count % 20 == 0 ? kPi / 2.0 : 0.0;
     true_yaw_rad += turn_rad;
     const Pose2 T(0.5, 0.0, turn_rad + kDriftRad);
-    graph.constraints.push_back(
-        {keyframe(count - 1), keyframe(count), T,
-         Eigen::Vector3d(1e4, 1e4, 1.0 / (kStepSigmaRad * kStepSigmaRad)).asDiagonal()});
-    graph.T_map_keyframe.push_back(graph.T_map_keyframe.back() * T);
+    graph.factors.push_back({keyframe(count - 1), keyframe(count), T,
+                             Eigen::Vector3d(1e4, 1e4, 1.0 / (kStepSigmaRad * kStepSigmaRad)).asDiagonal()});
+    graph.T_map_keyframe.push_back(graph.T_map_keyframe.values().back() * T);
     since_rad2 += kStepSigmaRad * kStepSigmaRad;
     if (!sees_walls || count % 6 != 0) return;
     const std::size_t before = graph.headings.size();
@@ -52,12 +51,13 @@ struct Flight {
   }
 
   [[nodiscard]] double yaw_error_rad() const {
-    return std::abs(wrap_angle(graph.T_map_keyframe.back().yaw_rad() - true_yaw_rad));
+    return std::abs(wrap_angle(graph.T_map_keyframe.values().back().yaw_rad() - true_yaw_rad));
   }
   /// How far the way is bent: the heading's error at the end against that after the first lap.
   [[nodiscard]] double bend_rad() const {
-    const double after_a_lap_rad = graph.T_map_keyframe[80].yaw_rad() - 4.0 * kPi / 2.0;
-    return std::abs(wrap_angle(graph.T_map_keyframe.back().yaw_rad() - true_yaw_rad - after_a_lap_rad));
+    const double after_a_lap_rad = graph.T_map_keyframe[keyframe(80)].yaw_rad() - 4.0 * kPi / 2.0;
+    return std::abs(
+        wrap_angle(graph.T_map_keyframe.values().back().yaw_rad() - true_yaw_rad - after_a_lap_rad));
   }
   double since_rad2 = 0.0;
 };
@@ -90,7 +90,7 @@ TEST(BuildingAxisPrior, LeavesAWingThatStandsAskewAlone) {
 TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
   Flight flight;
   for (int i = 0; i < 60; ++i) flight.step(true);
-  const double yaw_rad = flight.graph.T_map_keyframe.back().yaw_rad();
+  const double yaw_rad = flight.graph.T_map_keyframe.values().back().yaw_rad();
   const std::size_t before = flight.graph.headings.size();
   flight.hold.add(keyframe(60), axis_seen_at(yaw_rad, radians(42)), radians(90) * radians(90), flight.graph);
   EXPECT_EQ(flight.graph.headings.size(), before);
@@ -99,7 +99,7 @@ TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
 TEST(BuildingAxisPrior, TurnsBackAsFarAsTheOtherWayRoundIsMuchLessLikely) {
   const auto is_taken = [](double off_rad, double sigma_rad) {
     PoseGraph graph;
-    graph.T_map_keyframe = {Pose2(), Pose2(5.0, 0.0, off_rad)};
+    graph.T_map_keyframe = KeyframePoses({Pose2(), Pose2(5.0, 0.0, off_rad)});
     BuildingAxisPrior hold;
     hold.add(keyframe(0), axis_seen_at(0.0), 0.0, graph);
     hold.add(keyframe(1), axis_seen_at(0.0), sigma_rad * sigma_rad, graph);
@@ -123,20 +123,20 @@ TEST(BuildingAxisPrior, AFalseAxisIsScaledAwayByTheOthers) {
   EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kSigmaRad);
 }
 
-TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreRemovedGoWithThem) {
+TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreErasedGoWithThem) {
   Flight flight;
   for (int i = 0; i < 60; ++i) flight.step(true);
   ASSERT_EQ(flight.graph.headings.size(), 10U);
-  IndexRemoval gone;
-  gone.add({10, 25});  // and with it the headings of 12, 18 and 24
-  gone.apply(flight.graph.T_map_keyframe);
-  flight.hold.remove(gone, flight.graph);
+  IdRanges<KeyframeId> gone;
+  gone.add({keyframe(10), keyframe(25)});  // and with it the headings of 12, 18 and 24
+  flight.graph.T_map_keyframe.erase(gone);
+  flight.hold.erase(gone, flight.graph);
   ASSERT_EQ(flight.graph.headings.size(), 7U);
-  EXPECT_EQ(flight.graph.headings[0].keyframe, keyframe(6));
-  EXPECT_EQ(flight.graph.headings[1].keyframe, keyframe(15)) << "was 30";
+  EXPECT_EQ(flight.graph.headings[0].pose, keyframe(6));
+  EXPECT_EQ(flight.graph.headings[1].pose, keyframe(30));
   flight.hold.update(flight.graph);
-  for (const HeadingConstraint& heading : flight.graph.headings) {
-    const double now_rad = flight.graph.T_map_keyframe[index_of(heading.keyframe)].yaw_rad();
+  for (const HeadingFactor<KeyframeId>& heading : flight.graph.headings) {
+    const double now_rad = flight.graph.T_map_keyframe[heading.pose].yaw_rad();
     EXPECT_NEAR(wrap_angle(heading.yaw_map_rad - now_rad), 0.0, radians(5)) << "each says what it said";
   }
 }

@@ -18,12 +18,13 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<PoseConstraint> random_steps(std::mt19937& random, const std::vector<Pose2>& T_map_pose) {
-  std::vector<PoseConstraint> steps;
+std::vector<RelativePoseFactor<PoseIndex>> random_steps(std::mt19937& random,
+                                                        const std::vector<Pose2>& T_map_pose) {
+  std::vector<RelativePoseFactor<PoseIndex>> steps;
   for (std::uint32_t i = 1; i < T_map_pose.size(); ++i) {
-    PoseConstraint c;
-    c.from = static_cast<KeyframeId>(i - 1);
-    c.to = static_cast<KeyframeId>(i);
+    RelativePoseFactor<PoseIndex> c;
+    c.from = make_id<PoseIndex>(i - 1);
+    c.to = make_id<PoseIndex>(i);
     c.T_from_to = between(T_map_pose[i - 1], T_map_pose[i]) * random_pose(random, 0.1);
     c.information = random_covariance(random, 0.5);
     steps.push_back(c);
@@ -37,20 +38,20 @@ TEST(PoseChain, StepsAsAPoseSystemDoes) {
   for (const std::size_t poses : {2U, 3U, 20U, 300U}) {
     std::vector<Pose2> T_map_pose;
     for (std::size_t i = 0; i < poses; ++i) T_map_pose.push_back(random_pose(random, 4.0));
-    const std::vector<PoseConstraint> steps = random_steps(random, T_map_pose);
+    const std::vector<RelativePoseFactor<PoseIndex>> steps = random_steps(random, T_map_pose);
     PoseSystem system;
     ASSERT_TRUE(system.prepare(poses, steps));
     system.set_zero();
     chain.reset(poses);
-    for (const PoseConstraint& c : steps) {
+    for (const RelativePoseFactor<PoseIndex>& c : steps) {
       system.add(c, 1.0, T_map_pose);
       chain.add(c, T_map_pose);
     }
     for (std::uint32_t i = 0; i < poses; i += 3) {
       const Eigen::Matrix3d H = random_covariance(random, 0.0);
       const Eigen::Vector3d rhs = 3.0 * random_pose(random, 1.0).vector();
-      system.add(i, H, rhs);
-      chain.add(i, H, rhs);
+      system.add(make_id<PoseIndex>(i), H, rhs);
+      chain.add(make_id<PoseIndex>(i), H, rhs);
     }
     std::vector<Pose2> expected = T_map_pose;
     ASSERT_TRUE(system.step(expected));
@@ -79,7 +80,7 @@ TEST(PoseChain, RefusesAStepThatIsNotFinite) {
   std::vector<Pose2> T_map_pose = before;
   PoseChain chain;
   chain.reset(before.size());
-  chain.add(1, Eigen::Matrix3d::Identity(),
+  chain.add(PoseIndex{1}, Eigen::Matrix3d::Identity(),
             Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   const Status stepped = chain.step(T_map_pose);
   ASSERT_FALSE(stepped);

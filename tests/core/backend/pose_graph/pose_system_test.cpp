@@ -32,12 +32,12 @@ struct Pull {
 
 struct Problem {
   std::vector<Pose2> T_map_pose;
-  std::vector<PoseConstraint> constraints;
-  std::vector<double> weights;  // of the constraints
+  std::vector<RelativePoseFactor<PoseIndex>> factors;
+  std::vector<double> weights;  // of the factors
   std::vector<Pull> pulls;
 };
 
-KeyframeId id(std::size_t pose) { return static_cast<KeyframeId>(pose); }
+PoseIndex id(std::size_t pose) { return make_id<PoseIndex>(pose); }
 
 /// A chain of poses, joined in both directions, with a few closures, and pulls at some.
 Problem random_problem(std::mt19937& random, std::uint32_t poses) {
@@ -45,13 +45,13 @@ Problem random_problem(std::mt19937& random, std::uint32_t poses) {
   for (std::uint32_t i = 0; i < poses; ++i) problem.T_map_pose.push_back(random_pose(random, 4.0));
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
     const bool forward = random_int(random, 0, 1) == 0;
-    PoseConstraint c;
+    RelativePoseFactor<PoseIndex> c;
     c.from = id(forward ? a : b);
     c.to = id(forward ? b : a);
     c.T_from_to = between(problem.T_map_pose[index_of(c.from)], problem.T_map_pose[index_of(c.to)]) *
                   random_pose(random, 0.1);
     c.information = random_covariance(random, 0.5);
-    problem.constraints.push_back(c);
+    problem.factors.push_back(c);
     problem.weights.push_back(random_in(random, 0.1, 2.0));
   };
   for (std::uint32_t i = 1; i < poses; ++i) join(i - 1, i);
@@ -64,9 +64,9 @@ Problem random_problem(std::mt19937& random, std::uint32_t poses) {
 
 void fill(PoseSystem& system, const Problem& problem) {
   system.set_zero();
-  for (std::size_t i = 0; i < problem.constraints.size(); ++i)
-    system.add(problem.constraints[i], problem.weights[i], problem.T_map_pose);
-  for (const Pull& pull : problem.pulls) system.add(pull.pose, pull.H, pull.rhs);
+  for (std::size_t i = 0; i < problem.factors.size(); ++i)
+    system.add(problem.factors[i], problem.weights[i], problem.T_map_pose);
+  for (const Pull& pull : problem.pulls) system.add(id(pull.pose), pull.H, pull.rhs);
 }
 
 /// The slow twin: all Jacobians of all poses as one dense matrix, the first pose's columns left out.
@@ -74,8 +74,8 @@ std::vector<Pose2> dense_step(const Problem& problem) {
   const auto n = row_of(problem.T_map_pose.size());
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n);
-  for (std::size_t k = 0; k < problem.constraints.size(); ++k) {
-    const PoseConstraint& c = problem.constraints[k];
+  for (std::size_t k = 0; k < problem.factors.size(); ++k) {
+    const RelativePoseFactor<PoseIndex>& c = problem.factors[k];
     const PoseResidual r =
         pose_residual(c.T_from_to, problem.T_map_pose[index_of(c.from)], problem.T_map_pose[index_of(c.to)]);
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n);
@@ -107,7 +107,7 @@ TEST(PoseSystem, EqualsADenseStep) {
   for (std::uint32_t poses = 2; poses <= 30; ++poses) {
     const Problem problem = random_problem(random, poses);
     PoseSystem system;
-    ASSERT_TRUE(system.prepare(poses, problem.constraints));
+    ASSERT_TRUE(system.prepare(poses, problem.factors));
     fill(system, problem);
     std::vector<Pose2> T_map_pose = problem.T_map_pose;
     const Result<double> largest = system.step(T_map_pose);
@@ -122,7 +122,7 @@ TEST(PoseSystem, ReportsTheLargestComponentOfTheStep) {
     PoseSystem system;
     ASSERT_TRUE(system.prepare(2, {}));
     system.set_zero();
-    system.add(1, Eigen::Matrix3d::Identity(), pull);
+    system.add(id(1), Eigen::Matrix3d::Identity(), pull);
     std::vector<Pose2> T_map_pose(2);
     const Result<double> largest = system.step(T_map_pose);
     ASSERT_TRUE(largest);
@@ -134,24 +134,23 @@ TEST(PoseSystem, ReportsTheLargestComponentOfTheStep) {
 TEST(PoseSystem, TheFirstPoseStaysWhateverPullsAtIt) {
   PoseSystem system;
   std::vector<Pose2> T_map_pose{Pose2(1.0, 2.0, 3.0), Pose2(4.0, 5.0, 0.5)};
-  PoseConstraint c{id(0), id(1), between(T_map_pose[0], T_map_pose[1])};
-  ASSERT_TRUE(system.prepare(2, std::vector<PoseConstraint>{c}));
+  RelativePoseFactor<PoseIndex> c{id(0), id(1), between(T_map_pose[0], T_map_pose[1])};
+  ASSERT_TRUE(system.prepare(2, std::vector<RelativePoseFactor<PoseIndex>>{c}));
   system.set_zero();
   system.add(c, 1.0, T_map_pose);
-  system.add(0, Eigen::Matrix3d::Identity(), Eigen::Vector3d(9.0, 9.0, 9.0));
+  system.add(id(0), Eigen::Matrix3d::Identity(), Eigen::Vector3d(9.0, 9.0, 9.0));
   const std::vector<Pose2> before = T_map_pose;
   ASSERT_TRUE(system.step(T_map_pose));
   expect_same(T_map_pose, before, 1e-12);
 }
 
-TEST(PoseSystem, StepsLeadToWhatTheConstraintsSay) {
+TEST(PoseSystem, StepsLeadToWhatTheFactorsSay) {
   std::mt19937 random(92);
   std::vector<Pose2> truth;
-  std::vector<PoseConstraint> constraints;
+  std::vector<RelativePoseFactor<PoseIndex>> factors;
   for (std::size_t i = 0; i < 12; ++i) truth.push_back(random_pose(random, 3.0));
-  for (std::size_t i = 1; i < 12; ++i)
-    constraints.push_back({id(i - 1), id(i), between(truth[i - 1], truth[i])});
-  constraints.push_back({id(11), id(2), between(truth[11], truth[2])});
+  for (std::size_t i = 1; i < 12; ++i) factors.push_back({id(i - 1), id(i), between(truth[i - 1], truth[i])});
+  factors.push_back({id(11), id(2), between(truth[11], truth[2])});
   std::vector<Pose2> T_map_pose = truth;
   for (std::size_t i = 1; i < 12; ++i) {
     T_map_pose[i] = Pose2(T_map_pose[i].x_m() + random_in(random, -0.2, 0.2),
@@ -159,11 +158,11 @@ TEST(PoseSystem, StepsLeadToWhatTheConstraintsSay) {
                           T_map_pose[i].yaw_rad() + random_in(random, -0.2, 0.2));
   }
   PoseSystem system;
-  ASSERT_TRUE(system.prepare(T_map_pose.size(), constraints));
+  ASSERT_TRUE(system.prepare(T_map_pose.size(), factors));
   double largest = 1.0;
   for (int i = 0; i < 10 && largest > 1e-10; ++i) {
     system.set_zero();
-    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T_map_pose);
+    for (const RelativePoseFactor<PoseIndex>& c : factors) system.add(c, 1.0, T_map_pose);
     const Result<double> step = system.step(T_map_pose);
     ASSERT_TRUE(step);
     largest = *step;
@@ -179,14 +178,15 @@ TEST(PoseSystem, OneThatIsKeptSolvesLikeANewOne) {
   Problem first = random_problem(random, 15);
   std::vector<Problem> problems{first, first, first, random_problem(random, 25), random_problem(random, 4),
                                 first};
-  for (PoseConstraint& c : problems[1].constraints) c.T_from_to = c.T_from_to * random_pose(random, 0.2);
-  problems[2].constraints.push_back({id(14), id(1), random_pose(random, 1.0)});
+  for (RelativePoseFactor<PoseIndex>& c : problems[1].factors)
+    c.T_from_to = c.T_from_to * random_pose(random, 0.2);
+  problems[2].factors.push_back({id(14), id(1), random_pose(random, 1.0)});
   problems[2].weights.push_back(1.0);
   for (const Problem& problem : problems) {
-    ASSERT_TRUE(kept.prepare(problem.T_map_pose.size(), problem.constraints));
+    ASSERT_TRUE(kept.prepare(problem.T_map_pose.size(), problem.factors));
     fill(kept, problem);
     PoseSystem fresh;
-    ASSERT_TRUE(fresh.prepare(problem.T_map_pose.size(), problem.constraints));
+    ASSERT_TRUE(fresh.prepare(problem.T_map_pose.size(), problem.factors));
     fill(fresh, problem);
     std::vector<Pose2> T_kept = problem.T_map_pose;
     std::vector<Pose2> T_fresh = problem.T_map_pose;
@@ -200,12 +200,12 @@ TEST(PoseSystem, APoseThatNothingHoldsIsNamedAndNoneMoves) {
   std::mt19937 random(94);
   std::vector<Pose2> T_map_pose(4);
   for (Pose2& pose : T_map_pose) pose = random_pose(random, 2.0);
-  const std::vector<PoseConstraint> constraints{{id(0), id(1), Pose2(1.0, 0.0, 0.0)},
-                                                {id(1), id(3), Pose2(1.0, 0.0, 0.0)}};
+  const std::vector<RelativePoseFactor<PoseIndex>> factors{{id(0), id(1), Pose2(1.0, 0.0, 0.0)},
+                                                           {id(1), id(3), Pose2(1.0, 0.0, 0.0)}};
   PoseSystem system;
-  ASSERT_TRUE(system.prepare(T_map_pose.size(), constraints));
+  ASSERT_TRUE(system.prepare(T_map_pose.size(), factors));
   system.set_zero();
-  for (const PoseConstraint& c : constraints) system.add(c, 1.0, T_map_pose);
+  for (const RelativePoseFactor<PoseIndex>& c : factors) system.add(c, 1.0, T_map_pose);
   const std::vector<Pose2> before = T_map_pose;
   const Result<double> step = system.step(T_map_pose);
   ASSERT_FALSE(step);
@@ -218,13 +218,13 @@ TEST(PoseSystem, AStepThatIsNotFiniteIsAnErrorAndNoPoseMoves) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     std::vector<Pose2> T_map_pose{Pose2(), Pose2(1.0, 0.0, 0.0), Pose2(2.0, 0.0, 0.1)};
-    const std::vector<PoseConstraint> constraints{{id(0), id(1), Pose2(1.1, 0.0, 0.0)},
-                                                  {id(1), id(2), Pose2(1.0, 0.0, 0.0)}};
+    const std::vector<RelativePoseFactor<PoseIndex>> factors{{id(0), id(1), Pose2(1.1, 0.0, 0.0)},
+                                                             {id(1), id(2), Pose2(1.0, 0.0, 0.0)}};
     PoseSystem system;
-    ASSERT_TRUE(system.prepare(T_map_pose.size(), constraints));
+    ASSERT_TRUE(system.prepare(T_map_pose.size(), factors));
     system.set_zero();
-    for (const PoseConstraint& c : constraints) system.add(c, 1.0, T_map_pose);
-    system.add(2, Eigen::Matrix3d::Zero(), Eigen::Vector3d(0.0, bad, 0.0));
+    for (const RelativePoseFactor<PoseIndex>& c : factors) system.add(c, 1.0, T_map_pose);
+    system.add(id(2), Eigen::Matrix3d::Zero(), Eigen::Vector3d(0.0, bad, 0.0));
     const std::vector<Pose2> before = T_map_pose;
     const Result<double> step = system.step(T_map_pose);
     ASSERT_FALSE(step);
@@ -237,7 +237,7 @@ TEST(PoseSystem, SolvesAgainAfterAnError) {
   std::mt19937 random(95);
   const Problem problem = random_problem(random, 10);
   PoseSystem system;
-  ASSERT_TRUE(system.prepare(10, problem.constraints));
+  ASSERT_TRUE(system.prepare(10, problem.factors));
   std::vector<Pose2> T_map_pose = problem.T_map_pose;
   system.set_zero();
   ASSERT_FALSE(system.step(T_map_pose)) << "nothing holds any pose";

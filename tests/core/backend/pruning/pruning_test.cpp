@@ -42,11 +42,11 @@ double lap_of(const StoredRun& run, KeyframeId keyframe) {
 
 TEST(Pruning, TakesTheLapsBetweenTheOldestAndTheNewest) {
   const Pruning all = plan(ten_laps(), 1'000'000);
-  ASSERT_GT(all.scans.size(), ten_laps().scans().size() / 3);
-  EXPECT_LT(all.scans.size(), ten_laps().scans().size());
+  ASSERT_GT(all.scan_count, ten_laps().scans().size() / 3);
+  EXPECT_LT(all.scan_count, ten_laps().scans().size());
   for (const PrunedTraversal& traversal : all.traversals) {
-    EXPECT_GT(lap_of(ten_laps(), static_cast<KeyframeId>(traversal.keyframes.first)), 1.0);
-    EXPECT_LT(lap_of(ten_laps(), static_cast<KeyframeId>(traversal.keyframes.end)), 9.0);
+    EXPECT_GT(lap_of(ten_laps(), traversal.keyframes.first), 1.0);
+    EXPECT_LT(lap_of(ten_laps(), traversal.keyframes.end), 9.0);
   }
 }
 
@@ -58,54 +58,51 @@ TEST(Pruning, LeavesWhatWasSeenOnceOrTwice) {
 TEST(Pruning, LeavesALookIntoARoomThatNoOtherPassSaw) {
   TestVehicle vehicle = vehicle_at_start({}, 5);
   for (int lap = 0; lap < 4; ++lap) fly_along(vehicle, loop_corridor(), "bcda");
-  const auto first = static_cast<ScanIndex>(vehicle.samples().size());
+  const auto first = make_id<ScanId>(vehicle.samples().size());
   // The same flight through another building, once: nobody else has seen it.
   fly_along(vehicle, loop_corridor({100.0, 0.0}), "");
   const TextRoom elsewhere = loop_corridor({100.0, 0.0});
   vehicle.carry_to(elsewhere, Pose2(elsewhere.place('a').x_m, elsewhere.place('a').y_m, 0.0));
   for (const char place : std::string("bc")) vehicle.fly_to(elsewhere, elsewhere.place(place));
-  const auto end = static_cast<ScanIndex>(vehicle.samples().size());
+  const auto end = make_id<ScanId>(vehicle.samples().size());
   vehicle.carry_to(loop_corridor(),
                    Pose2(loop_corridor().place('a').x_m, loop_corridor().place('a').y_m, 0.0));
   for (int lap = 0; lap < 5; ++lap) fly_along(vehicle, loop_corridor(), "bcda");
 
   // Poses as they truly are, for dead reckoning does not know where it was carried.
   const StoredRun run(vehicle.samples());
-  std::vector<Pose2> T_map_keyframe;
-  for (std::uint32_t k = 0; k < run.chain().size(); ++k)
-    T_map_keyframe.push_back(vehicle.T_world_body()[run.chain().scan_of(static_cast<KeyframeId>(k))]);
+  KeyframePoses T_map_keyframe;
+  for (const ScanId scan : run.chain().all().values())
+    T_map_keyframe.push_back(vehicle.T_world_body()[index_of(scan)]);
   const Pruning all =
       plan_pruning(run.scans(), run.chain(), T_map_keyframe, {}, run.newest(), kOtherTimeM, 1'000'000);
   ASSERT_FALSE(all.empty());
   for (const PrunedTraversal& traversal : all.traversals)
-    EXPECT_TRUE(traversal.scans.end <= first || traversal.scans.first >= end) << traversal.scans.first;
+    EXPECT_TRUE(traversal.scans.end <= first || traversal.scans.first >= end)
+        << index_of(traversal.scans.first);
 }
 
 TEST(Pruning, TakesWholeTraversalsAndNoMoreThanAskedFor) {
   const Pruning some = plan(ten_laps(), 200);
-  EXPECT_GE(some.scans.size(), 200U);
-  EXPECT_LT(some.scans.size(), 300U);
-  std::uint32_t scans = 0;
+  EXPECT_GE(some.scan_count, 200U);
+  EXPECT_LT(some.scan_count, 300U);
+  std::size_t scans = 0;
   for (const PrunedTraversal& traversal : some.traversals) {
-    EXPECT_EQ(traversal.keyframes.first % kKeyframesPerTraversal, 0U);
-    EXPECT_EQ(traversal.keyframes.size(), kKeyframesPerTraversal);
-    EXPECT_EQ(traversal.scans.first,
-              ten_laps().chain().scan_of(static_cast<KeyframeId>(traversal.keyframes.first)));
-    EXPECT_EQ(traversal.scans.end,
-              ten_laps().chain().scan_of(static_cast<KeyframeId>(traversal.keyframes.end)));
-    scans += traversal.scans.size();
+    EXPECT_EQ(traversal.keyframes, keyframes_of(traversal_of(traversal.keyframes.first)));
+    EXPECT_EQ(traversal.scans, ten_laps().chain().scans_of(traversal.keyframes));
+    scans += ten_laps().scans().all().count(traversal.scans);
+    EXPECT_TRUE(some.keyframes.contains(traversal.keyframes.first));
   }
-  EXPECT_EQ(some.scans.size(), scans);
-  EXPECT_EQ(some.keyframes.size(), kKeyframesPerTraversal * some.traversals.size());
+  EXPECT_EQ(some.scan_count, scans);
 }
 
 TEST(Pruning, AnchorsAreNearFromAnotherTimeAndStay) {
   const Pruning all = plan(ten_laps(), 1'000'000);
   for (const PrunedTraversal& traversal : all.traversals) {
-    EXPECT_FALSE(all.keyframes.removes(index_of(traversal.anchor)));
-    const auto first = static_cast<KeyframeId>(traversal.keyframes.first);
-    const Pose2 apart = between(ten_laps().T_local_keyframe()[index_of(first)],
-                                ten_laps().T_local_keyframe()[index_of(traversal.anchor)]);
+    EXPECT_FALSE(all.keyframes.contains(traversal.anchor));
+    const KeyframeId first = traversal.keyframes.first;
+    const Pose2 apart =
+        between(ten_laps().T_local_keyframe()[first], ten_laps().T_local_keyframe()[traversal.anchor]);
     EXPECT_LT(std::hypot(apart.x_m(), apart.y_m()), 4.0);
     EXPECT_GT(std::abs(ten_laps().chain().path_m(first) - ten_laps().chain().path_m(traversal.anchor)),
               kOtherTimeM - 2.0);
@@ -115,40 +112,36 @@ TEST(Pruning, AnchorsAreNearFromAnotherTimeAndStay) {
 TEST(Pruning, AHoleThatGrowsIsTiedAtItsNewEndOnly) {
   const Pruning begun = plan(ten_laps(), 300);
   ASSERT_FALSE(begun.empty());
-  const IndexRange hole = begun.keyframes.ranges().front();
+  const IdRange<KeyframeId> hole = *begun.keyframes.begin();
   const auto ties = ties_around(begun, ten_laps().scans(), ten_laps().T_local_keyframe());
-  ASSERT_EQ(ties.size(), 2 * begun.keyframes.ranges().size());
-  EXPECT_EQ(index_of(ties[0].to), hole.first - 1);
-  EXPECT_EQ(index_of(ties[1].to), hole.end);
+  ASSERT_EQ(ties.size(), 2 * static_cast<std::size_t>(begun.keyframes.end() - begun.keyframes.begin()));
+  EXPECT_EQ(ties[0].to, hole.first - 1);
+  EXPECT_EQ(ties[1].to, hole.end);
 
   ScanStore scans = ten_laps().scans();
-  scans.remove(begun.scans, begun.keyframes);
-  std::vector<Pose2> T_map_keyframe = ten_laps().T_local_keyframe();
-  begun.keyframes.apply(T_map_keyframe);
-  const IndexRange next{hole.first, hole.first + kKeyframesPerTraversal};
-  const IndexRange next_scans{begun.scans.ranges().front().first,
-                              begun.scans.new_index(ten_laps().chain().scan_of(
-                                  static_cast<KeyframeId>(hole.end + kKeyframesPerTraversal)))};
-  ASSERT_FALSE(begun.keyframes.removes(hole.end + kKeyframesPerTraversal)) << "not the next hole's";
+  scans.erase(begun.scans);
+  KeyframePoses T_map_keyframe = ten_laps().T_local_keyframe();
+  T_map_keyframe.erase(begun.keyframes);
+  const IdRange<KeyframeId> next{hole.end, hole.end + kKeyframesPerTraversal};
+  ASSERT_FALSE(begun.keyframes.contains(next.end)) << "not the next hole's";
   Pruning grown;
-  grown.traversals.push_back({next, next_scans, begun.traversals.front().anchor});
+  grown.traversals.push_back({next, ten_laps().chain().scans_of(next), begun.traversals.front().anchor});
   grown.keyframes.add(next);
-  grown.scans.add(next_scans);
+  grown.scans.add(ten_laps().chain().scans_of(next));
   const auto more = ties_around(grown, scans, T_map_keyframe);
   ASSERT_EQ(more.size(), 1U);
-  EXPECT_EQ(index_of(more.front().to), next.end);
+  EXPECT_EQ(more.front().to, next.end);
 }
 
 TEST(Pruning, LeavesAnchorsOfEarlierOnesAndWhatIsRecent) {
   const Pruning before = plan(ten_laps(), 1'000'000);
-  const auto kept = static_cast<KeyframeId>(before.traversals[3].keyframes.first + 1);
+  const KeyframeId kept = before.traversals[3].keyframes.first + 1;
   const Pruning after = plan(ten_laps(), 1'000'000, std::vector{kept});
-  EXPECT_TRUE(before.keyframes.removes(index_of(kept)));
-  EXPECT_FALSE(after.keyframes.removes(index_of(kept)));
-  const auto recent =
-      static_cast<KeyframeId>(before.traversals[before.traversals.size() / 2].keyframes.first);
+  EXPECT_TRUE(before.keyframes.contains(kept));
+  EXPECT_FALSE(after.keyframes.contains(kept));
+  const KeyframeId recent = before.traversals[before.traversals.size() / 2].keyframes.first;
   for (const PrunedTraversal& traversal : plan(ten_laps(), 1'000'000, {}, recent).traversals)
-    EXPECT_LE(traversal.keyframes.end, index_of(recent));
+    EXPECT_LE(traversal.keyframes.end, recent);
 }
 
 }  // namespace

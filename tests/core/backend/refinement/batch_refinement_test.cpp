@@ -70,7 +70,7 @@ SensorModel with_odometry_noise(double factor) {
 }
 
 Result<RefinementReport> refine(const TestVehicle& vehicle, std::vector<Pose2>& T_map_body,
-                                const std::vector<PoseConstraint>& closures = {},
+                                const std::vector<RelativePoseFactor<ScanId>>& closures = {},
                                 const SensorModel& sensor = SensorModel::crazyflie()) {
   const StoredRun run(vehicle.samples());
   return refine_scan_poses(run.scans(), sensor, closures, {}, {}, T_map_body);
@@ -237,8 +237,8 @@ TEST(Refinement, ClosuresHoldPassesTogetherWhereNoWallDoes) {
   for (const Point2& goal : {Point2{5.0, 0.0}, Point2{0.0, 0.0}, Point2{5.0, 0.0}, Point2{0.0, 0.0}})
     vehicle.fly_to(TextRoom({"a"}, 0.5), goal);
   const std::vector<Pose2> truth = true_poses(vehicle);
-  const auto last = static_cast<KeyframeId>(truth.size() - 1);
-  PoseConstraint closure{KeyframeId{0}, last, truth.back()};
+  const auto last = make_id<ScanId>(truth.size() - 1);
+  RelativePoseFactor<ScanId> closure{ScanId{0}, last, truth.back()};
   closure.information = Eigen::Vector3d(1e6, 1e6, 1e6).asDiagonal();
   std::vector<Pose2> open = dead_reckoned(vehicle);
   std::vector<Pose2> closed = open;

@@ -36,14 +36,14 @@ struct LiveRun {
   KeyframeChain chain{scans};
   OnlineRefinement live{scans, chain, SensorModel::crazyflie()};
   DeadReckoningFrontend frontend;
-  std::vector<Pose2> T_local;
-  std::vector<Pose2> T_graph;
+  KeyframePoses T_local;
+  KeyframePoses T_graph;
   std::vector<ScanRange> moved;       // by each step
   std::vector<WindowReport> windows;  // of each step
 
   void add(const RangeSample& sample, const Graph& graph) {
     const FrontendStep step = frontend.process(sample);
-    const ScanIndex scan = scans.add(step);
+    const ScanId scan = scans.add(step);
     live.add_scan();
     if (!step.has_keyframe) return;
     chain.add(scan);
@@ -57,7 +57,7 @@ struct LiveRun {
     moved.push_back(*range);
     windows.push_back(live.last_window());
   }
-  [[nodiscard]] Pose2 T_map_body(ScanIndex scan) const {
+  [[nodiscard]] Pose2 T_map_body(ScanId scan) const {
     return live.refined(scan, chain.T_w_body(scan, T_graph));
   }
 };
@@ -80,8 +80,8 @@ TEST(OnlineRefinement, TheNewestPoseFindsToTheWallsOfAnEarlierPass) {
   const TestVehicle vehicle = flown("baba");
   const Pose2 T_off(0.05, 0.14, 0.01);
   const auto run = refined(vehicle, off_from(60, T_off));
-  const auto newest = static_cast<ScanIndex>(run->scans.size() - 1);
-  const Pose2& truth = vehicle.samples()[newest].T_odom_body;
+  const ScanId newest = run->scans.all().last_id();
+  const Pose2& truth = vehicle.samples()[index_of(newest)].T_odom_body;
   EXPECT_FALSE(poses_near(run->chain.T_w_body(newest, run->T_graph), truth, 0.13, 1.0));
   EXPECT_TRUE(poses_near(run->T_map_body(newest), truth, 0.06, 0.02));
   EXPECT_GT(run->live.windows_refined(), 30U);
@@ -91,12 +91,12 @@ TEST(OnlineRefinement, OffsetsAreCarriedAlongWhenTheGraphMoves) {
   const TestVehicle vehicle = flown("baba");
   const auto run = refined(vehicle, off_from(60, Pose2(0.05, 0.14, 0.01)));
   std::vector<Pose2> before;
-  for (ScanIndex i = 0; i < run->scans.size(); ++i) before.push_back(run->T_map_body(i));
+  for (ScanId i{}; i < run->scans.all().end_id(); ++i) before.push_back(run->T_map_body(i));
   const Pose2 T_moved(7.0, -3.0, 1.0);
-  for (Pose2& T : run->T_graph) T = T_moved * T;
+  for (Pose2& T : run->T_graph.values()) T = T_moved * T;
   run->live.follow(run->T_graph);
-  for (ScanIndex i = 0; i < run->scans.size(); ++i)
-    ASSERT_TRUE(poses_near(run->T_map_body(i), T_moved * before[i], 1e-9, 1e-9)) << i;
+  for (ScanId i{}; i < run->scans.all().end_id(); ++i)
+    ASSERT_TRUE(poses_near(run->T_map_body(i), T_moved * before[index_of(i)], 1e-9, 1e-9)) << index_of(i);
 }
 
 TEST(OnlineRefinement, WallsAreFoundWhereTheGraphMovedThem) {
@@ -111,7 +111,7 @@ TEST(OnlineRefinement, WallsAreFoundWhereTheGraphMovedThem) {
   };
   const std::size_t before = points_of_four_steps();
   const Pose2 T_moved(37.0, -3.0, 1.0);
-  for (Pose2& T : run->T_graph) T = T_moved * T;
+  for (Pose2& T : run->T_graph.values()) T = T_moved * T;
   run->live.follow(run->T_graph);
   EXPECT_GT(points_of_four_steps(), before - before / 10);
 }
@@ -123,11 +123,11 @@ TEST(OnlineRefinement, TwoRunsGiveTheSameBytes) {
   const auto one = refined(vehicle);
   const auto other = refined(vehicle);
   EXPECT_GT(one->live.windows_refined(), 0U);
-  for (ScanIndex i = 0; i < one->scans.size(); ++i) {
+  for (ScanId i{}; i < one->scans.all().end_id(); ++i) {
     for (int k = 0; k < 3; ++k) {
       ASSERT_EQ(std::bit_cast<std::uint64_t>(one->T_map_body(i).vector()[k]),
                 std::bit_cast<std::uint64_t>(other->T_map_body(i).vector()[k]))
-          << i;
+          << index_of(i);
     }
   }
 }
@@ -138,7 +138,7 @@ TEST(OnlineRefinement, AStepTakesNoMoreHoweverLongTheRunAndHoweverOftenAPlaceWas
   std::size_t max_points_of_end = 0;
   const std::size_t steps = run->windows.size();
   for (std::size_t i = 0; i < steps; ++i) {
-    EXPECT_LE(run->moved[i].size(), OnlineRefinement::kMaxScans);
+    EXPECT_LE(run->scans.all().count(run->moved[i]), OnlineRefinement::kMaxScans);
     EXPECT_LE(run->windows[i].returns, WindowRefinement::kMaxReturns);
     EXPECT_LE(run->windows[i].points,
               TraversalIndex::kMaxTraversalsNearby * TraversalIndex::kMaxPointsPerTraversal +
@@ -158,7 +158,8 @@ TEST(OnlineRefinement, ALongHoverIsBoundedToo) {
   for (int i = 0; i < 2000; ++i) run->add(vehicle.samples().back(), as_the_frontend);
   run->refine();
   run->refine();
-  for (const ScanRange& moved : run->moved) EXPECT_LE(moved.size(), OnlineRefinement::kMaxScans);
+  for (const ScanRange& moved : run->moved)
+    EXPECT_LE(run->scans.all().count(moved), OnlineRefinement::kMaxScans);
   EXPECT_LE(run->windows.back().returns, WindowRefinement::kMaxReturns);
 }
 
@@ -169,12 +170,13 @@ TEST(OnlineRefinement, ScansAroundAClosureHaveTheirTurnSoon) {
     const KeyframeId place{70};
     if (closes) run->live.queue_around(place);
     // By hand a little off, so that there is something to gain.
-    for (std::uint32_t k = 65; k < 75; ++k) run->T_graph[k] = Pose2(0.0, -0.1, 0.0) * run->T_graph[k];
+    for (std::uint32_t k = 65; k < 75; ++k)
+      run->T_graph.values()[k] = Pose2(0.0, -0.1, 0.0) * run->T_graph.values()[k];
     int turns = 0;
-    const ScanIndex scan = run->chain.scan_of(place);
+    const ScanId scan = run->chain.scan_of(place);
     for (int i = 0; i < 4; ++i) {
       run->refine();
-      turns += run->moved.back().first <= scan && scan < run->moved.back().end ? 1 : 0;
+      turns += run->moved.back().contains(scan) ? 1 : 0;
     }
     return turns;
   };
@@ -189,8 +191,8 @@ TEST(OnlineRefinement, EveryPartOfTheRunHasItsTurn) {
   for (int i = 0; i < 60; ++i) run->refine();
   std::vector<bool> has_moved(run->scans.size(), false);
   for (std::size_t k = run->moved.size() - 60; k < run->moved.size(); ++k)
-    std::fill_n(has_moved.begin() + static_cast<std::ptrdiff_t>(run->moved[k].first), run->moved[k].size(),
-                true);
+    std::fill_n(has_moved.begin() + static_cast<std::ptrdiff_t>(index_of(run->moved[k].first)),
+                run->scans.all().count(run->moved[k]), true);
   EXPECT_GT(std::count(has_moved.begin(), has_moved.end(), true),
             static_cast<std::ptrdiff_t>(run->scans.size() / 2));
 }
@@ -198,7 +200,7 @@ TEST(OnlineRefinement, EveryPartOfTheRunHasItsTurn) {
 TEST(OnlineRefinement, NewScansStartWithTheNewestOffsetUnlessTheyAreElsewhere) {
   const TestVehicle vehicle = flown("baba");
   const auto run = refined(vehicle, off_from(60, Pose2(0.05, 0.14, 0.01)));
-  const auto newest = static_cast<ScanIndex>(run->scans.size() - 1);
+  const ScanId newest = run->scans.all().last_id();
   const Pose2 T_graph_refined = run->live.refined(newest, Pose2());
   EXPECT_FALSE(poses_near(T_graph_refined, Pose2(), 0.05, 1.0));
   FrontendStep step;

@@ -87,8 +87,8 @@ TEST(WallFactor, DeadReckoningIsBelievedLessTheMoreItMovedAndTheLessItSaw) {
 TEST(WallFactor, APassIsAFewKeyframes) {
   StoredScan scan{};
   for (std::uint32_t k = 0; k < 3 * kKeyframesPerTraversal; ++k) {
-    scan.keyframe = static_cast<KeyframeId>(k);
-    EXPECT_EQ(traversal_of(scan), k / 3);
+    scan.keyframe = make_id<KeyframeId>(k);
+    EXPECT_EQ(index_of(traversal_of(scan)), k / 3);
   }
 }
 

@@ -18,11 +18,19 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TraversalWalls walls(std::vector<Point2> points) { return {0, std::move(points)}; }
+TraversalWalls walls(std::vector<Point2> points) { return {{}, std::move(points)}; }
 
+TraversalId id(std::uint32_t traversal) { return make_id<TraversalId>(traversal); }
+
+std::vector<std::uint32_t> near(const TraversalIndex& index, const std::vector<Point2>& places,
+                                const IdRange<TraversalId>& excluded = {}) {
+  std::vector<std::uint32_t> found;
+  for (const TraversalId traversal : index.near(places, excluded)) found.push_back(index_of(traversal));
+  return found;
+}
 std::vector<std::uint32_t> near(const TraversalIndex& index, const Point2& place,
-                                std::uint32_t excluded_first = 0, std::uint32_t excluded_end = 0) {
-  return index.near(std::vector<Point2>{place}, excluded_first, excluded_end);
+                                const IdRange<TraversalId>& excluded = {}) {
+  return near(index, std::vector<Point2>{place}, excluded);
 }
 
 TEST(TraversalIndex, FindsThePassesWithWallsNearAPlace) {
@@ -33,7 +41,7 @@ TEST(TraversalIndex, FindsThePassesWithWallsNearAPlace) {
     const Pose2 T_map_reference = random_pose(random, 12.0);
     std::vector<Point2> points(20);
     for (Point2& p : points) p = {random_in(random, -2.0, 2.0), random_in(random, -2.0, 2.0)};
-    index.set(traversal, walls(points), T_map_reference);
+    index.set(id(traversal), walls(points), T_map_reference);
     for (Point2& p : points) p = T_map_reference * p;
     drawn.push_back(points);
   }
@@ -54,28 +62,29 @@ TEST(TraversalIndex, FindsThePassesWithWallsNearAPlace) {
 
 TEST(TraversalIndex, LeavesOutTheExcluded) {
   TraversalIndex index;
-  for (std::uint32_t traversal = 0; traversal < 6; ++traversal) index.set(traversal, walls({{1.0, 1.0}}), {});
+  for (std::uint32_t traversal = 0; traversal < 6; ++traversal)
+    index.set(id(traversal), walls({{1.0, 1.0}}), {});
   EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 1, 2, 3, 4, 5));
-  EXPECT_THAT(near(index, {1.0, 1.0}, 1, 4), ElementsAre(0, 4, 5));
-  EXPECT_THAT(near(index, {1.0, 1.0}, 0, 6), IsEmpty());
+  EXPECT_THAT(near(index, {1.0, 1.0}, {id(1), id(4)}), ElementsAre(0, 4, 5));
+  EXPECT_THAT(near(index, {1.0, 1.0}, {id(0), id(6)}), IsEmpty());
 }
 
 TEST(TraversalIndex, APassIsFoundWhereItMoved) {
   TraversalIndex index;
-  index.set(0, walls({{1.0, 1.0}}), {});
-  index.move(0, Pose2(0.1, 0.1, 0.0));
+  index.set(id(0), walls({{1.0, 1.0}}), {});
+  index.move(id(0), Pose2(0.1, 0.1, 0.0));
   EXPECT_THAT(near(index, {1.1, 1.1}), ElementsAre(0)) << "a little";
-  index.move(0, Pose2(20.0, 0.0, 0.0));
+  index.move(id(0), Pose2(20.0, 0.0, 0.0));
   EXPECT_THAT(near(index, {21.0, 1.0}), ElementsAre(0));
   EXPECT_THAT(near(index, {1.0, 1.0}), IsEmpty());
-  index.move(0, Pose2(20.0, 0.0, kPi));
+  index.move(id(0), Pose2(20.0, 0.0, kPi));
   EXPECT_THAT(near(index, {19.0, -1.0}), ElementsAre(0)) << "and turned";
 }
 
 TEST(TraversalIndex, APassFiledAnewIsForgottenWhereItWas) {
   TraversalIndex index;
-  index.set(0, walls({{1.0, 1.0}, {9.0, 1.0}}), {});
-  index.set(0, walls({{9.0, 1.0}}), {});
+  index.set(id(0), walls({{1.0, 1.0}, {9.0, 1.0}}), {});
+  index.set(id(0), walls({{9.0, 1.0}}), {});
   EXPECT_THAT(near(index, {1.0, 1.0}), IsEmpty());
   EXPECT_THAT(near(index, {9.0, 1.0}), ElementsAre(0));
   EXPECT_EQ(index.size(), 1U);
@@ -84,13 +93,13 @@ TEST(TraversalIndex, APassFiledAnewIsForgottenWhereItWas) {
 TEST(TraversalIndex, OfManyPassesOverOnePlaceTakesAFewFromFirstToLast) {
   TraversalIndex index;
   for (std::uint32_t traversal = 0; traversal < 1000; ++traversal)
-    index.set(traversal, walls({{1.0, 1.0}}), {});
+    index.set(id(traversal), walls({{1.0, 1.0}}), {});
   const std::vector<std::uint32_t> found = near(index, {1.0, 1.0});
   ASSERT_EQ(found.size(), TraversalIndex::kMaxTraversalsPerTile);
   EXPECT_EQ(found.front(), 0U);
   EXPECT_EQ(found.back(), 999U);
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_NEAR(found[i] - found[i - 1], 1000.0 / 7.0, 2.0);
-  EXPECT_EQ(near(index, {1.0, 1.0}, 500, 1000).back(), 499U);
+  EXPECT_EQ(near(index, {1.0, 1.0}, {id(500), id(1000)}).back(), 499U);
 }
 
 TEST(TraversalIndex, WhatItBringsIsBoundedHoweverManyPassesThereAre) {
@@ -101,37 +110,35 @@ TEST(TraversalIndex, WhatItBringsIsBoundedHoweverManyPassesThereAre) {
     std::vector<Point2> points(1000);
     for (Point2& p : points) p = {random_in(random, -9.0, 9.0), random_in(random, -9.0, 9.0)};
     everywhere.push_back(points[0]);
-    index.set(traversal, walls(std::move(points)), {});
-    EXPECT_EQ(index[traversal].points_reference.size(), TraversalIndex::kMaxPointsPerTraversal);
+    index.set(id(traversal), walls(std::move(points)), {});
+    EXPECT_EQ(index[id(traversal)].points_reference.size(), TraversalIndex::kMaxPointsPerTraversal);
   }
-  const std::vector<std::uint32_t> found = index.near(everywhere, 0, 0);
+  const std::vector<std::uint32_t> found = near(index, everywhere);
   EXPECT_EQ(found.size(), TraversalIndex::kMaxTraversalsNearby);
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
 }
 
 TEST(TraversalIndexDeathTest, AGapBetweenPassesIsABrokenPromise) {
   TraversalIndex index;
-  EXPECT_DEATH(index.set(1, walls({}), {}), "broken promise.*without gaps");
+  EXPECT_DEATH(index.set(id(1), walls({}), {}), "broken promise.*in order");
 }
 
-TEST(TraversalIndex, WhatIsRemovedIsFoundNoMoreAndTheRestByItsNewNumber) {
+TEST(TraversalIndex, WhatIsErasedIsFoundNoMore) {
   TraversalIndex index;
   for (std::uint32_t traversal = 0; traversal < 6; ++traversal) {
     const double x_m = traversal < 3 ? 1.0 : 9.0;
-    index.set(traversal, {10 * traversal, {{x_m, 1.0}}}, {});
+    index.set(id(traversal), {make_id<ScanId>(10 * traversal), {{x_m, 1.0}}}, {});
   }
-  IndexRemoval traversals;
-  traversals.add({1, 2});
-  traversals.add({4, 5});
-  IndexRemoval scans;
-  scans.add({10, 20});
-  scans.add({40, 50});
-  index.remove(traversals, scans);
+  IdRanges<TraversalId> gone;
+  gone.add(id(1));
+  gone.add(id(4));
+  index.erase(gone);
   ASSERT_EQ(index.size(), 4U);
-  EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 1));
-  EXPECT_THAT(near(index, {9.0, 1.0}), ElementsAre(2, 3));
-  EXPECT_EQ(index[1].reference, 10U) << "was 20";
-  EXPECT_EQ(index[3].reference, 30U) << "was 50";
+  EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 2));
+  EXPECT_THAT(near(index, {9.0, 1.0}), ElementsAre(3, 5));
+  EXPECT_EQ(index[id(5)].reference, ScanId{50});
+  EXPECT_THAT(index.filed({id(1), id(5)}), ElementsAre(id(2), id(3)));
+  EXPECT_EQ(index.end_id(), id(6));
 }
 
 }  // namespace

@@ -23,26 +23,28 @@ class ThereAndBack {
  public:
   [[nodiscard]] const ScanStore& scans() const { return run_.scans(); }
   /// Truth, in the frame of the first pose.
-  [[nodiscard]] Pose2 truth(ScanIndex scan) const { return vehicle_.samples()[scan].T_odom_body; }
+  [[nodiscard]] Pose2 truth(ScanId scan) const { return vehicle_.samples()[index_of(scan)].T_odom_body; }
   /// Some of the way back.
   [[nodiscard]] ScanRange window() const {
-    const auto count = static_cast<ScanIndex>(scans().size());
-    return {count - 150, count - 30};
+    const ScanId end = scans().all().end_id();
+    return {end - 150, end - 30};
   }
   /// All there is with the window's neighbours, at the truth.
   [[nodiscard]] WindowPoses true_poses() const {
     WindowPoses poses;
-    poses.first_scan = window().first - 1;
-    for (ScanIndex i = poses.first_scan; i <= window().end; ++i) poses.T_map_body.push_back(truth(i));
+    poses.scans = {window().first - 1, window().end + 1};
+    for (ScanId i = poses.scans.first; i < poses.scans.end; ++i) poses.T_map_body.push_back(truth(i));
     poses.T_map_graph = poses.T_local_body = poses.T_map_body;
     return poses;
   }
   /// What the way there drew.
   [[nodiscard]] std::vector<TraversalPoint> way_there() const {
     std::vector<TraversalPoint> points;
-    for (ScanIndex i = 0; i < scans().size() / 2; ++i) {
-      for (const ScanReturn& beam : scans().returns(i))
-        if (beam.is_hit) points.push_back({truth(i) * scans().point_body(beam), traversal_of(scans()[i])});
+    for (const auto& [id, scan] : scans().all()) {
+      if (index_of(id) >= scans().size() / 2) break;
+      for (const ScanReturn& beam : scans().returns(scan))
+        if (beam.is_hit)
+          points.push_back({truth(id) * scans().point_body(beam), index_of(traversal_of(scan))});
     }
     return points;
   }
@@ -70,7 +72,7 @@ double worst_m(const WindowPoses& poses) {
   double worst = 0.0;
   for (std::size_t i = 0; i < poses.T_map_body.size(); ++i) {
     const Pose2 off =
-        between(flight().truth(poses.first_scan + static_cast<ScanIndex>(i)), poses.T_map_body[i]);
+        between(flight().truth(poses.scans.first + static_cast<std::uint32_t>(i)), poses.T_map_body[i]);
     worst = std::max(worst, std::hypot(off.x_m(), off.y_m()));
   }
   return worst;
@@ -116,7 +118,7 @@ TEST(WindowRefinement, WithoutNeighboursPullsTheWindowToThem) {
   const double before_m = worst_m(poses);
   WindowRefinement refinement(flight().scans(), kNoise);
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(refinement.refine(flight().window(), {}, poses));
-  EXPECT_LT(std::abs(between(flight().truth(poses.first_scan + 1), poses.T_map_body[1]).y_m()), 0.02);
+  EXPECT_LT(std::abs(between(flight().truth(poses.scans.first + 1), poses.T_map_body[1]).y_m()), 0.02);
   EXPECT_LT(worst_m(poses), before_m);
 }
 
@@ -130,7 +132,8 @@ TEST(WindowRefinement, WhatNoWallHoldsGoesBackToTheGraph) {
   poses.T_map_body = poses.T_map_graph;
   for (Pose2& T : poses.T_map_body) T = Pose2(0.2, 0.1, 0.0) * T;
   WindowRefinement refinement(run.scans(), kNoise);
-  const ScanRange window{0, static_cast<ScanIndex>(run.scans().size())};
+  const ScanRange window{ScanId{}, run.scans().all().end_id()};
+  poses.scans = window;
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(refinement.refine(window, {}, poses));
   EXPECT_TRUE(poses_near(poses.T_map_body.front(), Pose2(0.2, 0.1, 0.0), 0.0, 0.0)) << "this one stays";
   EXPECT_TRUE(poses_near(poses.T_map_body.back(), poses.T_map_graph.back(), 0.03, 0.01));
@@ -159,11 +162,11 @@ TEST(WindowRefinement, ATenthOfTheReturnsOfEachBeamIsHeldOut) {
   std::array<int, 4> all{};
   std::array<int, 4> held_out{};
   const ScanStore& scans = flight().scans();
-  for (ScanIndex i = 0; i < scans.size(); ++i) {
-    for (std::size_t k = 0; k < scans.returns(i).size(); ++k) {
-      const std::uint8_t beam = scans.returns(i)[k].beam;
+  for (const auto& [id, scan] : scans.all()) {
+    for (std::size_t k = 0; k < scans.returns(id).size(); ++k) {
+      const std::uint8_t beam = scans.returns(id)[k].beam;
       ++all.at(beam);
-      held_out.at(beam) += is_held_out(scans, i, k) ? 1 : 0;
+      held_out.at(beam) += is_held_out(id, k) ? 1 : 0;
     }
   }
   for (std::size_t beam = 0; beam < all.size(); ++beam)
@@ -176,7 +179,7 @@ TEST(WindowRefinement, ThinsTheReturnsOfManyBeams) {
   for (std::size_t i = 0; i < beams.count; ++i) beams.bearing_rad[i] = 0.3 * static_cast<double>(i);
   ScanStore scans(beams);
   WindowPoses poses;
-  for (ScanIndex i = 0; i < 300; ++i) {
+  for (std::uint32_t i = 0; i < 300; ++i) {
     FrontendStep step;
     step.sample.beam_count = beams.count;
     for (std::size_t beam = 0; beam < beams.count; ++beam) step.sample.distance_m[beam] = 1.0F;
@@ -184,18 +187,20 @@ TEST(WindowRefinement, ThinsTheReturnsOfManyBeams) {
     scans.add(step);
     poses.T_map_body.emplace_back();
   }
+  poses.scans = {ScanId{}, scans.all().end_id()};
   poses.T_map_graph = poses.T_local_body = poses.T_map_body;
   WindowRefinement refinement(scans, kNoise);
-  const Result<WindowReport> report = refinement.refine({0, 300}, {}, poses);
+  const Result<WindowReport> report = refinement.refine(poses.scans, {}, poses);
   ASSERT_TRUE(report);
   EXPECT_LE(report->returns, WindowRefinement::kMaxReturns);
   EXPECT_GT(report->returns, WindowRefinement::kMaxReturns / 3);
 }
 
 TEST(WindowRefinement, TheFirstScanOfARunAloneHasNothingToDo) {
-  WindowPoses poses{0, {Pose2()}, {Pose2()}, {Pose2()}};
+  const ScanRange first{ScanId{0}, ScanId{1}};
+  WindowPoses poses{first, {Pose2()}, {Pose2()}, {Pose2()}};
   WindowRefinement refinement(flight().scans(), kNoise);
-  const Result<WindowReport> report = refinement.refine({0, 1}, {}, poses);
+  const Result<WindowReport> report = refinement.refine(first, {}, poses);
   ASSERT_TRUE(report);
   EXPECT_FALSE(report->accepted);
 }

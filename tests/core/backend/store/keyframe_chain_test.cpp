@@ -31,9 +31,9 @@ class KeyframeChainTest : public testing::Test {
       step.sample.T_odom_body = T_odom_body;
       step.T_dead_body = T_odom_body;
       step.sample.starts_segment = i == 0 || i == segment_starts_at;
-      step.keyframe = static_cast<KeyframeId>(T_odom_keyframes_.size() - 1);
+      step.keyframe = T_odom_keyframes_.last_id();
       step.T_keyframe_body = between(T_odom_keyframe, T_odom_body);
-      const ScanIndex scan = scans_.add(step);
+      const ScanId scan = scans_.add(step);
       if (i % spacing == 0) chain_.add(scan);
       T_odom_body = T_odom_body * Pose2(random_in(random, 0.0, 0.2), 0.0, random_in(random, -0.2, 0.2));
     }
@@ -41,61 +41,63 @@ class KeyframeChainTest : public testing::Test {
 
   ScanStore scans_{BeamLayout::multiranger()};
   KeyframeChain chain_{scans_};
-  std::vector<Pose2> T_odom_keyframes_;
+  KeyframePoses T_odom_keyframes_;
 };
 
 TEST_F(KeyframeChainTest, KnowsTheScanAndThePathOfEachKeyframe) {
   fly(21, 10);
   ASSERT_EQ(chain_.size(), 3U);
-  EXPECT_EQ(chain_.scan_of(KeyframeId{0}), 0U);
-  EXPECT_EQ(chain_.scan_of(KeyframeId{2}), 20U);
-  EXPECT_EQ(chain_.path_m(KeyframeId{2}), scans_[20].path_m);
+  EXPECT_EQ(chain_.scan_of(KeyframeId{0}), ScanId{0});
+  EXPECT_EQ(chain_.scan_of(KeyframeId{2}), ScanId{20});
+  EXPECT_EQ(chain_.path_m(KeyframeId{2}), scans_[ScanId{20}].path_m);
 }
 
 TEST_F(KeyframeChainTest, HitsEveryKeyframeExactlyWhereverItIsMovedTo) {
   fly(31, 10);
   std::mt19937 random(42);
-  std::vector<Pose2> T_map_keyframe;
+  KeyframePoses T_map_keyframe;
   for (std::size_t k = 0; k < chain_.size(); ++k) T_map_keyframe.push_back(random_pose(random, 5.0));
-  for (std::size_t k = 0; k < chain_.size(); ++k) {
-    const ScanIndex scan = chain_.scan_of(static_cast<KeyframeId>(k));
-    EXPECT_TRUE(poses_near(chain_.T_w_body(scan, T_map_keyframe), T_map_keyframe[k], kExact, kExact));
-  }
+  for (const auto& [keyframe, scan] : chain_.all())
+    EXPECT_TRUE(poses_near(chain_.T_w_body(scan, T_map_keyframe), T_map_keyframe[keyframe], kExact, kExact));
 }
 
 TEST_F(KeyframeChainTest, ApproachesTheNextKeyframeAsClosely) {
   fly(11, 10);
   // What dead reckoning missed on the way is 0.2 m and 0.1 rad in all; from the last scan there, a tenth.
-  const Pose2 T_0_1 = between(T_odom_keyframes_[0], T_odom_keyframes_[1]) * Pose2(0.2, 0.0, 0.1);
-  const std::vector<Pose2> T_map_keyframe{Pose2(), T_0_1};
-  const Pose2 expected_step = between(scans_[9].T_odom_body, scans_[10].T_odom_body);
-  const Pose2 step = between(chain_.T_w_body(9, T_map_keyframe), chain_.T_w_body(10, T_map_keyframe));
+  const Pose2 T_0_1 =
+      between(T_odom_keyframes_[KeyframeId{0}], T_odom_keyframes_[KeyframeId{1}]) * Pose2(0.2, 0.0, 0.1);
+  const KeyframePoses T_map_keyframe({Pose2(), T_0_1});
+  const Pose2 expected_step = between(scans_[ScanId{9}].T_odom_body, scans_[ScanId{10}].T_odom_body);
+  const Pose2 step =
+      between(chain_.T_w_body(ScanId{9}, T_map_keyframe), chain_.T_w_body(ScanId{10}, T_map_keyframe));
   EXPECT_TRUE(poses_near(step, expected_step, 0.05, 0.011));
 }
 
 TEST_F(KeyframeChainTest, EqualsDeadReckoningWhereTheKeyframesAgreeWithIt) {
   fly(31, 10);
-  for (ScanIndex i = 0; i < scans_.size(); ++i)
-    EXPECT_TRUE(poses_near(chain_.T_w_body(i, T_odom_keyframes_), scans_[i].T_odom_body, kExact, kExact));
+  for (const auto& [id, scan] : scans_.all())
+    EXPECT_TRUE(poses_near(chain_.T_w_body(id, T_odom_keyframes_), scan.T_odom_body, kExact, kExact));
 }
 
 TEST_F(KeyframeChainTest, SpreadsTheCorrectionEvenly) {
   fly(11, 10);
   const Pose2 missed(0.5, -0.3, 0.2);
-  const std::vector<Pose2> T_odom_moved{T_odom_keyframes_[0], T_odom_keyframes_[1] * missed};
-  for (ScanIndex i = 0; i <= 10; ++i) {
-    const double share = i / 10.0;
-    const Pose2 correction = between(scans_[i].T_odom_body, chain_.T_w_body(i, T_odom_moved));
-    EXPECT_TRUE(poses_near(correction, Pose2(share * 0.5, share * -0.3, share * 0.2), kExact, kExact)) << i;
+  const KeyframePoses T_odom_moved(
+      {T_odom_keyframes_[KeyframeId{0}], T_odom_keyframes_[KeyframeId{1}] * missed});
+  for (const auto& [id, scan] : scans_.all()) {
+    const double share = index_of(id) / 10.0;
+    const Pose2 correction = between(scan.T_odom_body, chain_.T_w_body(id, T_odom_moved));
+    EXPECT_TRUE(poses_near(correction, Pose2(share * 0.5, share * -0.3, share * 0.2), kExact, kExact))
+        << index_of(id);
   }
 }
 
 TEST_F(KeyframeChainTest, ScansAfterTheLastKeyframeFollowByDeadReckoning) {
   fly(16, 10);
   const Pose2 T_map_odom(3.0, 4.0, 1.0);
-  const std::vector<Pose2> T_map_keyframe{T_map_odom * T_odom_keyframes_[0],
-                                          T_map_odom * T_odom_keyframes_[1]};
-  for (ScanIndex i = 10; i < 16; ++i)
+  const KeyframePoses T_map_keyframe(
+      {T_map_odom * T_odom_keyframes_[KeyframeId{0}], T_map_odom * T_odom_keyframes_[KeyframeId{1}]});
+  for (ScanId i{10}; i < ScanId{16}; ++i)
     EXPECT_TRUE(
         poses_near(chain_.T_w_body(i, T_map_keyframe), T_map_odom * scans_[i].T_odom_body, kExact, kExact));
 }
@@ -103,23 +105,25 @@ TEST_F(KeyframeChainTest, ScansAfterTheLastKeyframeFollowByDeadReckoning) {
 TEST_F(KeyframeChainTest, ThePastAloneCanBePlaced) {
   fly(31, 10);
   // A snapshot from when there were two keyframes.
-  const std::vector<Pose2> T_odom_early(T_odom_keyframes_.begin(), T_odom_keyframes_.begin() + 2);
-  for (ScanIndex i = 0; i < 20; ++i)
+  const KeyframePoses T_odom_early({T_odom_keyframes_[KeyframeId{0}], T_odom_keyframes_[KeyframeId{1}]});
+  for (ScanId i{0}; i < ScanId{20}; ++i)
     EXPECT_TRUE(poses_near(chain_.T_w_body(i, T_odom_early), scans_[i].T_odom_body, kExact, kExact));
 }
 
 TEST_F(KeyframeChainTest, PlacesManyScansAsItPlacesEach) {
   fly(45, 10, 20);
   std::mt19937 random(43);
-  std::vector<Pose2> T_map_keyframe;
+  KeyframePoses T_map_keyframe;
   for (std::size_t k = 0; k < chain_.size(); ++k) T_map_keyframe.push_back(random_pose(random, 5.0));
-  for (const ScanRange& scans : {ScanRange{0, 45}, ScanRange{7, 33}, ScanRange{42, 45}, ScanRange{5, 5}}) {
-    for (const ScanIndex every : {1U, 3U, 12U}) {
+  for (const ScanRange& scans : {ScanRange{ScanId{0}, ScanId{45}}, ScanRange{ScanId{7}, ScanId{33}},
+                                 ScanRange{ScanId{42}, ScanId{45}}, ScanRange{ScanId{5}, ScanId{5}}}) {
+    for (const std::uint32_t every : {1U, 3U, 12U}) {
       const std::vector<Pose2> poses = chain_.T_w_bodies(scans, T_map_keyframe, every);
-      ASSERT_EQ(poses.size(), (scans.size() + every - 1) / every);
-      for (std::size_t k = 0; k < poses.size(); ++k) {
-        const auto i = static_cast<ScanIndex>(scans.first + k * every);
-        EXPECT_TRUE(poses_near(poses[k], chain_.T_w_body(i, T_map_keyframe), 0.0, 0.0)) << i;
+      ASSERT_EQ(poses.size(), (scans.end - scans.first + every - 1) / every);
+      ScanId i = scans.first;
+      for (const Pose2& pose : poses) {
+        EXPECT_TRUE(poses_near(pose, chain_.T_w_body(i, T_map_keyframe), 0.0, 0.0)) << index_of(i);
+        i = i + every;
       }
     }
   }
@@ -128,29 +132,31 @@ TEST_F(KeyframeChainTest, PlacesManyScansAsItPlacesEach) {
 TEST_F(KeyframeChainTest, DoesNotBridgeIntoANewSegment) {
   fly(21, 10, 10);
   // Wherever the next segment is put, the scans before it stay with their own keyframe.
-  const std::vector<Pose2> T_odom_moved{T_odom_keyframes_[0], Pose2(50.0, 60.0, 3.0), Pose2(51.0, 60.0, 3.0)};
-  for (ScanIndex i = 0; i < 10; ++i)
+  const KeyframePoses T_odom_moved(
+      {T_odom_keyframes_[KeyframeId{0}], Pose2(50.0, 60.0, 3.0), Pose2(51.0, 60.0, 3.0)});
+  for (ScanId i{0}; i < ScanId{10}; ++i)
     EXPECT_TRUE(poses_near(chain_.T_w_body(i, T_odom_moved), scans_[i].T_odom_body, kExact, kExact));
-  EXPECT_TRUE(poses_near(chain_.T_w_body(10, T_odom_moved), T_odom_moved[1], kExact, kExact));
+  EXPECT_TRUE(
+      poses_near(chain_.T_w_body(ScanId{10}, T_odom_moved), T_odom_moved[KeyframeId{1}], kExact, kExact));
 }
 
-TEST_F(KeyframeChainTest, PlacesWhatIsLeftAsBeforeWhenSomeIsRemoved) {
+TEST_F(KeyframeChainTest, PlacesWhatIsLeftAsBeforeWhenSomeIsErased) {
   fly(50, 10);
   std::vector<Pose2> before;
-  for (ScanIndex i = 0; i < 50; ++i) before.push_back(chain_.T_w_body(i, T_odom_keyframes_));
-  IndexRemoval scans;
-  scans.add({10, 30});
-  IndexRemoval keyframes;
-  keyframes.add({1, 3});
-  scans_.remove(scans, keyframes);
-  chain_.remove(scans, keyframes);
-  keyframes.apply(T_odom_keyframes_);
+  for (const auto& [id, scan] : scans_.all()) before.push_back(chain_.T_w_body(id, T_odom_keyframes_));
+  IdRanges<ScanId> scans;
+  scans.add({ScanId{10}, ScanId{30}});
+  IdRanges<KeyframeId> keyframes;
+  keyframes.add({KeyframeId{1}, KeyframeId{3}});
+  scans_.erase(scans);
+  chain_.erase(keyframes);
+  T_odom_keyframes_.erase(keyframes);
   ASSERT_EQ(chain_.size(), 3U);
-  EXPECT_EQ(chain_.scan_of(KeyframeId{1}), 10U);
-  for (ScanIndex i = 0; i < 30; ++i)
-    EXPECT_TRUE(
-        poses_near(chain_.T_w_body(i, T_odom_keyframes_), before[i < 10 ? i : i + 20], kExact, kExact))
-        << i;
+  EXPECT_EQ(chain_.scan_of(KeyframeId{3}), ScanId{30});
+  EXPECT_EQ(chain_.scans_of({KeyframeId{0}, KeyframeId{3}}), (ScanRange{ScanId{0}, ScanId{30}}));
+  for (const auto& [id, scan] : scans_.all())
+    EXPECT_TRUE(poses_near(chain_.T_w_body(id, T_odom_keyframes_), before[index_of(id)], kExact, kExact))
+        << index_of(id);
 }
 
 }  // namespace

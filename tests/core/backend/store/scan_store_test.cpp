@@ -20,15 +20,15 @@ FrontendStep step_at(const Pose2& T_odom_body, bool starts_segment = false) {
 
 TEST(ScanStore, KeepsWhatTheScanSaidInOrder) {
   ScanStore scans(BeamLayout::multiranger());
-  EXPECT_EQ(scans.add(step_at({}, true)), 0U);
+  EXPECT_EQ(scans.add(step_at({}, true)), ScanId{0});
   FrontendStep step = step_at({1.0, 2.0, 0.5});
   step.sample.stamp = HostTime(std::chrono::seconds(77));
   step.keyframe = KeyframeId{3};
   step.T_keyframe_body = Pose2(0.1, 0.2, 0.3);
-  EXPECT_EQ(scans.add(step), 1U);
+  EXPECT_EQ(scans.add(step), ScanId{1});
   ASSERT_EQ(scans.size(), 2U);
-  EXPECT_TRUE(scans[0].starts_segment);
-  const StoredScan& scan = scans[1];
+  EXPECT_TRUE(scans[ScanId{0}].starts_segment);
+  const StoredScan& scan = scans[ScanId{1}];
   EXPECT_FALSE(scan.starts_segment);
   EXPECT_EQ(scan.stamp, step.sample.stamp);
   EXPECT_EQ(scan.keyframe, KeyframeId{3});
@@ -44,13 +44,13 @@ TEST(ScanStore, StoresHitsAndMissesAndLeavesOutWhatIsInvalid) {
   step.sample.status[2] = RangeStatus::kNoReturn;
   scans.add(step);
   scans.add(step_at({}));
-  ASSERT_EQ(scans.returns(0).size(), 2U);
-  EXPECT_TRUE(scans.returns(0)[0].is_hit);
-  EXPECT_EQ(scans.returns(0)[0].beam, 0);
-  EXPECT_EQ(scans.returns(0)[0].distance_m, 1.5F);
-  EXPECT_FALSE(scans.returns(0)[1].is_hit);
-  EXPECT_EQ(scans.returns(0)[1].beam, 2);
-  EXPECT_TRUE(scans.returns(1).empty());
+  ASSERT_EQ(scans.returns(ScanId{0}).size(), 2U);
+  EXPECT_TRUE(scans.returns(ScanId{0})[0].is_hit);
+  EXPECT_EQ(scans.returns(ScanId{0})[0].beam, 0);
+  EXPECT_EQ(scans.returns(ScanId{0})[0].distance_m, 1.5F);
+  EXPECT_FALSE(scans.returns(ScanId{0})[1].is_hit);
+  EXPECT_EQ(scans.returns(ScanId{0})[1].beam, 2);
+  EXPECT_TRUE(scans.returns(ScanId{1}).empty());
 }
 
 TEST(ScanStore, BeamsBeyondTheSamplesCountAreNotRead) {
@@ -59,7 +59,7 @@ TEST(ScanStore, BeamsBeyondTheSamplesCountAreNotRead) {
   step.sample.beam_count = 2;
   step.sample.status.fill(RangeStatus::kHit);
   scans.add(step);
-  EXPECT_EQ(scans.returns(0).size(), 2U);
+  EXPECT_EQ(scans.returns(ScanId{0}).size(), 2U);
 }
 
 TEST(ScanStore, ReturnsLieAlongTheirBeams) {
@@ -78,10 +78,10 @@ TEST(ScanStore, PathAddsUpTravelAndNotTurns) {
   scans.add(step_at({8.0, 9.0, 0.0}));
   scans.add(step_at({8.0, 9.0, 2.0}));
   scans.add(step_at({8.0, 8.0, 2.0}));
-  EXPECT_DOUBLE_EQ(scans[0].path_m, 0.0);
-  EXPECT_DOUBLE_EQ(scans[1].path_m, 5.0);
-  EXPECT_DOUBLE_EQ(scans[2].path_m, 5.0);
-  EXPECT_DOUBLE_EQ(scans[3].path_m, 6.0);
+  EXPECT_DOUBLE_EQ(scans[ScanId{0}].path_m, 0.0);
+  EXPECT_DOUBLE_EQ(scans[ScanId{1}].path_m, 5.0);
+  EXPECT_DOUBLE_EQ(scans[ScanId{2}].path_m, 5.0);
+  EXPECT_DOUBLE_EQ(scans[ScanId{3}].path_m, 6.0);
 }
 
 TEST(ScanStore, TheJumpIntoANewSegmentIsNotTravel) {
@@ -90,36 +90,32 @@ TEST(ScanStore, TheJumpIntoANewSegmentIsNotTravel) {
   scans.add(step_at({1.0, 0.0, 0.0}));
   scans.add(step_at({100.0, 0.0, 0.0}, true));
   scans.add(step_at({102.0, 0.0, 0.0}));
-  EXPECT_DOUBLE_EQ(scans[2].path_m, 1.0);
-  EXPECT_DOUBLE_EQ(scans[3].path_m, 3.0);
+  EXPECT_DOUBLE_EQ(scans[ScanId{2}].path_m, 1.0);
+  EXPECT_DOUBLE_EQ(scans[ScanId{3}].path_m, 3.0);
 }
 
-TEST(ScanStore, WhatIsRemovedGivesWayAndTheRestKeepsWhatItSaid) {
+TEST(ScanStore, WhatIsErasedIsGoneAndTheRestKeepsWhatItSaid) {
   ScanStore scans(BeamLayout::multiranger());
   for (std::uint32_t i = 0; i < 9; ++i) {
     FrontendStep step = step_at(Pose2(i, 0.0, 0.0), i == 0);
     step.sample.status[i % 4] = RangeStatus::kHit;
     step.sample.distance_m[i % 4] = static_cast<float>(i);
-    step.keyframe = static_cast<KeyframeId>(i / 3);
+    step.keyframe = make_id<KeyframeId>(i / 3);
     scans.add(step);
   }
-  IndexRemoval gone;
-  gone.add({3, 6});
-  IndexRemoval keyframes;
-  keyframes.add({1, 2});
-  scans.remove(gone, keyframes);
+  IdRanges<ScanId> gone;
+  gone.add({ScanId{3}, ScanId{6}});
+  scans.erase(gone);
   ASSERT_EQ(scans.size(), 6U);
-  for (ScanIndex i = 0; i < 6; ++i) {
-    const std::uint32_t was = i < 3 ? i : i + 3;
-    EXPECT_EQ(scans[i].number, was);
-    EXPECT_EQ(index_of(scans[i].keyframe), i / 3);
-    ASSERT_EQ(scans.returns(i).size(), 1U);
-    EXPECT_EQ(scans.returns(i)[0].distance_m, static_cast<float>(was));
-    EXPECT_EQ(scans[i].starts_segment, i == 0 || i == 3) << "after a hole begins a segment";
+  for (const auto& [id, scan] : scans.all()) {
+    EXPECT_EQ(index_of(scan.keyframe), index_of(id) / 3);
+    ASSERT_EQ(scans.returns(id).size(), 1U);
+    EXPECT_EQ(scans.returns(id)[0].distance_m, static_cast<float>(index_of(id)));
+    EXPECT_EQ(scan.starts_segment, id == ScanId{0} || id == ScanId{6}) << "after a hole begins a segment";
   }
-  scans.add(step_at(Pose2(9.0, 0.0, 0.0)));
-  EXPECT_EQ(scans[6].number, 9U);
-  EXPECT_DOUBLE_EQ(scans[6].path_m, 9.0);
+  EXPECT_EQ(scans.return_count({ScanId{1}, ScanId{7}}), 3U);
+  EXPECT_EQ(scans.add(step_at(Pose2(9.0, 0.0, 0.0))), ScanId{9});
+  EXPECT_DOUBLE_EQ(scans[ScanId{9}].path_m, 9.0);
 }
 
 }  // namespace
