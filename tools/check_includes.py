@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """Compares the sources with the plan in docs/architecture.md: who may include whom, which libraries appear in one
-source file only, what core must not use, that a name in the namespace is one type, and the two licence lines. Prints a
-line a fault; exit code 1 if there is any.
+source file only, what core must not use, that a name in the namespace is one type, that no id is made of another kind
+of id, and the two licence lines. Prints a line a fault; exit code 1 if there is any.
 
 Usage: check_includes.py [REPOSITORY]
 """
@@ -70,6 +70,9 @@ ASKS_FOR_THE_TIME = re.compile(r"\bnow\s*\(\s*\)")
 GENERATED = re.compile(r"^swiftlet/(\w+)\.hpp$")  # by lcm-gen, from proto/
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 TYPE = re.compile(r"(?:struct|class|enum class|enum|union) (\w+)(?: final)?(?: : [^;{]+)? \{")  # in the namespace itself
+IDS = "KeyframeId|LandmarkId|ScanId|TraversalId|ClosureId|FactorId|PoseIndex"
+CASTS_AN_ID = re.compile(rf"static_cast<(?:{IDS})>|\b(?:{IDS})\s*[({{]\s*index_of\(|\bmake_id<\w+>\(\s*index_of\(")
+MAY_CAST_IDS = ("core/base/ids.hpp", "core/backend/store/traversal.hpp")
 SPDX = ("SPDX-License-Identifier: MIT", "SPDX-FileCopyrightText: ")
 
 
@@ -99,6 +102,8 @@ def check_source(path, text, root, users):
         code = line.split("//")[0]
         if path.startswith("core/") and ASKS_FOR_THE_TIME.search(code):
             yield f"{path}:{number}: core must not read a clock: time is a parameter"
+        if CASTS_AN_ID.search(code) and not path.startswith("tests/") and path not in MAY_CAST_IDS:
+            yield f"{path}:{number}: an id of one kind is not made of another"
         include = INCLUDE.match(line)
         if not include:
             continue

@@ -53,6 +53,13 @@ class CheckIncludes(unittest.TestCase):
     def test_refuses_a_path_that_does_not_begin_at_the_top(self):
         self.assert_fault({"core/base/a.hpp": SPDX, "core/base/b.hpp": SPDX + '#include "a.hpp"\n'}, "no path")
 
+    def test_refuses_casts_between_kinds_of_ids(self):
+        for code in ("static_cast<KeyframeId>(scan)", "KeyframeId{index_of(scan)}", "PoseIndex(index_of(scan))",
+                     "make_id<PoseIndex>(index_of(keyframe))"):
+            self.assert_fault({"core/base/a.cpp": SPDX + f"auto id = {code};\n"}, "id of one kind")
+        self.assertEqual([], self.faults({"core/base/a.cpp": SPDX + "auto id = make_id<KeyframeId>(3);\n",
+                                          "core/base/ids.hpp": SPDX + "auto id = static_cast<KeyframeId>(3);\n"}))
+
     def test_refuses_threads_files_and_clocks_in_core(self):
         self.assert_fault({"core/base/a.hpp": SPDX + "#include <mutex>\n"}, "<mutex>")
         self.assert_fault({"core/base/a.hpp": SPDX + "auto t = Clock::now();\n"}, "must not read a clock")
