@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/backend/refinement/point_to_line_factor.hpp"
 #include "core/backend/store/traversal.hpp"
 
 namespace swiftlet {
@@ -31,7 +30,7 @@ bool is_held_out(ScanId scan, std::size_t return_of_scan) {
 void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_pose) {
   const std::size_t count = scans_->return_count(window);
   const std::size_t every = (count + kMaxReturns - 1) / kMaxReturns;
-  returns_.clear();
+  problem_.clear();
   std::size_t number = 0;
   const std::span<const StoredScan> scans = scans_->all().values(window);
   const std::size_t first = scans_->all().position(window.first);
@@ -40,32 +39,10 @@ void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_p
     const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
     for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
       if (!beams[k].is_hit || number % every != 0) continue;
-      returns_.push_back({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])),
-                          is_held_out(id, k), scans_->point_body(beams[k])});
+      problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])), is_held_out(id, k),
+                    scans_->point_body(beams[k])});
     }
   }
-}
-
-/// Of all that are not held back.
-WallMap WindowRefinement::walls_at(const std::vector<Pose2>& T_map_body,
-                                   std::span<const TraversalPoint> others_thinned) const {
-  std::vector<TraversalPoint> points;
-  points.reserve(returns_.size());
-  for (const PlacedReturn& r : returns_)
-    if (!r.held_out) points.push_back({T_map_body[index_of(r.pose)] * r.p_body, r.traversal});
-  return {others_thinned, points, kRadiusM};
-}
-
-double WindowRefinement::held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const PlacedReturn& r : returns_) {
-    if (!r.held_out) continue;
-    const TraversalPoint at{T_map_body[index_of(r.pose)] * r.p_body, r.traversal};
-    sum += judged_distance_m(walls.wall_near(at), at.p_map);
-    ++count;
-  }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
 void WindowRefinement::take_steps(const WindowPoses& poses) {
@@ -78,17 +55,6 @@ void WindowRefinement::take_steps(const WindowPoses& poses) {
     step.T_from_to = between(poses.T_local_body[to - 1], poses.T_local_body[to]);
     step.information = kStepWeight * motion_information(scans[to - 1], scans[to], noise_);
     steps_.push_back(step);
-  }
-}
-
-void WindowRefinement::add_walls(const WallMap& walls, const std::vector<Pose2>& T_map_body) {
-  for (const PlacedReturn& r : returns_) {
-    if (r.held_out) continue;
-    const Pose2& T = T_map_body[index_of(r.pose)];
-    const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.traversal});
-    if (!wall) continue;
-    const PointToLineFactor pull = point_to_line_factor(*wall, T, r.p_body);
-    chain_.add(r.pose, pull.H, pull.rhs);
   }
 }
 
@@ -130,19 +96,18 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   take_steps(poses);
   std::vector<TraversalPoint> others_thinned;
   append_thinned(others, others_thinned);
-  const WallMap before = walls_at(poses.T_map_body, others_thinned);
-  report.returns = returns_.size();
+  const WallMap before = problem_.walls_at(poses.T_map_body, kRadiusM, others_thinned);
+  report.returns = problem_.size();
   report.points = before.size();
-  report.held_out_before_m = held_out_error_m(before, poses.T_map_body);
   chain_.reset(moving);
-  add_walls(before, poses.T_map_body);
+  problem_.add_factors(before, poses.T_map_body, chain_);
   add_steps(poses.T_map_body, moving);
   add_ties(poses, moving);
   std::vector<Pose2> T = poses.T_map_body;
   T.resize(moving);
   if (const Status moved = chain_.step(T); !moved) return moved.error();
-  report.held_out_after_m = held_out_error_m(walls_at(T, others_thinned), T);
-  report.accepted = report.held_out_after_m <= report.held_out_before_m;
+  report.judge(problem_.held_out_error_m(before, poses.T_map_body),
+               problem_.held_out_error_m(problem_.walls_at(T, kRadiusM, others_thinned), T));
   if (report.accepted) std::copy(T.begin(), T.end(), poses.T_map_body.begin());
   return report;
 }

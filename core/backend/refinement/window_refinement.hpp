@@ -7,20 +7,16 @@
 #include <vector>
 
 #include "core/backend/pose_graph/pose_chain.hpp"
-#include "core/backend/refinement/wall_map.hpp"
+#include "core/backend/refinement/refinement_problem.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
 
-struct WindowReport {
+struct WindowReport : HeldOutVerdict {
   std::size_t returns = 0;  ///< that took part, held-out ones included
-  std::size_t points = 0;   ///< that walls were drawn from
-  double held_out_before_m =
-      0.0;  ///< robust mean distance of held-out returns from the walls of other traversals
-  double held_out_after_m = 0.0;
-  bool accepted = false;  ///< false: it would have explained the held-out returns worse; poses untouched
+  std::size_t points = 0;   ///< that walls were fitted to
 };
 
 /// Poses of a window's scans and of its neighbours, which stay.
@@ -51,25 +47,15 @@ class WindowRefinement {
                               WindowPoses& poses);
 
  private:
-  struct PlacedReturn {
-    PoseIndex pose{};  // of its scan, in the window's poses
-    std::uint32_t traversal = 0;
-    bool held_out = false;
-    Point2 p_body;
-  };
   void take_returns(const ScanRange& window, std::size_t first_pose);
-  [[nodiscard]] WallMap walls_at(const std::vector<Pose2>& T_map_body,
-                                 std::span<const TraversalPoint> others_thinned) const;
-  [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
   void take_steps(const WindowPoses& poses);
-  void add_walls(const WallMap& walls, const std::vector<Pose2>& T_map_body);
   void add_steps(const std::vector<Pose2>& T_map_body, std::size_t moving);
   void add_ties(const WindowPoses& poses, std::size_t moving);
 
   const ScanStore* scans_;
   OdometryNoise noise_;
   PoseChain chain_;
-  std::vector<PlacedReturn> returns_;
+  RefinementProblem problem_;
   std::vector<RelativePoseFactor<PoseIndex>> steps_;  // from each pose to the next
 };
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/backend/refinement/point_to_line_factor.hpp"
+#include "core/backend/refinement/wall_map.hpp"
+#include "core/base/ids.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+struct PlacedReturn {
+  PoseIndex pose{};  ///< of its scan, in the problem's list of poses
+  std::uint32_t traversal = 0;
+  bool held_out = false;  ///< adds no factor and no point of a wall: it judges
+  Point2 p_body;
+};
+
+/// What the held-out returns decide about refined poses.
+struct HeldOutVerdict {
+  double held_out_before_m = 0.0;  ///< capped mean distance of held-out returns from other traversals' walls
+  double held_out_after_m = 0.0;
+  bool accepted = false;  ///< false: the distance would have grown; poses untouched
+
+  void judge(double before_m, double after_m) {
+    held_out_before_m = before_m;
+    held_out_after_m = after_m;
+    accepted = after_m <= before_m;
+  }
+};
+
+/// The returns of scans whose poses are refined together. Each is associated with the wall that the other
+/// traversals draw around it. Poses are a list that the caller keeps. Allocates. One thread at a time.
+class RefinementProblem {
+ public:
+  void clear() { returns_.clear(); }
+  void add(const PlacedReturn& placed) { returns_.push_back(placed); }
+  [[nodiscard]] std::size_t size() const { return returns_.size(); }
+
+  /// The walls of all returns but the held-out ones at these poses. `others_thinned`: points of other
+  /// traversals that add to them. Returns must have been added by traversal.
+  [[nodiscard]] WallMap walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
+                                 std::span<const TraversalPoint> others_thinned = {}) const;
+  /// Adds to a system with `add(pose, H, rhs)` a point-to-line factor for each return that has a wall.
+  template <typename System>
+  void add_factors(const WallMap& walls, const std::vector<Pose2>& T_map_body, System& system) const {
+    for (const PlacedReturn& r : returns_) {
+      if (r.held_out) continue;
+      const Pose2& T = T_map_body[index_of(r.pose)];
+      const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.traversal});
+      if (!wall) continue;
+      const PointToLineFactor factor = point_to_line_factor(*wall, T, r.p_body);
+      system.add(r.pose, factor.H, factor.rhs);
+    }
+  }
+  /// Mean distance of the held-out returns from the walls, as judged_distance_m() has it; 0 without any.
+  [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
+
+ private:
+  std::vector<PlacedReturn> returns_;
+};
+
+}  // namespace swiftlet
