@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMaxWidth = 4;
 
-/// Vectors of two or four numbers, by the extensions of GCC and clang: any machine can compute with them.
+/// Vectors of two or four numbers, by extensions of GCC and clang that compile for any machine.
 using Pair = double __attribute__((vector_size(16)));
 struct Twos {
   using Doubles = Pair;
@@ -60,7 +60,7 @@ struct Sums {
     dx -= query.x_m;
     dy -= query.y_m;
     const Doubles d2 = dx * dx + dy * dy;
-    // What is true has all bits set.
+    // A comparison that holds sets all bits.
     Integers counts = reinterpret_cast<Integers>(d2 < query.radius_m2) &
                       reinterpret_cast<Integers>(traversal != query.traversal);
     if (first + kWidth > end)
@@ -77,9 +77,8 @@ struct Sums {
 };
 
 template <typename Vectors>
-[[gnu::always_inline]] inline LocalMoments moments(const PointColumns& points,
-                                                   std::span<const PointRange> ranges,
-                                                   const TraversalPoint& place, double radius_m) {
+[[gnu::always_inline]] inline Moments2 moments(const PointColumns& points, std::span<const PointRange> ranges,
+                                               const TraversalPoint& place, double radius_m) {
   const Query query{place.p_map.x_m, place.p_map.y_m, place.traversal, radius_m * radius_m};
   using S = Sums<Vectors>;
   S sums;
@@ -87,13 +86,18 @@ template <typename Vectors>
     for (std::uint32_t i = range.begin; i < range.end; i += S::kWidth) sums.add(points, i, range.end, query);
   std::int64_t count = 0;
   for (std::uint32_t i = 0; i < S::kWidth; ++i) count += sums.count[i];
-  return {count, sums.w_x[0], sums.w_x[1], sums.y_xx[0], sums.y_xx[1], sums.xy_yy[0], sums.xy_yy[1]};
+  return {static_cast<std::size_t>(count),
+          sums.w_x[0],
+          sums.w_x[1],
+          sums.y_xx[0],
+          sums.y_xx[1],
+          sums.xy_yy[0],
+          sums.xy_yy[1]};
 }
 
 #if defined(__x86_64__) || defined(__i386__)
-[[gnu::target("avx2")]] LocalMoments moments_avx2(const PointColumns& points,
-                                                  std::span<const PointRange> ranges,
-                                                  const TraversalPoint& place, double radius_m) {
+[[gnu::target("avx2")]] Moments2 moments_avx2(const PointColumns& points, std::span<const PointRange> ranges,
+                                              const TraversalPoint& place, double radius_m) {
   return moments<Fours>(points, ranges, place, radius_m);
 }
 const bool kHasAvx2 = __builtin_cpu_supports("avx2");
@@ -113,16 +117,16 @@ PointColumns::PointColumns(std::span<const TraversalPoint> points)
   }
 }
 
-LocalMoments local_moments(const PointColumns& points, std::span<const PointRange> ranges,
-                           const TraversalPoint& place, double radius_m) {
+Moments2 local_moments(const PointColumns& points, std::span<const PointRange> ranges,
+                       const TraversalPoint& place, double radius_m) {
 #if defined(__x86_64__) || defined(__i386__)
   if (kHasAvx2) return moments_avx2(points, ranges, place, radius_m);
 #endif
   return local_moments_portable(points, ranges, place, radius_m);
 }
 
-LocalMoments local_moments_portable(const PointColumns& points, std::span<const PointRange> ranges,
-                                    const TraversalPoint& place, double radius_m) {
+Moments2 local_moments_portable(const PointColumns& points, std::span<const PointRange> ranges,
+                                const TraversalPoint& place, double radius_m) {
   return moments<Twos>(points, ranges, place, radius_m);
 }
 

@@ -6,17 +6,18 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/moments2.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace swiftlet {
 
-/// A return drawn in the map: where it lies and which traversal over the place it belongs to.
+/// A return in the map, with the traversal that it belongs to.
 struct TraversalPoint {
   Point2 p_map;
   std::uint32_t traversal = 0;
 };
 
-/// Points by columns, for reading several at a time.
+/// Points by columns, so that several are loaded at a time.
 class PointColumns {
  public:
   PointColumns() = default;
@@ -29,7 +30,7 @@ class PointColumns {
 
  private:
   std::size_t size_ = 0;
-  std::vector<double> x_m_;  // padded: the last points too are read several at a time
+  std::vector<double> x_m_;  // padded: a load of several points may reach past the last
   std::vector<double> y_m_;
   std::vector<std::int64_t> traversal_;
 };
@@ -39,20 +40,14 @@ struct PointRange {
   std::uint32_t end = 0;
 };
 
-/// Weighted moments of points around a place, relative to it.
-struct LocalMoments {
-  std::int64_t count = 0;
-  double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-};
+/// Moments, relative to the place, of the points in `ranges` that lie within the radius and belong to other
+/// traversals than the place's. The weight falls from 1 at the place to 0 at the radius. Uses AVX2 where the
+/// machine has it. Does not allocate.
+[[nodiscard]] Moments2 local_moments(const PointColumns& points, std::span<const PointRange> ranges,
+                                     const TraversalPoint& place, double radius_m);
 
-/// Of the points in `ranges` of other traversals than the place's and within the radius. The weight falls
-/// from 1 at the place to 0 at the radius. With AVX2 where the machine has it. Does not allocate.
-[[nodiscard]] LocalMoments local_moments(const PointColumns& points, std::span<const PointRange> ranges,
-                                         const TraversalPoint& place, double radius_m);
-
-/// The same to the last bit, with what every machine has.
-[[nodiscard]] LocalMoments local_moments_portable(const PointColumns& points,
-                                                  std::span<const PointRange> ranges,
-                                                  const TraversalPoint& place, double radius_m);
+/// The same to the last bit on any machine.
+[[nodiscard]] Moments2 local_moments_portable(const PointColumns& points, std::span<const PointRange> ranges,
+                                              const TraversalPoint& place, double radius_m);
 
 }  // namespace swiftlet

@@ -12,28 +12,17 @@ namespace swiftlet {
 namespace {
 
 constexpr double kThinningM = 0.08;
-constexpr int kMinPoints = 5;
+constexpr std::size_t kMinPoints = 5;
 constexpr double kMinLengthM2 = 0.004;  // variance along the wall: shorter stretches have no direction
 constexpr double kMaxRatio = 0.35;      // variance across to variance along: more is clutter, not a wall
 
 /// The line through points with these moments; nothing where they are too few or not clearly a line.
-std::optional<LocalWall> line_of(const LocalMoments& m, const Point2& place_map) {
-  if (m.count < kMinPoints) return std::nullopt;
-  const double mx = m.x / m.w;
-  const double my = m.y / m.w;
-  const double xx = m.xx / m.w - mx * mx;
-  const double xy = m.xy / m.w - mx * my;
-  const double yy = m.yy / m.w - my * my;
-  const double half = 0.5 * (xx - yy);
-  const double root = std::sqrt(half * half + xy * xy);
-  const double along = 0.5 * (xx + yy) + root;
-  const double across = xx + yy - along;
-  if (along < kMinLengthM2 || across > kMaxRatio * along) return std::nullopt;
-  // The eigenvector along the wall: of its two forms the longer, which loses no digits.
-  const Point2 direction = half >= 0.0 ? Point2{half + root, xy} : Point2{xy, root - half};
-  const double length = std::sqrt(direction.x_m * direction.x_m + direction.y_m * direction.y_m);
-  return LocalWall{{place_map.x_m + mx, place_map.y_m + my},
-                   {-direction.y_m / length, direction.x_m / length}};
+std::optional<LocalWall> line_of(const Moments2& moments, const Point2& place_map) {
+  if (moments.count < kMinPoints) return std::nullopt;
+  const Scatter2 scatter = moments.scatter();
+  const double along = scatter.along();
+  if (along < kMinLengthM2 || scatter.across() > kMaxRatio * along) return std::nullopt;
+  return LocalWall{{place_map.x_m + scatter.mean.x_m, place_map.y_m + scatter.mean.y_m}, scatter.normal()};
 }
 
 }  // namespace

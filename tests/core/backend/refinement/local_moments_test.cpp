@@ -39,22 +39,16 @@ std::vector<PointRange> random_ranges(std::mt19937& random, std::size_t point_co
 
 TraversalPoint random_place(std::mt19937& random) { return random_points(random, 1).front(); }
 
-LocalMoments one_by_one(const std::vector<TraversalPoint>& points, const std::vector<PointRange>& ranges,
-                        const TraversalPoint& place) {
-  LocalMoments m;
+Moments2 one_by_one(const std::vector<TraversalPoint>& points, const std::vector<PointRange>& ranges,
+                    const TraversalPoint& place) {
+  Moments2 m;
   for (const PointRange& range : ranges) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const double dx = points[i].p_map.x_m - place.p_map.x_m;
       const double dy = points[i].p_map.y_m - place.p_map.y_m;
       const double weight = 1.0 - (dx * dx + dy * dy) / (kRadiusM * kRadiusM);
       if (weight <= 0.0 || points[i].traversal == place.traversal) continue;
-      ++m.count;
-      m.w += weight;
-      m.x += weight * dx;
-      m.y += weight * dy;
-      m.xx += weight * dx * dx;
-      m.xy += weight * dx * dy;
-      m.yy += weight * dy * dy;
+      m.add({dx, dy}, weight);
     }
   }
   return m;
@@ -62,13 +56,13 @@ LocalMoments one_by_one(const std::vector<TraversalPoint>& points, const std::ve
 
 TEST(LocalMoments, AreThoseOfThePointsOneByOne) {
   std::mt19937 random(91);
-  std::int64_t counted = 0;
+  std::size_t counted = 0;
   for (std::size_t count = 0; count < 200; ++count) {
     const std::vector<TraversalPoint> points = random_points(random, count);
     const std::vector<PointRange> ranges = random_ranges(random, count);
     const TraversalPoint place = random_place(random);
-    const LocalMoments m = local_moments(PointColumns(points), ranges, place, kRadiusM);
-    const LocalMoments expected = one_by_one(points, ranges, place);
+    const Moments2 m = local_moments(PointColumns(points), ranges, place, kRadiusM);
+    const Moments2 expected = one_by_one(points, ranges, place);
     ASSERT_EQ(m.count, expected.count);
     EXPECT_NEAR(m.w, expected.w, 1e-12);
     EXPECT_NEAR(m.x, expected.x, 1e-12);
@@ -78,7 +72,7 @@ TEST(LocalMoments, AreThoseOfThePointsOneByOne) {
     EXPECT_NEAR(m.yy, expected.yy, 1e-12);
     counted += m.count;
   }
-  EXPECT_GT(counted, 500);
+  EXPECT_GT(counted, 500U);
 }
 
 TEST(LocalMoments, AreTheSameToTheLastBitOnAllMachines) {
@@ -88,8 +82,8 @@ TEST(LocalMoments, AreTheSameToTheLastBitOnAllMachines) {
     const PointColumns points(random_points(random, count));
     const std::vector<PointRange> ranges = random_ranges(random, count);
     const TraversalPoint place = random_place(random);
-    const LocalMoments fast = local_moments(points, ranges, place, kRadiusM);
-    const LocalMoments portable = local_moments_portable(points, ranges, place, kRadiusM);
+    const Moments2 fast = local_moments(points, ranges, place, kRadiusM);
+    const Moments2 portable = local_moments_portable(points, ranges, place, kRadiusM);
     ASSERT_EQ(fast.count, portable.count);
     ASSERT_EQ(fast.w, portable.w);
     ASSERT_EQ(fast.x, portable.x);
@@ -104,15 +98,15 @@ TEST(LocalMoments, APointAtTheRadiusHasNoWeight) {
   const PointColumns points(
       std::vector<TraversalPoint>{{{0.5, 0.0}, 0}, {{std::nextafter(0.5, 0.0), 0.0}, 0}});
   const std::vector<PointRange> all{{0, 2}};
-  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, 1}, 0.5).count, 1);
+  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, 1}, 0.5).count, 1U);
 }
 
 TEST(LocalMoments, TheLargestTraversalNumberIsOneLikeAnother) {
   constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
   const PointColumns points(std::vector<TraversalPoint>(5, TraversalPoint{{0.1, 0.0}, kLargest}));
   const std::vector<PointRange> all{{0, 5}};
-  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest}, kRadiusM).count, 0);
-  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest - 1}, kRadiusM).count, 5);
+  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest}, kRadiusM).count, 0U);
+  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest - 1}, kRadiusM).count, 5U);
 }
 
 }  // namespace
