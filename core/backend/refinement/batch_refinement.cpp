@@ -10,19 +10,14 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kWideRadiusM = 0.5;    // first iterations: walls may lie this far apart ...
-constexpr double kNarrowRadiusM = 0.3;  // ... then only close points belong to the same wall
-constexpr int kWideIterations = 5;
-constexpr double kConvergedStep = 2e-4;  // metres or radians
-
-RefinementProblem problem_of(const ScanStore& scans) {
-  RefinementProblem problem;
+RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tuning) {
+  RefinementProblem problem(tuning);
   std::uint32_t count = 0;
   const std::span<const StoredScan> stored = scans.all().values();
   for (std::size_t i = 0; i < stored.size(); ++i) {
     for (const ScanReturn& beam : scans.returns(stored[i])) {
       if (!beam.is_hit) continue;
-      const bool held_out = count++ % kHoldOutEvery == 0;
+      const bool held_out = count++ % tuning.hold_out_every == 0;
       problem.add(
           {make_id<PoseIndex>(i), index_of(traversal_of(stored[i])), held_out, scans.point_body(beam)});
     }
@@ -51,11 +46,12 @@ std::vector<RelativePoseFactor<PoseIndex>> motions_of(std::span<const StoredScan
 Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
                                            std::span<const RelativePoseFactor<ScanId>> closures,
                                            std::span<const HeadingFactor<ScanId>> headings,
-                                           const BackendConfig& config, std::vector<Pose2>& T_map_body) {
+                                           const BackendConfig& config, std::vector<Pose2>& T_map_body,
+                                           const RefinementTuning& tuning) {
   SWIFTLET_CHECK(T_map_body.size() == scans.size(), "every scan has a pose");
   RefinementReport report;
   if (scans.size() < 2) return report;
-  const RefinementProblem problem = problem_of(scans);
+  const RefinementProblem problem = problem_of(scans, tuning);
   const auto pose_of = [&](ScanId scan) { return make_id<PoseIndex>(scans.all().position(scan)); };
   std::vector<RelativePoseFactor<PoseIndex>> factors = motions_of(scans.all().values(), sensor.odometry);
   for (const RelativePoseFactor<ScanId>& c : closures)
@@ -65,18 +61,18 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
 
   std::vector<Pose2> T = T_map_body;
   while (report.iterations < config.refinement_iterations) {
-    const bool wide = report.iterations < kWideIterations;
+    const bool wide = report.iterations < tuning.wide_iterations;
     system.set_zero();
     for (const RelativePoseFactor<PoseIndex>& f : factors) system.add(f, 1.0, T);
     for (const HeadingFactor<ScanId>& f : headings) system.add(f.of(pose_of(f.pose)), 1.0, T);
-    problem.add_factors(problem.walls_at(T, wide ? kWideRadiusM : kNarrowRadiusM), T, system);
+    problem.add_factors(problem.walls_at(T, wide ? tuning.wide_radius_m : tuning.radius_m), T, system);
     const Result<double> largest = system.step(T);
     if (!largest) return largest.error();
     ++report.iterations;
-    if (*largest < kConvergedStep && !wide) break;
+    if (*largest < tuning.converged_step && !wide) break;
   }
-  report.judge(problem.held_out_error_m(problem.walls_at(T_map_body, kNarrowRadiusM), T_map_body),
-               problem.held_out_error_m(problem.walls_at(T, kNarrowRadiusM), T));
+  report.judge(problem.held_out_error_m(problem.walls_at(T_map_body, tuning.radius_m), T_map_body),
+               problem.held_out_error_m(problem.walls_at(T, tuning.radius_m), T));
   if (report.accepted) T_map_body = std::move(T);
   return report;
 }

@@ -28,6 +28,7 @@ struct RefinementReport : HeldOutVerdict {
 Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
                                            std::span<const RelativePoseFactor<ScanId>> closures,
                                            std::span<const HeadingFactor<ScanId>> headings,
-                                           const BackendConfig& config, std::vector<Pose2>& T_map_body);
+                                           const BackendConfig& config, std::vector<Pose2>& T_map_body,
+                                           const RefinementTuning& tuning = {});
 
 }  // namespace swiftlet

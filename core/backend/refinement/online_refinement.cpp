@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kThinningM = 0.08;  // as in a WallMap
+constexpr double kThinningM = RefinementTuning{}.thinning_cell_m;
 constexpr std::size_t kMaxScansPerTraversal = 100;
 constexpr std::size_t kReturnsPerPlace = 5;      // neighbours lie in the same tile
 constexpr std::size_t kSamePlaceTraversals = 3;  // one window serves closures this close

@@ -10,8 +10,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kWallSigmaM = 0.05;
-constexpr double kRobustSigmas = 1.5;
 constexpr double kUnknownMotionSigma = 100.0;  // where dead reckoning began anew
 
 }  // namespace
@@ -21,20 +19,22 @@ double distance_m(const LocalWall& wall, const Point2& p_map) {
          (p_map.y_m - wall.center_map.y_m) * wall.normal_map.y_m;
 }
 
-double judged_distance_m(const std::optional<LocalWall>& wall, const Point2& p_map) {
-  constexpr double kCapM = 3.0 * kWallSigmaM;
-  return wall ? std::min(kCapM, std::abs(distance_m(*wall, p_map))) : kCapM;
+double judged_distance_m(const std::optional<LocalWall>& wall, const Point2& p_map,
+                         const RefinementTuning& tuning) {
+  const double cap_m = tuning.cap_sigmas * tuning.wall_sigma_m;
+  return wall ? std::min(cap_m, std::abs(distance_m(*wall, p_map))) : cap_m;
 }
 
-PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map_body, const Point2& p_body) {
+PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map_body, const Point2& p_body,
+                                       const RefinementTuning& tuning) {
   const double off_m = distance_m(wall, T_map_body * p_body);
   const double along_x = -T_map_body.sin_yaw() * p_body.x_m - T_map_body.cos_yaw() * p_body.y_m;
   const double along_y = T_map_body.cos_yaw() * p_body.x_m - T_map_body.sin_yaw() * p_body.y_m;
   const Eigen::Vector3d J(wall.normal_map.x_m, wall.normal_map.y_m,
                           wall.normal_map.x_m * along_x + wall.normal_map.y_m * along_y);
-  const double off = off_m / (kRobustSigmas * kWallSigmaM);
+  const double off = off_m / (tuning.robust_sigmas * tuning.wall_sigma_m);
   const double robust = 1.0 / ((1.0 + off * off) * (1.0 + off * off));  // Geman-McClure
-  const double weight = robust / (kWallSigmaM * kWallSigmaM);
+  const double weight = robust / (tuning.wall_sigma_m * tuning.wall_sigma_m);
   return {weight * J * J.transpose(), -weight * off_m * J};
 }
 

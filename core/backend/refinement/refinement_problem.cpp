@@ -10,7 +10,7 @@ WallMap RefinementProblem::walls_at(const std::vector<Pose2>& T_map_body, double
   points.reserve(returns_.size());
   for (const PlacedReturn& r : returns_)
     if (!r.held_out) points.push_back({T_map_body[index_of(r.pose)] * r.p_body, r.traversal});
-  return {others_thinned, points, radius_m};
+  return {others_thinned, points, radius_m, tuning_};
 }
 
 double RefinementProblem::held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const {
@@ -19,7 +19,7 @@ double RefinementProblem::held_out_error_m(const WallMap& walls, const std::vect
   for (const PlacedReturn& r : returns_) {
     if (!r.held_out) continue;
     const TraversalPoint at{T_map_body[index_of(r.pose)] * r.p_body, r.traversal};
-    sum_m += judged_distance_m(walls.wall_near(at), at.p_map);
+    sum_m += judged_distance_m(walls.wall_near(at), at.p_map, tuning_);
     ++count;
   }
   return count == 0 ? 0.0 : sum_m / static_cast<double>(count);

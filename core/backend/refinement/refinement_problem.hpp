@@ -38,6 +38,8 @@ struct HeldOutVerdict {
 /// traversals draw around it. Poses are a list that the caller keeps. Allocates. One thread at a time.
 class RefinementProblem {
  public:
+  explicit RefinementProblem(const RefinementTuning& tuning) : tuning_(tuning) {}
+
   void clear() { returns_.clear(); }
   void add(const PlacedReturn& placed) { returns_.push_back(placed); }
   [[nodiscard]] std::size_t size() const { return returns_.size(); }
@@ -54,7 +56,7 @@ class RefinementProblem {
       const Pose2& T = T_map_body[index_of(r.pose)];
       const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.traversal});
       if (!wall) continue;
-      const PointToLineFactor factor = point_to_line_factor(*wall, T, r.p_body);
+      const PointToLineFactor factor = point_to_line_factor(*wall, T, r.p_body, tuning_);
       system.add(r.pose, factor.H, factor.rhs);
     }
   }
@@ -62,6 +64,7 @@ class RefinementProblem {
   [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
 
  private:
+  RefinementTuning tuning_;
   std::vector<PlacedReturn> returns_;
 };
 

@@ -11,24 +11,22 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kThinningM = 0.08;
-constexpr std::size_t kMinPoints = 5;
-constexpr double kMinLengthM2 = 0.004;  // variance along the wall: shorter stretches have no direction
-constexpr double kMaxRatio = 0.35;      // variance across to variance along: more is clutter, not a wall
-
 /// The line through points with these moments; nothing where they are too few or not clearly a line.
-std::optional<LocalWall> line_of(const Moments2& moments, const Point2& place_map) {
-  if (moments.count < kMinPoints) return std::nullopt;
+std::optional<LocalWall> line_of(const Moments2& moments, const Point2& place_map,
+                                 const RefinementTuning& tuning) {
+  if (moments.count < tuning.min_wall_points) return std::nullopt;
   const Scatter2 scatter = moments.scatter();
   const double along = scatter.along();
-  if (along < kMinLengthM2 || scatter.across() > kMaxRatio * along) return std::nullopt;
+  if (along < tuning.min_wall_variance_m2) return std::nullopt;
+  if (scatter.across() > tuning.max_wall_variance_ratio * along) return std::nullopt;
   return LocalWall{{place_map.x_m + scatter.mean.x_m, place_map.y_m + scatter.mean.y_m}, scatter.normal()};
 }
 
 }  // namespace
 
-void append_thinned(std::span<const TraversalPoint> points, std::vector<TraversalPoint>& thinned) {
-  CellNumbers numbers(kThinningM);
+void append_thinned(std::span<const TraversalPoint> points, double cell_m,
+                    std::vector<TraversalPoint>& thinned) {
+  CellNumbers numbers(cell_m);
   std::vector<std::uint32_t> counts;
   for (std::size_t begin = 0; begin < points.size();) {
     const std::uint32_t traversal = points[begin].traversal;
@@ -58,12 +56,12 @@ void append_thinned(std::span<const TraversalPoint> points, std::vector<Traversa
 }
 
 WallMap::WallMap(std::span<const TraversalPoint> thinned, std::span<const TraversalPoint> points,
-                 double radius_m)
-    : radius_m_(radius_m) {
+                 double radius_m, const RefinementTuning& tuning)
+    : tuning_(tuning), radius_m_(radius_m) {
   std::vector<TraversalPoint> all;
   all.reserve(thinned.size() + points.size());
   all.assign(thinned.begin(), thinned.end());
-  append_thinned(points, all);
+  append_thinned(points, tuning.thinning_cell_m, all);
   if (!all.empty()) points_ = PointColumns(sorted_into_cells(all));
 }
 
@@ -104,7 +102,7 @@ std::optional<LocalWall> WallMap::wall_near(const TraversalPoint& place) const {
     rows[count++] = {cell_starts_[row + static_cast<std::size_t>(first_x)],
                      cell_starts_[row + static_cast<std::size_t>(last_x) + 1]};
   }
-  return line_of(local_moments(points_, {rows.data(), count}, place, radius_m_), place.p_map);
+  return line_of(local_moments(points_, {rows.data(), count}, place, radius_m_), place.p_map, tuning_);
 }
 
 }  // namespace swiftlet

@@ -8,37 +8,42 @@
 #include <vector>
 
 #include "core/backend/refinement/local_moments.hpp"
+#include "core/backend/refinement/refinement_tuning.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace swiftlet {
 
-/// The wall that other traversals draw around a point: a line through their returns nearby.
+/// A line through the returns of other traversals around a place.
 struct LocalWall {
   Point2 center_map;
   Point2 normal_map;  ///< unit length
 };
 
-/// Appends one point for each traversal and cell of 8 cm, in the middle of those there. `points` ordered by
-/// traversal.
-void append_thinned(std::span<const TraversalPoint> points, std::vector<TraversalPoint>& thinned);
+/// Appends one point per traversal and cell, the mean of those in it. `points` ordered by traversal.
+void append_thinned(std::span<const TraversalPoint> points, double cell_m,
+                    std::vector<TraversalPoint>& thinned);
 
-/// The returns of all traversals, one point a traversal and cell, for asking what the *other* traversals draw
-/// around a place. Built once, then read by any thread. Allocates in the constructor.
+/// The returns of all traversals, one point per traversal and cell, in which the walls around a place as the
+/// *other* traversals measured them are found. Built once, then read by any thread. Allocates in the
+/// constructor.
 class WallMap {
  public:
-  /// `points` ordered by traversal. `radius_m`: how far around a place its wall is looked for.
-  WallMap(std::span<const TraversalPoint> points, double radius_m) : WallMap({}, points, radius_m) {}
+  /// `points` ordered by traversal. `radius_m`: of the search around a place.
+  WallMap(std::span<const TraversalPoint> points, double radius_m, const RefinementTuning& tuning = {})
+      : WallMap({}, points, radius_m, tuning) {}
   /// The same with points of other traversals that are thinned already.
-  WallMap(std::span<const TraversalPoint> thinned, std::span<const TraversalPoint> points, double radius_m);
+  WallMap(std::span<const TraversalPoint> thinned, std::span<const TraversalPoint> points, double radius_m,
+          const RefinementTuning& tuning = {});
 
-  /// The line through the points of other traversals within the radius, near ones counting more; nothing
-  /// where they are too few or not clearly a line.
+  /// The line through the points of other traversals within the radius, weighted by closeness; nothing where
+  /// they are too few or not clearly a line.
   [[nodiscard]] std::optional<LocalWall> wall_near(const TraversalPoint& place) const;
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
  private:
   [[nodiscard]] std::vector<TraversalPoint> sorted_into_cells(const std::vector<TraversalPoint>& points);
 
+  RefinementTuning tuning_;
   double radius_m_;
   Point2 origin_m_;
   int width_ = 0;

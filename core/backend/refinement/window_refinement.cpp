@@ -10,11 +10,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kRadiusM = 0.3;       // only what is close is the same wall
-constexpr double kStepWeight = 0.25;   // twice the noise: errors of dead reckoning that persist add up
-constexpr double kTieSigmaM = 0.1;     // of each keyframe: walls decide, yet what they do not hold ...
-constexpr double kTieSigmaRad = 0.05;  // ... goes back to where the graph has it
-
 /// In a different order for each beam, so that all of them give their share.
 std::uint32_t scattered(std::size_t number) {
   return (static_cast<std::uint32_t>(number) * 2654435761U) >> 16U;
@@ -22,14 +17,14 @@ std::uint32_t scattered(std::size_t number) {
 
 }  // namespace
 
-bool is_held_out(ScanId scan, std::size_t return_of_scan) {
-  return scattered(index_of(scan) * kMaxBeams + return_of_scan) % kHoldOutEvery == 0;
+bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning) {
+  return scattered(index_of(scan) * kMaxBeams + return_of_scan) % tuning.hold_out_every == 0;
 }
 
 /// `first_pose`: of the window's first scan.
 void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_pose) {
   const std::size_t count = scans_->return_count(window);
-  const std::size_t every = (count + kMaxReturns - 1) / kMaxReturns;
+  const std::size_t every = (count + tuning_.max_window_returns - 1) / tuning_.max_window_returns;
   problem_.clear();
   std::size_t number = 0;
   const std::span<const StoredScan> scans = scans_->all().values(window);
@@ -39,8 +34,8 @@ void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_p
     const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
     for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
       if (!beams[k].is_hit || number % every != 0) continue;
-      problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])), is_held_out(id, k),
-                    scans_->point_body(beams[k])});
+      problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])),
+                    is_held_out(id, k, tuning_), scans_->point_body(beams[k])});
     }
   }
 }
@@ -53,7 +48,7 @@ void WindowRefinement::take_steps(const WindowPoses& poses) {
     step.from = make_id<PoseIndex>(to - 1);
     step.to = make_id<PoseIndex>(to);
     step.T_from_to = between(poses.T_local_body[to - 1], poses.T_local_body[to]);
-    step.information = kStepWeight * motion_information(scans[to - 1], scans[to], noise_);
+    step.information = tuning_.step_weight * motion_information(scans[to - 1], scans[to], noise_);
     steps_.push_back(step);
   }
 }
@@ -64,7 +59,7 @@ void WindowRefinement::add_steps(const std::vector<Pose2>& T_map_body, std::size
       chain_.add(step, T_map_body);
       continue;
     }
-    // To the scan behind the window, which stays.
+    // To the scan after the window, which is held.
     const PoseResidual r =
         pose_residual(step.T_from_to, T_map_body[index_of(step.from)], T_map_body[index_of(step.to)]);
     const Eigen::Matrix3d A = r.J_from.transpose() * step.information;
@@ -74,8 +69,9 @@ void WindowRefinement::add_steps(const std::vector<Pose2>& T_map_body, std::size
 
 void WindowRefinement::add_ties(const WindowPoses& poses, std::size_t moving) {
   const Eigen::Matrix3d information =
-      Eigen::Vector3d(1.0 / (kTieSigmaM * kTieSigmaM), 1.0 / (kTieSigmaM * kTieSigmaM),
-                      1.0 / (kTieSigmaRad * kTieSigmaRad))
+      Eigen::Vector3d(tuning_.tie_sigma_m, tuning_.tie_sigma_m, tuning_.tie_sigma_rad)
+          .cwiseAbs2()
+          .cwiseInverse()
           .asDiagonal();
   const std::span<const StoredScan> scans = scans_->all().values(poses.scans);
   for (std::size_t i = 1; i < moving; ++i) {
@@ -90,13 +86,13 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
                                               WindowPoses& poses) {
   WindowReport report;
   const std::size_t moving =
-      scans_->all().count({poses.scans.first, window.end});  // the first of which stays
+      scans_->all().count({poses.scans.first, window.end});  // the first of which is held
   if (moving < 2) return report;
   take_returns(window, scans_->all().count({poses.scans.first, window.first}));
   take_steps(poses);
   std::vector<TraversalPoint> others_thinned;
-  append_thinned(others, others_thinned);
-  const WallMap before = problem_.walls_at(poses.T_map_body, kRadiusM, others_thinned);
+  append_thinned(others, tuning_.thinning_cell_m, others_thinned);
+  const WallMap before = problem_.walls_at(poses.T_map_body, tuning_.radius_m, others_thinned);
   report.returns = problem_.size();
   report.points = before.size();
   chain_.reset(moving);
@@ -107,7 +103,7 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   T.resize(moving);
   if (const Status moved = chain_.step(T); !moved) return moved.error();
   report.judge(problem_.held_out_error_m(before, poses.T_map_body),
-               problem_.held_out_error_m(problem_.walls_at(T, kRadiusM, others_thinned), T));
+               problem_.held_out_error_m(problem_.walls_at(T, tuning_.radius_m, others_thinned), T));
   if (report.accepted) std::copy(T.begin(), T.end(), poses.T_map_body.begin());
   return report;
 }

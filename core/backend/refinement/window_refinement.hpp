@@ -19,29 +19,28 @@ struct WindowReport : HeldOutVerdict {
   std::size_t points = 0;   ///< that walls were fitted to
 };
 
-/// Poses of a window's scans and of its neighbours, which stay.
+/// Poses of a window's scans and of its neighbours, which are held.
 struct WindowPoses {
-  ScanRange scans;  ///< the window with the scan before it, if there is one, and the one behind it
-  std::vector<Pose2> T_map_body;    ///< as refined so far: in and out; the first stays
+  ScanRange scans;  ///< the window with the scan before it, if there is one, and the one after it
+  std::vector<Pose2> T_map_body;    ///< as refined so far: in and out; the first is held
   std::vector<Pose2> T_map_graph;   ///< where the pose graph puts them
   std::vector<Pose2> T_local_body;  ///< along the frontend's path, which gives the steps between them
 };
 
-/// A tenth of the returns, the same for all windows, has no say and judges. `return_of_scan`: its place in
+/// A tenth of the returns, the same in all windows, is held out and judges. `return_of_scan`: its place in
 /// ScanStore::returns().
-[[nodiscard]] bool is_held_out(ScanId scan, std::size_t return_of_scan);
+[[nodiscard]] bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning = {});
 
-/// One Gauss-Newton step of joint refinement over a window of consecutive scans: their returns are pulled to
-/// the walls that other traversals draw, with the frontend's path between neighbouring scans and each
-/// keyframe tied loosely to its place in the pose graph. Views the scans, which must outlive it. Allocates.
-/// One thread at a time. Repeatable.
+/// One Gauss-Newton step of joint refinement over a window of consecutive scans: point-to-line factors to the
+/// walls of other traversals, the frontend's path between neighbouring scans, and for each keyframe a weak
+/// factor to its pose in the graph. Views the scans, which must outlive it. Allocates. One thread at a time.
+/// Repeatable.
 class WindowRefinement {
  public:
-  static constexpr std::size_t kMaxReturns = 3000;  ///< where a window has more, they are thinned
+  WindowRefinement(const ScanStore& scans, const OdometryNoise& noise, const RefinementTuning& tuning = {})
+      : scans_(&scans), noise_(noise), tuning_(tuning), problem_(tuning) {}
 
-  WindowRefinement(const ScanStore& scans, const OdometryNoise& noise) : scans_(&scans), noise_(noise) {}
-
-  /// `others`: what traversals outside of the window drew nearby, ordered by traversal. Errors: kSolver; the
+  /// `others`: points nearby of traversals outside of the window, ordered by traversal. Errors: kSolver; the
   /// poses are then as they were.
   Result<WindowReport> refine(const ScanRange& window, std::span<const TraversalPoint> others,
                               WindowPoses& poses);
@@ -54,6 +53,7 @@ class WindowRefinement {
 
   const ScanStore* scans_;
   OdometryNoise noise_;
+  RefinementTuning tuning_;
   PoseChain chain_;
   RefinementProblem problem_;
   std::vector<RelativePoseFactor<PoseIndex>> steps_;  // from each pose to the next

@@ -139,10 +139,10 @@ TEST(OnlineRefinement, AStepTakesNoMoreHoweverLongTheRunAndHoweverOftenAPlaceWas
   const std::size_t steps = run->windows.size();
   for (std::size_t i = 0; i < steps; ++i) {
     EXPECT_LE(run->scans.all().count(run->moved[i]), OnlineRefinement::kMaxScans);
-    EXPECT_LE(run->windows[i].returns, WindowRefinement::kMaxReturns);
+    EXPECT_LE(run->windows[i].returns, RefinementTuning{}.max_window_returns);
     EXPECT_LE(run->windows[i].points,
               TraversalIndex::kMaxTraversalsNearby * TraversalIndex::kMaxPointsPerTraversal +
-                  WindowRefinement::kMaxReturns);
+                  RefinementTuning{}.max_window_returns);
     if (i > steps / 3 && i <= 2 * steps / 3)
       max_points_of_middle = std::max(max_points_of_middle, run->windows[i].points);
     if (i > 2 * steps / 3) max_points_of_end = std::max(max_points_of_end, run->windows[i].points);
@@ -160,7 +160,7 @@ TEST(OnlineRefinement, ALongHoverIsBoundedToo) {
   run->refine();
   for (const ScanRange& moved : run->moved)
     EXPECT_LE(run->scans.all().count(moved), OnlineRefinement::kMaxScans);
-  EXPECT_LE(run->windows.back().returns, WindowRefinement::kMaxReturns);
+  EXPECT_LE(run->windows.back().returns, RefinementTuning{}.max_window_returns);
 }
 
 TEST(OnlineRefinement, ScansAroundAClosureHaveTheirTurnSoon) {

@@ -31,7 +31,7 @@ TEST(WallFactor, PullsDownTheSlopeOfTheDistance) {
     const LocalWall wall = random_wall(random);
     const Pose2 T = random_pose(random, 2.0);
     const Point2 p{random_in(random, -2.0, 2.0), random_in(random, -2.0, 2.0)};
-    const PointToLineFactor pull = point_to_line_factor(wall, T, p);
+    const PointToLineFactor pull = point_to_line_factor(wall, T, p, {});
     Eigen::Vector3d slope;
     constexpr double kStep = 1e-6;
     for (int k = 0; k < 3; ++k) {
@@ -51,16 +51,17 @@ TEST(WallFactor, PullsDownTheSlopeOfTheDistance) {
 }
 
 TEST(WallFactor, WhatLiesFarOffHasLessSayThanWhatLiesNear) {
-  const double near = point_to_line_factor(wall_below(0.05), {}, kAhead).rhs.norm();
-  EXPECT_GT(near, 3.0 * point_to_line_factor(wall_below(0.3), {}, kAhead).rhs.norm());
-  EXPECT_GT(near, 100.0 * point_to_line_factor(wall_below(1.0), {}, kAhead).rhs.norm());
+  const double near = point_to_line_factor(wall_below(0.05), {}, kAhead, {}).rhs.norm();
+  EXPECT_GT(near, 3.0 * point_to_line_factor(wall_below(0.3), {}, kAhead, {}).rhs.norm());
+  EXPECT_GT(near, 100.0 * point_to_line_factor(wall_below(1.0), {}, kAhead, {}).rhs.norm());
 }
 
 TEST(WallFactor, AJudgeCapsDistancesAndCountsNoWallFull) {
-  EXPECT_DOUBLE_EQ(judged_distance_m(wall_below(0.04), kAhead), 0.04);
-  EXPECT_DOUBLE_EQ(judged_distance_m(wall_below(-0.04), kAhead), 0.04);
-  EXPECT_DOUBLE_EQ(judged_distance_m(wall_below(2.0), kAhead), judged_distance_m(std::nullopt, kAhead));
-  EXPECT_GT(judged_distance_m(std::nullopt, kAhead), 0.1);
+  EXPECT_DOUBLE_EQ(judged_distance_m(wall_below(0.04), kAhead, {}), 0.04);
+  EXPECT_DOUBLE_EQ(judged_distance_m(wall_below(-0.04), kAhead, {}), 0.04);
+  EXPECT_DOUBLE_EQ(judged_distance_m(wall_below(2.0), kAhead, {}),
+                   judged_distance_m(std::nullopt, kAhead, {}));
+  EXPECT_GT(judged_distance_m(std::nullopt, kAhead, {}), 0.1);
 }
 
 TEST(WallFactor, DeadReckoningIsBelievedLessTheMoreItMovedAndTheLessItSaw) {

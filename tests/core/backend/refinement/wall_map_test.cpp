@@ -131,7 +131,8 @@ TEST(WallMap, PointsThatAreThinnedAlreadyCountTheSame) {
   const auto later =
       std::find_if(points.begin(), points.end(), [](const TraversalPoint& p) { return p.traversal == 3; });
   std::vector<TraversalPoint> thinned;
-  append_thinned(std::vector<TraversalPoint>(points.begin(), later), thinned);
+  append_thinned(std::vector<TraversalPoint>(points.begin(), later), RefinementTuning{}.thinning_cell_m,
+                 thinned);
   const WallMap of_both(thinned, std::vector<TraversalPoint>(later, points.end()), kRadiusM);
   const WallMap of_all(points, kRadiusM);
   ASSERT_EQ(of_both.size(), of_all.size());

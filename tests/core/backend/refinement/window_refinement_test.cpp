@@ -192,8 +192,8 @@ TEST(WindowRefinement, ThinsTheReturnsOfManyBeams) {
   WindowRefinement refinement(scans, kNoise);
   const Result<WindowReport> report = refinement.refine(poses.scans, {}, poses);
   ASSERT_TRUE(report);
-  EXPECT_LE(report->returns, WindowRefinement::kMaxReturns);
-  EXPECT_GT(report->returns, WindowRefinement::kMaxReturns / 3);
+  EXPECT_LE(report->returns, RefinementTuning{}.max_window_returns);
+  EXPECT_GT(report->returns, RefinementTuning{}.max_window_returns / 3);
 }
 
 TEST(WindowRefinement, TheFirstScanOfARunAloneHasNothingToDo) {
