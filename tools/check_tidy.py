@@ -5,7 +5,7 @@
 branch; a changed header stands for the source of its name. At most MOST of them, and FEW that did not change: HEAD's
 hash picks, so that what a run leaves out a later one takes. Exit code 1 if clang-tidy has something to say.
 
-Usage: check-tidy [--all | FILE...]     --all: every source, which takes an hour
+Usage: check_tidy.py [--all | FILE...]     --all: every source, which takes an hour
 """
 
 import hashlib
