@@ -45,7 +45,8 @@ double length_m(const std::vector<Pose2>& path) {
 const CorrectedRun& whole_run(const char* name) {
   static std::map<std::string, CorrectedRun> runs;
   const auto known = runs.find(name);
-  return known != runs.end() ? known->second : runs.emplace(name, corrected_run(flight_path(name))).first->second;
+  return known != runs.end() ? known->second
+                             : runs.emplace(name, corrected_run(flight_path(name))).first->second;
 }
 
 struct KnownFlight {
