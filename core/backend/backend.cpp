@@ -122,7 +122,7 @@ bool Backend::State::hold_heading(KeyframeId newest) {
   if (!config.align_to_walls || here_m - chain.path_m(heading_sought_at) < 0.5 * config.submap_length_m)
     return false;
   heading_sought_at = newest;
-  std::vector<WallRun> around;
+  std::vector<WallDirection> around;
   for (const Wall& wall : walls) {
     if (wall.anchor < motion_known_since || here_m - chain.path_m(wall.anchor) > config.submap_length_m)
       continue;

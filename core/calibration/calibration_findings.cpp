@@ -11,28 +11,20 @@ namespace {
 
 using Verdict = CalibrationFinding::Verdict;
 
-constexpr double kMinPathM = 10.0;
-constexpr double kMinTurnsRad = 4.0 * kPi;
-constexpr double kMinDurationS = 60.0;
-constexpr std::size_t kMinReturns = 300;
-constexpr double kTellingSigmas = 2.0;
-
 /// What sets one error apart from the others.
 struct Kind {
   const char* setting;
   const char* meaning;
   const char* unit;
-  double offset;     // of the setting from the error
-  double min_known;  // a greater standard deviation is no knowledge
-  double matters;    // less makes no difference to a map
+  double offset;  // of the setting from the error
 };
 constexpr std::array<Kind, kSystematicErrors> kKinds{{
-    {"range_age_s", "age of the ranges", "s", 0.0, 0.03, 0.01},
-    {"odometry_forward_scale", "metres moved per metre measured, forward", "", 1.0, 0.02, 0.005},
-    {"odometry_sideways_scale", "the same, sideways", "", 1.0, 0.03, 0.01},
-    {"missed_yaw_per_metre_rad", "yaw missed per metre forward", "rad/m", 0.0, radians(0.5), radians(0.1)},
-    {"missed_yaw_per_radian", "share of each turn missed", "", 0.0, 0.02, 0.005},
-    {"missed_yaw_per_second_rad", "yaw missed per second", "rad/s", 0.0, radians(0.1), radians(0.02)},
+    {"range_age_s", "age of the ranges", "s", 0.0},
+    {"odometry_forward_scale", "metres moved per metre measured, forward", "", 1.0},
+    {"odometry_sideways_scale", "the same, sideways", "", 1.0},
+    {"missed_yaw_per_metre_rad", "yaw missed per metre forward", "rad/m", 0.0},
+    {"missed_yaw_per_radian", "share of each turn missed", "", 0.0},
+    {"missed_yaw_per_second_rad", "yaw missed per second", "rad/s", 0.0},
 }};
 
 std::string number(const char* format, double value) {
@@ -70,33 +62,40 @@ CalibrationFinding blank_finding(SystematicError error, const SensorModel& senso
   return finding;
 }
 
-std::string too_short(const char* what, double has_m) {
-  return number("only %.1f m of travel ", has_m) + what + number(", %.0f m are needed", kMinPathM);
+std::string too_short(const char* what, double has_m, double min_m) {
+  return number("only %.1f m of travel ", has_m) + what + number(", %.0f m are needed", min_m);
 }
-std::string too_few_turns(double turned_rad) {
+std::string too_few_turns(double turned_rad, double min_rad) {
   return number("only %.1f turns of 360 degrees in all", turned_rad / (2.0 * kPi)) +
-         number(", %.0f are needed", kMinTurnsRad / (2.0 * kPi));
+         number(", %.0f are needed", min_rad / (2.0 * kPi));
 }
 
-/// What the motion lacks to tell an error; empty where it lacks nothing.
-std::string what_lacks(SystematicError error, const MotionSummary& motion, const SensorModel& sensor) {
+/// What the motion lacks for estimating an error; empty where it lacks nothing.
+std::string what_lacks(SystematicError error, const MotionSummary& motion, const SensorModel& sensor,
+                       const CalibrationFindingsTuning& tuning) {
   const bool has_wheels = yaw_goes_with_travel(sensor.odometry);
   switch (error) {
     case SystematicError::kRangeAge:
     case SystematicError::kYawPerRadian:
-      return motion.turned_rad < kMinTurnsRad ? too_few_turns(motion.turned_rad) : "";
+      return motion.turned_rad < tuning.min_turns_rad ? too_few_turns(motion.turned_rad, tuning.min_turns_rad)
+                                                      : "";
     case SystematicError::kForwardScale:
-      return motion.forward_m < kMinPathM ? too_short("forward", motion.forward_m) : "";
+      return motion.forward_m < tuning.min_path_m ? too_short("forward", motion.forward_m, tuning.min_path_m)
+                                                  : "";
     case SystematicError::kSidewaysScale:
       if (has_wheels) return "wheels do not move sideways";
-      return motion.sideways_m < kMinPathM ? too_short("sideways", motion.sideways_m) : "";
+      return motion.sideways_m < tuning.min_path_m
+                 ? too_short("sideways", motion.sideways_m, tuning.min_path_m)
+                 : "";
     case SystematicError::kYawPerMetre:
       if (!has_wheels) return "the yaw comes from a gyro, whose error does not go with travel";
-      return motion.forward_m < kMinPathM ? too_short("forward", motion.forward_m) : "";
+      return motion.forward_m < tuning.min_path_m ? too_short("forward", motion.forward_m, tuning.min_path_m)
+                                                  : "";
     case SystematicError::kYawPerSecond:
       if (has_wheels) return "the yaw comes from wheels, whose error does not go with time";
-      if (motion.duration_s < kMinDurationS)
-        return number("only %.0f s long", motion.duration_s) + number(", %.0f s are needed", kMinDurationS);
+      if (motion.duration_s < tuning.min_duration_s)
+        return number("only %.0f s long", motion.duration_s) +
+               number(", %.0f s are needed", tuning.min_duration_s);
       return "";
   }
   return "";
@@ -107,50 +106,54 @@ bool is_learnt(SystematicError error, const OdometryNoise& noise) {
          (error == SystematicError::kYawPerRadian && noise.drift_yaw_per_radian > 0.0);
 }
 
-Verdict verdict_of(SystematicError error, const CalibrationFinding& finding, const SensorModel& sensor) {
+Verdict verdict_of(SystematicError error, const CalibrationFinding& finding, const SensorModel& sensor,
+                   const CalibrationFindingsTuning& tuning) {
   const double difference = std::abs(finding.value - finding.present);
-  if (difference < kTellingSigmas * finding.sigma) return Verdict::kAsIs;
-  if (difference < kKinds[static_cast<std::size_t>(error)].matters) return Verdict::kNegligible;
+  if (difference < tuning.significant_sigmas * finding.sigma) return Verdict::kAsIs;
+  if (difference < tuning.negligible[static_cast<std::size_t>(error)]) return Verdict::kNegligible;
   return is_learnt(error, sensor.odometry) ? Verdict::kLearnt : Verdict::kMatters;
 }
 
 CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, const MotionSummary& motion,
-                          const SensorModel& sensor) {
+                          const SensorModel& sensor, const CalibrationFindingsTuning& tuning) {
   const Kind& kind = kKinds[static_cast<std::size_t>(error)];
   CalibrationFinding finding = blank_finding(error, sensor);
-  finding.reason = what_lacks(error, motion, sensor);
+  finding.reason = what_lacks(error, motion, sensor, tuning);
   if (!finding.reason.empty()) return finding;
   const double offset = error == SystematicError::kRangeAge ? to_seconds(sensor.range_age) : kind.offset;
   finding.value = offset + estimate.errors(index_of(error));
   finding.sigma = estimate.sigma(index_of(error));
-  if (!(finding.sigma <= kind.min_known)) {
-    finding.reason = number("known to +- %.2g", finding.sigma) + number(" only, %.2g", kind.min_known) +
+  const double max_sigma = tuning.max_sigma[static_cast<std::size_t>(error)];
+  if (!(finding.sigma <= max_sigma)) {
+    finding.reason = number("known to +- %.2g", finding.sigma) + number(" only, %.2g", max_sigma) +
                      " would say something; more such motion near walls helps";
     return finding;
   }
-  finding.verdict = verdict_of(error, finding, sensor);
+  finding.verdict = verdict_of(error, finding, sensor, tuning);
   return finding;
 }
 
 }  // namespace
 
-std::optional<std::string> why_hopeless(const MotionSummary& motion) {
-  if (std::max(motion.forward_m, motion.sideways_m) >= kMinPathM || motion.turned_rad >= kMinTurnsRad)
+std::optional<std::string> why_hopeless(const MotionSummary& motion,
+                                        const CalibrationFindingsTuning& tuning) {
+  if (std::max(motion.forward_m, motion.sideways_m) >= tuning.min_path_m ||
+      motion.turned_rad >= tuning.min_turns_rad)
     return std::nullopt;
   return number("the vehicle moved only %.1f m", motion.forward_m + motion.sideways_m) +
          number(" and turned only %.0f degrees in all", degrees(motion.turned_rad));
 }
 
 CalibrationFindings judge_estimate(const JointEstimate& estimate, const MotionSummary& motion,
-                                   const SensorModel& sensor) {
-  if (estimate.returns_on_them < kMinReturns)
+                                   const SensorModel& sensor, const CalibrationFindingsTuning& tuning) {
+  if (estimate.returns_on_them < tuning.min_returns)
     return nothing_observable("only " + std::to_string(estimate.returns_on_them) +
                                   " returns lie on walls that were seen often, " +
-                                  std::to_string(kMinReturns) + " are needed",
+                                  std::to_string(tuning.min_returns) + " are needed",
                               sensor);
   CalibrationFindings findings;
   for (std::size_t i = 0; i < findings.size(); ++i)
-    findings[i] = judged(static_cast<SystematicError>(i), estimate, motion, sensor);
+    findings[i] = judged(static_cast<SystematicError>(i), estimate, motion, sensor, tuning);
   return findings;
 }
 

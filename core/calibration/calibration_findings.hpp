@@ -8,6 +8,7 @@
 
 #include "core/calibration/calibration_scan.hpp"
 #include "core/calibration/joint_problem.hpp"
+#include "core/geometry/angle.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
@@ -32,13 +33,27 @@ struct CalibrationFinding {
 };
 using CalibrationFindings = std::array<CalibrationFinding, kSystematicErrors>;
 
+struct CalibrationFindingsTuning {
+  double min_path_m = 10.0;
+  double min_turns_rad = 4.0 * kPi;
+  double min_duration_s = 60.0;
+  std::size_t min_returns = 300;
+  double significant_sigmas = 2.0;
+  /// A greater standard deviation is no estimate; in the order of SystematicError.
+  std::array<double, kSystematicErrors> max_sigma{0.03, 0.02, 0.03, radians(0.5), 0.02, radians(0.1)};
+  /// A smaller difference is not seen in a map.
+  std::array<double, kSystematicErrors> negligible{0.01, 0.005, 0.01, radians(0.1), 0.005, radians(0.02)};
+};
+
 /// Why a run with so little motion cannot calibrate anything; nothing where it is worth trying.
-[[nodiscard]] std::optional<std::string> why_hopeless(const MotionSummary& motion);
+[[nodiscard]] std::optional<std::string> why_hopeless(const MotionSummary& motion,
+                                                      const CalibrationFindingsTuning& tuning = {});
 
 /// `sensor`: what the run was taken with; `estimate` is relative to its range age, and to no calibration of
 /// the odometry.
 [[nodiscard]] CalibrationFindings judge_estimate(const JointEstimate& estimate, const MotionSummary& motion,
-                                                 const SensorModel& sensor);
+                                                 const SensorModel& sensor,
+                                                 const CalibrationFindingsTuning& tuning = {});
 /// All not observable, for that reason.
 [[nodiscard]] CalibrationFindings nothing_observable(const std::string& reason, const SensorModel& sensor);
 

@@ -21,27 +21,15 @@ using Wide = Eigen::Matrix<double, Eigen::Dynamic, kSystematicErrors>;  // unkno
 using Small = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
 using MotionByErrors = Eigen::Matrix<double, 3, kSystematicErrors>;
 
-constexpr int kAssociations = 10;
-constexpr int kStepsPerAssociation = 6;
-constexpr double kSettled = 0.05;  // of a standard deviation
-constexpr double kRobustSigmas = 1.5;
-constexpr double kFirstWallSigmaM = 0.05;
 constexpr double kUnknownMotionSigma = 100.0;
-constexpr double kPatchDistanceSigmaM = 1.0;
-constexpr double kPatchTurnSigmaRad = 0.3;
-constexpr double kHeldInformation = 1e12;
-// Wide beams that meet a wall flatly end at its nearest point, which travels along.
-constexpr double kMinIncidenceCosine = 0.7;
-constexpr double kSamplingDoubt = 0.05;  // of an interval; as seen in simulated flights
-constexpr double kNudge = 1e-4;          // of a difference quotient
-constexpr Duration kStretch = std::chrono::seconds(10);
+constexpr double kHeldInformation = 1e12;  // of the first pose
+constexpr double kNudge = 1e-4;            // of a difference quotient
 
-/// What is possible at all. A gyro's heading does not go with travel, that of wheels not with time; to
-/// estimate both would only blur them, since most of the time the vehicle goes at the same pace.
-SystematicErrors prior_sigmas(bool yaw_goes_with_travel) {
+/// A gyro's heading does not go with travel, that of wheels not with time; to estimate both would only blur
+/// them, since most of the time the vehicle goes at the same pace.
+SystematicErrors prior_sigmas(bool yaw_goes_with_travel, const JointProblemTuning& tuning) {
   constexpr double kNone = 1e-9;
-  SystematicErrors sigma;
-  sigma << 0.3, 0.3, 0.3, radians(20.0), 0.3, radians(2.0);
+  SystematicErrors sigma(tuning.prior_sigma.data());
   sigma(index_of(yaw_goes_with_travel ? SystematicError::kYawPerSecond : SystematicError::kYawPerMetre)) =
       kNone;
   return sigma;
@@ -83,13 +71,15 @@ struct MotionRow {
 class JointProblem {
  public:
   JointProblem(std::span<const CalibrationScan> scans, const SensorModel& sensor,
-               std::vector<Pose2>& T_map_body)
-      : scans_(scans),
+               std::vector<Pose2>& T_map_body, const JointProblemTuning& tuning)
+      : tuning_(tuning),
+        scans_(scans),
         noise_(sensor.odometry),
         min_wall_sigma_m_(sensor.range_sigma_m),
-        prior_sigma_(prior_sigmas(yaw_goes_with_travel(sensor.odometry))),
+        prior_sigma_(prior_sigmas(yaw_goes_with_travel(sensor.odometry), tuning)),
         T_(T_map_body),
-        motion_(scans) {}
+        motion_(scans, tuning.motion),
+        wall_sigma_m_(tuning.first_wall_sigma_m) {}
 
   /// Takes the noise of dead reckoning's positions for that many times what the sensor model says.
   void scale_position_noise(double scale) { position_noise_scale_ = scale; }
@@ -110,6 +100,7 @@ class JointProblem {
   void move(const Eigen::VectorXd& unknowns, const SystematicErrors& errors);
   [[nodiscard]] Small scatter_of_stretches() const;
 
+  JointProblemTuning tuning_;
   std::span<const CalibrationScan> scans_;
   OdometryNoise noise_;
   double min_wall_sigma_m_;
@@ -118,7 +109,7 @@ class JointProblem {
   std::vector<Pose2>& T_;
   SystematicMotion motion_;
   SystematicErrors errors_ = SystematicErrors::Zero();
-  double wall_sigma_m_ = kFirstWallSigmaM;
+  double wall_sigma_m_;
   std::vector<WallReturn> returns_;
   std::vector<PatchState> patches_;
 
@@ -146,7 +137,7 @@ void JointProblem::associate() {
       all.push_back({static_cast<std::uint32_t>(i), WallPatches::kNone, p_body});
     }
   }
-  const WallPatches found = find_wall_patches(drawn);
+  const WallPatches found = find_wall_patches(drawn, tuning_.patches);
   returns_.clear();
   patches_.clear();
   for (const WallPatch& patch : found.patches) patches_.push_back({patch, 0.0, 0.0});
@@ -154,7 +145,7 @@ void JointProblem::associate() {
     if (found.patch_of[k] == WallPatches::kNone) continue;
     const Point2 normal = found.patches[found.patch_of[k]].normal_map;
     const Point2 beam = drawn[k].direction_map;
-    if (-normal.x_m * beam.x_m - normal.y_m * beam.y_m < kMinIncidenceCosine) continue;
+    if (-normal.x_m * beam.x_m - normal.y_m * beam.y_m < tuning_.min_incidence_cosine) continue;
     all[k].patch = found.patch_of[k];
     returns_.push_back(all[k]);
   }
@@ -174,7 +165,7 @@ WallRow JointProblem::wall_row(const WallReturn& wall) const {
   row.error = normal.x_m * off.x_m + normal.y_m * off.y_m - patch.distance_m;
   row.by_pose << normal.x_m, normal.y_m, -normal.x_m * (p.y_m - T.y_m()) + normal.y_m * (p.x_m - T.x_m());
   row.by_patch << -1.0, -normal.y_m * off.x_m + normal.x_m * off.y_m;
-  const double scaled = row.error / (kRobustSigmas * wall_sigma_m_);
+  const double scaled = row.error / (tuning_.robust_sigmas * wall_sigma_m_);
   const double robust = 1.0 / ((1.0 + scaled * scaled) * (1.0 + scaled * scaled));  // Geman-McClure
   row.weight = robust / (wall_sigma_m_ * wall_sigma_m_);
   return row;
@@ -274,8 +265,8 @@ void JointProblem::gather() {
   for (Index k = 0; k < 3; ++k) H.emplace_back(k, k, kHeldInformation);
   for (std::size_t m = 0; m < patches_.size(); ++m) {
     const auto at = static_cast<Index>(3 * T_.size() + 2 * m);
-    const double by_distance = 1.0 / (kPatchDistanceSigmaM * kPatchDistanceSigmaM);
-    const double by_turn = 1.0 / (kPatchTurnSigmaRad * kPatchTurnSigmaRad);
+    const double by_distance = 1.0 / (tuning_.patch_distance_sigma_m * tuning_.patch_distance_sigma_m);
+    const double by_turn = 1.0 / (tuning_.patch_turn_sigma_rad * tuning_.patch_turn_sigma_rad);
     H.emplace_back(at, at, by_distance);
     H.emplace_back(at + 1, at + 1, by_turn);
     gradient_(at) += by_distance * patches_[m].distance_m;
@@ -318,14 +309,15 @@ Status JointProblem::step() {
     return Error{ErrorCode::kSolver, "the joint problem of poses, walls and systematic errors diverged"};
   move(unknowns, change);
   const SystematicErrors sigma = reduced_.inverse().diagonal().cwiseSqrt();
-  settled_ = (change.array().abs() < kSettled * sigma.array()).all();
+  settled_ = (change.array().abs() < tuning_.settled * sigma.array()).all();
   return {};
 }
 
 /// What each stretch of time says about the errors, everything else adjusted to it: sum of squares.
 Small JointProblem::scatter_of_stretches() const {
   const auto stretch_of = [&](std::size_t scan) {
-    return static_cast<std::size_t>((scans_[scan].measured_at - scans_.front().measured_at) / kStretch);
+    return static_cast<std::size_t>((scans_[scan].measured_at - scans_.front().measured_at) /
+                                    tuning_.stretch);
   };
   std::vector<SystematicErrors> said(stretch_of(scans_.size() - 1) + 1, SystematicErrors::Zero());
   for (const WallReturn& wall : returns_) {
@@ -358,11 +350,11 @@ void JointProblem::judge(JointEstimate& estimate) const {
 /// Where the motion is hardly larger than its noise, an estimate hangs on how the two are weighed, and
 /// scatter does not show that: adds how far the answer moves when the noise is taken for half or twice as
 /// large.
-Status add_doubt_of_noise(JointProblem& problem, JointEstimate& estimate) {
+Status add_doubt_of_noise(const JointProblemTuning& tuning, JointProblem& problem, JointEstimate& estimate) {
   SystematicErrors furthest = SystematicErrors::Zero();
-  for (const double scale : {0.5, 2.0}) {
+  for (const double scale : {1.0 / tuning.noise_doubt, tuning.noise_doubt}) {
     problem.scale_position_noise(scale);
-    for (int step = 0; step < kStepsPerAssociation; ++step)
+    for (int step = 0; step < tuning.steps_per_association; ++step)
       if (Status status = problem.step(); !status) return status;
     furthest = furthest.cwiseMax((problem.errors() - estimate.errors).cwiseAbs());
   }
@@ -379,23 +371,24 @@ void add_doubt_of_settling(const SystematicErrors& halfway, JointEstimate& estim
 
 /// Dead reckoning is a chord between its samples: much finer than these no time offset is known, whatever the
 /// scatter says.
-void add_doubt_of_sampling(double interval_s, JointEstimate& estimate) {
+void add_doubt_of_sampling(double doubt_s, JointEstimate& estimate) {
   double& sigma_s = estimate.sigma(index_of(SystematicError::kRangeAge));
-  sigma_s = std::hypot(sigma_s, kSamplingDoubt * interval_s);
+  sigma_s = std::hypot(sigma_s, doubt_s);
 }
 
 }  // namespace
 
 Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, const SensorModel& sensor,
-                                       std::vector<Pose2>& T_map_body, const GoOn& go_on) {
+                                       std::vector<Pose2>& T_map_body, const GoOn& go_on,
+                                       const JointProblemTuning& tuning) {
   SWIFTLET_CHECK(scans.size() >= 2 && T_map_body.size() == scans.size(), "every scan has a pose");
-  JointProblem problem(scans, sensor, T_map_body);
+  JointProblem problem(scans, sensor, T_map_body, tuning);
   SystematicErrors halfway = SystematicErrors::Zero();
-  for (int round = 0; round < kAssociations; ++round) {
-    if (round == kAssociations / 2) halfway = problem.errors();
+  for (int round = 0; round < tuning.associations; ++round) {
+    if (round == tuning.associations / 2) halfway = problem.errors();
     problem.associate();
-    for (int step = 0; step < kStepsPerAssociation; ++step) {
-      if (!go_on((round + static_cast<double>(step) / kStepsPerAssociation) / kAssociations))
+    for (int step = 0; step < tuning.steps_per_association; ++step) {
+      if (!go_on((round + static_cast<double>(step) / tuning.steps_per_association) / tuning.associations))
         return Error{ErrorCode::kTimeout, "stopped"};
       if (Status status = problem.step(); !status) return status.error();
       if (problem.settled()) break;
@@ -403,9 +396,9 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
   }
   JointEstimate estimate;
   problem.judge(estimate);
-  if (Status status = add_doubt_of_noise(problem, estimate); !status) return status.error();
+  if (Status status = add_doubt_of_noise(tuning, problem, estimate); !status) return status.error();
   add_doubt_of_settling(halfway, estimate);
-  add_doubt_of_sampling(usual_interval_s(scans), estimate);
+  add_doubt_of_sampling(tuning.sampling_doubt * usual_interval_s(scans), estimate);
   return estimate;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <chrono>
 #include <functional>
 #include <span>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "core/base/result.hpp"
 #include "core/calibration/calibration_scan.hpp"
 #include "core/calibration/systematic_motion.hpp"
+#include "core/calibration/wall_patches.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
@@ -21,6 +24,24 @@ struct JointEstimate {
   std::size_t patches = 0;                            ///< stretches of wall seen often enough
   std::size_t returns_on_them = 0;                    ///< of the run's hits
   double wall_sigma_m = 0.0;                          ///< scatter of those around their walls, robust
+};
+
+struct JointProblemTuning {
+  int associations = 10;
+  int steps_per_association = 6;
+  double settled = 0.05;  ///< of a standard deviation
+  double robust_sigmas = 1.5;
+  double first_wall_sigma_m = 0.05;
+  double patch_distance_sigma_m = 1.0;
+  double patch_turn_sigma_rad = 0.3;
+  double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
+  double sampling_doubt = 0.05;       ///< of an interval; as seen in simulated flights
+  double noise_doubt = 2.0;           ///< the odometry's noise may be so many times larger or smaller
+  Duration stretch = std::chrono::seconds(10);
+  /// What is possible at all, in the order of SystematicError.
+  std::array<double, kSystematicErrors> prior_sigma{0.3, 0.3, 0.3, radians(20.0), 0.3, radians(2.0)};
+  WallPatchesTuning patches;
+  SystematicMotionTuning motion;
 };
 
 /// Called between steps of long work with the share done, 0 to 1; false: stop.
@@ -40,6 +61,7 @@ using GoOn = std::function<bool(double done)>;
 /// out. Errors: kSolver; kTimeout where `go_on` said no. Allocates. Repeatable. Precondition: two scans.
 [[nodiscard]] Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans,
                                                      const SensorModel& sensor,
-                                                     std::vector<Pose2>& T_map_body, const GoOn& go_on);
+                                                     std::vector<Pose2>& T_map_body, const GoOn& go_on,
+                                                     const JointProblemTuning& tuning = {});
 
 }  // namespace swiftlet

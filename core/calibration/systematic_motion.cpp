@@ -8,10 +8,6 @@
 namespace swiftlet {
 namespace {
 
-// Stamps that come in bunches make no velocity: both intervals around a scan must be near the usual one.
-constexpr double kMinShare = 0.5;
-constexpr double kMaxShare = 2.0;
-
 double seconds_between(const CalibrationScan& before, const CalibrationScan& after) {
   return to_seconds(after.measured_at - before.measured_at);
 }
@@ -42,12 +38,14 @@ double usual_interval_s(std::span<const CalibrationScan> scans) {
   return *middle;
 }
 
-SystematicMotion::SystematicMotion(std::span<const CalibrationScan> scans)
+SystematicMotion::SystematicMotion(std::span<const CalibrationScan> scans,
+                                   const SystematicMotionTuning& tuning)
     : scans_(scans), twists_(scans.size(), Eigen::Vector3d::Zero()) {
   const double usual_s = usual_interval_s(scans);
   const auto is_usual = [&](std::size_t i) {
     const double interval_s = seconds_between(scans[i - 1], scans[i]);
-    return !scans[i].starts_segment && interval_s > kMinShare * usual_s && interval_s < kMaxShare * usual_s;
+    return !scans[i].starts_segment && interval_s > tuning.min_share * usual_s &&
+           interval_s < tuning.max_share * usual_s;
   };
   for (std::size_t i = 1; i + 1 < scans.size(); ++i) {
     if (is_usual(i) && is_usual(i + 1)) twists_[i] = twist_between(scans[i - 1], scans[i], scans[i + 1]);

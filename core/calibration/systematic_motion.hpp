@@ -31,13 +31,20 @@ inline bool yaw_goes_with_travel(const OdometryNoise& noise) { return noise.drif
 /// Median of the times from one scan to the next; 0 for fewer than two scans.
 [[nodiscard]] double usual_interval_s(std::span<const CalibrationScan> scans);
 
+/// Stamps that come in bunches give no velocity: both intervals around a scan must be near the usual one.
+struct SystematicMotionTuning {
+  double min_share = 0.5;  ///< of the usual interval
+  double max_share = 2.0;
+};
+
 /// What dead reckoning makes of the steps between neighbouring scans, given its systematic errors. The time
 /// offset moves each scan along the twist it had, a central difference over its neighbours: so noise of a
 /// step is in no derivative of that step and cannot draw the estimate towards smoother odometry.
 class SystematicMotion {
  public:
   /// Allocates here only. `scans` must outlive it.
-  explicit SystematicMotion(std::span<const CalibrationScan> scans);
+  explicit SystematicMotion(std::span<const CalibrationScan> scans,
+                            const SystematicMotionTuning& tuning = {});
 
   /// Whether the step from scan `i - 1` to scan `i` was watched; i >= 1.
   [[nodiscard]] bool is_known(std::size_t i) const { return !scans_[i].starts_segment; }

@@ -13,15 +13,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kCellM = 0.5;
-constexpr double kNeighbourM = 0.3;  // how far around a return its wall is looked for
-constexpr std::size_t kMinNeighbours = 6;
-constexpr double kMinLengthM2 = 0.003;  // variance along the wall: shorter stretches have no direction
-constexpr double kMaxRatio = 0.35;      // variance across to variance along: more is clutter
-constexpr double kMaxOffM = 0.12;       // of a return from its patch
-constexpr double kMinAgreement = 0.9;   // cosine between two normals of one patch
-constexpr std::size_t kMinReturns = 8;
-
 double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.y_m; }
 
 struct Located {
@@ -32,9 +23,9 @@ struct Located {
 /// The returns by cell; within a cell in their own order.
 class ReturnsByCell {
  public:
-  explicit ReturnsByCell(std::span<const DrawnReturn> returns) {
+  ReturnsByCell(std::span<const DrawnReturn> returns, double cell_m) {
     for (std::uint32_t i = 0; i < returns.size(); ++i)
-      located_.push_back({cell_of(returns[i].p_map, kCellM), i});
+      located_.push_back({cell_of(returns[i].p_map, cell_m), i});
     std::stable_sort(located_.begin(), located_.end(),
                      [](const Located& a, const Located& b) { return a.cell < b.cell; });
   }
@@ -53,29 +44,32 @@ class ReturnsByCell {
 };
 
 /// Unit normal of the line through points; nothing where they are no clear line.
-std::optional<Point2> normal_of(const Moments2& moments) {
-  if (moments.count < kMinNeighbours) return std::nullopt;
+std::optional<Point2> normal_of(const Moments2& moments, const WallPatchesTuning& tuning) {
+  if (moments.count < tuning.min_neighbours) return std::nullopt;
   const Scatter2 scatter = moments.scatter();
-  if (scatter.along() < kMinLengthM2 || scatter.across() > kMaxRatio * scatter.along()) return std::nullopt;
+  if (scatter.along() < tuning.min_length_m2 || scatter.across() > tuning.max_ratio * scatter.along())
+    return std::nullopt;
   return scatter.normal();
 }
 
 /// Of the face around a return, towards who sees it.
 std::optional<Point2> normal_at(const DrawnReturn& at, std::span<const DrawnReturn> returns,
-                                const ReturnsByCell& cells) {
-  const CellIndex low = cell_of({at.p_map.x_m - kNeighbourM, at.p_map.y_m - kNeighbourM}, kCellM);
-  const CellIndex high = cell_of({at.p_map.x_m + kNeighbourM, at.p_map.y_m + kNeighbourM}, kCellM);
+                                const ReturnsByCell& cells, const WallPatchesTuning& tuning) {
+  const CellIndex low =
+      cell_of({at.p_map.x_m - tuning.neighbour_m, at.p_map.y_m - tuning.neighbour_m}, tuning.cell_m);
+  const CellIndex high =
+      cell_of({at.p_map.x_m + tuning.neighbour_m, at.p_map.y_m + tuning.neighbour_m}, tuning.cell_m);
   Moments2 moments;
   for (std::int32_t x = low.x; x <= high.x; ++x) {
     for (const Located& near : cells.from_to(x, low.y, high.y)) {
       const DrawnReturn& other = returns[near.index];
       const double dx = other.p_map.x_m - at.p_map.x_m;
       const double dy = other.p_map.y_m - at.p_map.y_m;
-      if (dx * dx + dy * dy > kNeighbourM * kNeighbourM) continue;
+      if (dx * dx + dy * dy > tuning.neighbour_m * tuning.neighbour_m) continue;
       if (dot(other.direction_map, at.direction_map) > 0.0) moments.add({dx, dy});
     }
   }
-  std::optional<Point2> normal = normal_of(moments);
+  std::optional<Point2> normal = normal_of(moments, tuning);
   if (normal && dot(*normal, at.direction_map) > 0.0) normal = Point2{-normal->x_m, -normal->y_m};
   return normal;
 }
@@ -86,10 +80,10 @@ struct OnWall {
   Point2 normal_map;
 };
 
-bool is_together(const OnWall& seed, const OnWall& other) {
+bool is_together(const OnWall& seed, const OnWall& other, const WallPatchesTuning& tuning) {
   const Point2 off{other.p_map.x_m - seed.p_map.x_m, other.p_map.y_m - seed.p_map.y_m};
-  return dot(seed.normal_map, other.normal_map) > kMinAgreement &&
-         std::abs(dot(off, seed.normal_map)) < kMaxOffM;
+  return dot(seed.normal_map, other.normal_map) > tuning.min_agreement &&
+         std::abs(dot(off, seed.normal_map)) < tuning.max_off_m;
 }
 
 WallPatch mean_of(const std::vector<OnWall>& members) {
@@ -105,12 +99,12 @@ WallPatch mean_of(const std::vector<OnWall>& members) {
 }
 
 /// The one that most others agree with.
-const OnWall& best_seed(const std::vector<OnWall>& left) {
+const OnWall& best_seed(const std::vector<OnWall>& left, const WallPatchesTuning& tuning) {
   std::size_t best = 0;
   std::ptrdiff_t most = -1;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    const auto together = std::count_if(left.begin(), left.end(),
-                                        [&](const OnWall& other) { return is_together(left[i], other); });
+    const auto together = std::count_if(
+        left.begin(), left.end(), [&](const OnWall& other) { return is_together(left[i], other, tuning); });
     if (together > most) {
       most = together;
       best = i;
@@ -120,13 +114,13 @@ const OnWall& best_seed(const std::vector<OnWall>& left) {
 }
 
 /// Takes the returns of one cell apart into patches, the largest first.
-void split_cell(std::vector<OnWall> left, WallPatches& result) {
-  while (left.size() >= kMinReturns) {
-    const OnWall seed = best_seed(left);
-    const auto rest = std::stable_partition(left.begin(), left.end(),
-                                            [&](const OnWall& other) { return is_together(seed, other); });
+void split_cell(std::vector<OnWall> left, const WallPatchesTuning& tuning, WallPatches& result) {
+  while (left.size() >= tuning.min_returns) {
+    const OnWall seed = best_seed(left, tuning);
+    const auto rest = std::stable_partition(
+        left.begin(), left.end(), [&](const OnWall& other) { return is_together(seed, other, tuning); });
     const std::vector<OnWall> members(left.begin(), rest);
-    if (members.size() < kMinReturns) return;
+    if (members.size() < tuning.min_returns) return;
     for (const OnWall& member : members)
       result.patch_of[member.index] = static_cast<std::uint32_t>(result.patches.size());
     result.patches.push_back(mean_of(members));
@@ -136,20 +130,20 @@ void split_cell(std::vector<OnWall> left, WallPatches& result) {
 
 }  // namespace
 
-WallPatches find_wall_patches(std::span<const DrawnReturn> returns) {
+WallPatches find_wall_patches(std::span<const DrawnReturn> returns, const WallPatchesTuning& tuning) {
   WallPatches result;
   result.patch_of.assign(returns.size(), WallPatches::kNone);
-  const ReturnsByCell cells(returns);
+  const ReturnsByCell cells(returns, tuning.cell_m);
   const std::span<const Located> all = cells.all();
   for (std::size_t begin = 0; begin < all.size();) {
     std::vector<OnWall> in_cell;
     const CellIndex cell = all[begin].cell;
     for (; begin < all.size() && all[begin].cell == cell; ++begin) {
       const DrawnReturn& at = returns[all[begin].index];
-      if (const std::optional<Point2> normal = normal_at(at, returns, cells))
+      if (const std::optional<Point2> normal = normal_at(at, returns, cells, tuning))
         in_cell.push_back({all[begin].index, at.p_map, *normal});
     }
-    split_cell(std::move(in_cell), result);
+    split_cell(std::move(in_cell), tuning, result);
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/frontend/frontend_tuning.hpp"
 #include "core/sensing/wall_axis.hpp"
 
 namespace swiftlet {
@@ -16,6 +17,8 @@ namespace swiftlet {
 /// @note Fixed storage. One thread at a time.
 class BuildingAxis {
  public:
+  explicit BuildingAxis(const BuildingAxisTuning& tuning = {}) : tuning_(tuning) {}
+
   struct Direction {
     double yaw_rad = 0.0;
     double information = 0.0;  ///< 1 / rad^2
@@ -28,11 +31,12 @@ class BuildingAxis {
   [[nodiscard]] std::optional<Direction> direction_near(double yaw_rad, double variance_rad2) const;
   /// The walls in the window as they are estimated now. When they agree on another axis for so long that the
   /// window holds no other, that becomes the axis.
-  void learn(std::span<const WallRun> walls);
+  void learn(std::span<const WallDirection> walls);
 
  private:
   [[nodiscard]] double gate_rad(double variance_rad2) const;
 
+  BuildingAxisTuning tuning_;
   std::optional<double> yaw_rad_;
   double variance_rad2_ = 0.0;          // of the axis
   double heading_variance_rad2_ = 0.0;  // of the heading against the axis

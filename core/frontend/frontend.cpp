@@ -22,9 +22,6 @@ namespace swiftlet {
 namespace {
 
 constexpr LandmarkGraphCapacity kCapacity{kMaxKeyframeWindow, 128, 1024};
-// Drift is learnt from the motion this many keyframes back: later ones have had their say, the window still
-// holds it.
-constexpr std::size_t kDriftLagKeyframes = 3;
 static_assert(kMaxLinesPerMultiscan <= kMaxWallsPerKeyframe);
 
 // So uncertain that the graph gets nothing from it, yet stays solvable.
@@ -41,10 +38,11 @@ struct Frontend::State {
       : config(config_in),
         odometry_noise(sensor.odometry),
         odometry_calibration(sensor.odometry_calibration),
-        multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points)),
+        multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points), config.tuning.multiscan),
         extractor(config, sensor.range_sigma_m),
         chi_square(config.chi_square_confidence),
-        drift(sensor.odometry) {}
+        drift(sensor.odometry, config.tuning.drift),
+        axis(config.tuning.axis) {}
 
   void track_motion(const RangeSample& sample);
   [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
@@ -166,7 +164,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
       // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate.
       keyframe_motion.covariance = unknown_motion().covariance;
       viewpoint_covariance.setZero();
-      axis = BuildingAxis();
+      axis = BuildingAxis(config.tuning.axis);
     }
     learn_drift();
     if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) {
@@ -183,9 +181,10 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
 
 /// From a motion that enough has been seen of since; what was corrected already counts as error too.
 void Frontend::State::learn_drift() {
-  if (graph.poses().size() < kDriftLagKeyframes + 2) return;
-  const PoseVertex& from = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 2];
-  const PoseVertex& to = graph.poses()[graph.poses().size() - kDriftLagKeyframes - 1];
+  const std::size_t lag = config.tuning.drift.lag_keyframes;
+  if (graph.poses().size() < lag + 2) return;
+  const PoseVertex& from = graph.poses()[graph.poses().size() - lag - 2];
+  const PoseVertex& to = graph.poses()[graph.poses().size() - lag - 1];
   const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
   const double yaw_error_rad =
       motion_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
@@ -232,7 +231,7 @@ void Frontend::State::align_newest_wall() {
 }
 
 void Frontend::State::learn_axis() {
-  FixedVector<WallRun, kCapacity.landmarks> walls;
+  FixedVector<WallDirection, kCapacity.landmarks> walls;
   for (const Landmark& wall : graph.landmarks()) {
     const double length_m =
         std::hypot(wall.end_local.x_m - wall.start_local.x_m, wall.end_local.y_m - wall.start_local.y_m);
@@ -247,7 +246,8 @@ void Frontend::State::learn_axis() {
 // hides among many good ones, and then spoils the next.
 void Frontend::State::optimize_or_roll_back() {
   if (associated + aligned > 0) {
-    const double increase = solver.optimize(graph, config.solver_iterations).chi_square - chi_square_before;
+    const double increase =
+        solver.optimize(graph, config.solver_iterations, config.tuning.solver).chi_square - chi_square_before;
     if (increase > chi_square.quantile(2 * associated + aligned)) {
       graph.restore(before_batch);
       ++counters.batches_rolled_back;

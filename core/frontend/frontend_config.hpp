@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/settings.hpp"
+#include "core/frontend/frontend_tuning.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensing/keyframe.hpp"
 #include "core/sensing/multiscan.hpp"
@@ -85,6 +86,8 @@ struct FrontendConfig {
       {"chi_square_confidence", &FrontendConfig::chi_square_confidence, "",
        "confidence of the consistency check (eq. 19)", 0.5, 0.999999},
   };
+
+  FrontendTuning tuning;  ///< not in a configuration file
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -27,7 +27,7 @@ class LandmarkGraphSolver {
   };
 
   /// At most `max_steps`, fewer when F settles. The estimates never get worse than they were.
-  Summary optimize(Graph& graph, int max_steps);
+  Summary optimize(Graph& graph, int max_steps, const LandmarkGraphSolverTuning& tuning = {});
 
  private:
   static constexpr std::size_t kMaxUnknowns = 3 * kCapacity.poses;

@@ -11,16 +11,13 @@
 namespace swiftlet {
 
 template <LandmarkGraphCapacity kCapacity>
-typename LandmarkGraphSolver<kCapacity>::Summary LandmarkGraphSolver<kCapacity>::optimize(Graph& graph,
-                                                                                          int max_steps) {
-  constexpr double kFirstDamping = 1e-5;
-  constexpr double kMaxDamping = 1e6;
-  constexpr double kSettled = 1e-4;  // relative decrease of F that ends the search
+auto LandmarkGraphSolver<kCapacity>::optimize(Graph& graph, int max_steps,
+                                              const LandmarkGraphSolverTuning& tuning) -> Summary {
   group_by_landmark(graph);
   find_envelope(graph);
   Summary summary{0, graph.chi_square()};
-  double damping = kFirstDamping;
-  while (summary.steps < max_steps && damping < kMaxDamping && unknowns_ > 0) {
+  double damping = tuning.first_damping;
+  while (summary.steps < max_steps && damping < tuning.max_damping && unknowns_ > 0) {
     ++summary.steps;
     save(graph);
     linearize(graph);
@@ -29,13 +26,13 @@ typename LandmarkGraphSolver<kCapacity>::Summary LandmarkGraphSolver<kCapacity>:
     const double after = solved ? graph.chi_square() : summary.chi_square;
     if (!solved || !(after <= summary.chi_square)) {
       restore(graph);
-      damping *= 10.0;
+      damping *= tuning.damping_after_failure;
       continue;
     }
     const double decrease = summary.chi_square - after;
     summary.chi_square = after;
-    damping *= 0.1;
-    if (decrease <= kSettled * (1e-3 + after)) break;
+    damping *= tuning.damping_after_success;
+    if (decrease <= tuning.settled * (1e-3 + after)) break;
   }
   return summary;
 }

@@ -146,7 +146,9 @@ bool LineExtractor::try_merge(Piece& into, const Piece& other) const {
   Extent a;
   Extent b;
   for (const Point2* end : std::array<const Point2*, 4>{&into.end_a, &into.end_b, &other.end_a, &other.end_b})
-    if (std::abs(line.distance_m(*end)) > 0.5 * config_.split_distance_m) return false;
+    if (std::abs(line.distance_m(*end)) >
+        config_.tuning.lines.merge_distance_share * config_.split_distance_m)
+      return false;
   a.include(line.along_m(into.end_a));
   a.include(line.along_m(into.end_b));
   b.include(line.along_m(other.end_a));

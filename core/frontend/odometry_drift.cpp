@@ -7,22 +7,19 @@ namespace {
 
 constexpr double squared(double x) { return x * x; }
 
-constexpr double kWanderShare = 0.025;  // of its standard deviation, per motion
-// Walls that err together for a whole window make the graph's estimates err together.
-constexpr double kWallSigmaRad = radians(1.0);
-
 }  // namespace
 
-OdometryDrift::OdometryDrift(const OdometryNoise& noise)
-    : covariance_(Eigen::Vector2d(squared(noise.drift_yaw_per_metre_rad), squared(noise.drift_yaw_per_radian))
+OdometryDrift::OdometryDrift(const OdometryNoise& noise, const OdometryDriftTuning& tuning)
+    : tuning_(tuning),
+      covariance_(Eigen::Vector2d(squared(noise.drift_yaw_per_metre_rad), squared(noise.drift_yaw_per_radian))
                       .asDiagonal()),
-      wander_(squared(kWanderShare) * covariance_) {}
+      wander_(squared(tuning.wander_share) * covariance_) {}
 
 void OdometryDrift::learn(double forward_m, double turn_rad, double yaw_error_rad, double yaw_variance_rad2) {
   const Eigen::Vector2d motion(forward_m, turn_rad);
   covariance_ += wander_;
   const double innovation_variance =
-      motion.dot(covariance_ * motion) + squared(kWallSigmaRad) + yaw_variance_rad2;
+      motion.dot(covariance_ * motion) + squared(tuning_.wall_sigma_rad) + yaw_variance_rad2;
   const Eigen::Vector2d gain = covariance_ * motion / innovation_variance;
   estimate_ += gain * (yaw_error_rad - estimate_.dot(motion));
   covariance_ -= (gain * motion.transpose() * covariance_).eval();

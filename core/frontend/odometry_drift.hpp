@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/frontend/frontend_tuning.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
@@ -17,7 +18,7 @@ namespace swiftlet {
 class OdometryDrift {
  public:
   /// `noise` says how large the drift may be; where it says 0, none is ever found.
-  explicit OdometryDrift(const OdometryNoise& noise);
+  explicit OdometryDrift(const OdometryNoise& noise, const OdometryDriftTuning& tuning = {});
 
   /// The graph says that in a motion of `forward_m` and `turn_rad`, both as measured, the measured yaw lacked
   /// `yaw_error_rad`, of which noise may have `yaw_variance_rad2`.
@@ -27,6 +28,7 @@ class OdometryDrift {
   [[nodiscard]] double yaw_correction_rad(double forward_m, double turn_rad) const;
 
  private:
+  OdometryDriftTuning tuning_;
   Eigen::Vector2d estimate_ = Eigen::Vector2d::Zero();  // rad/m, rad/rad
   Eigen::Matrix2d covariance_;
   Eigen::Matrix2d wander_;  // what each motion adds: drift changes slowly

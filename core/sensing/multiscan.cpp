@@ -13,11 +13,6 @@ Point2 rotated(const Pose2& T_a_b, const Point2& direction_b) {
           T_a_b.sin_yaw() * direction_b.x_m + T_a_b.cos_yaw() * direction_b.y_m};
 }
 
-bool is_short(const Pose2& motion) {
-  return std::hypot(motion.x_m(), motion.y_m()) < Multiscan::kMinMotionMetres &&
-         std::abs(motion.yaw_rad()) < Multiscan::kMinTurnRadians;
-}
-
 // How an error of T_j_next, where T_present_j and T_present_next are known, displaces a point of the present
 // frame that was seen at or before j: the derivative of (v_x, v_y, w) with respect to (x, y, yaw) of
 // T_j_next.
@@ -35,8 +30,10 @@ std::size_t scans_for(std::size_t points, std::size_t beams) {
 
 }  // namespace
 
-Multiscan::Multiscan(const SensorModel& sensor, const BeamLayout& beams, std::size_t points)
-    : scan_limit_(scans_for(points, std::max<std::size_t>(beams.count, 1))),
+Multiscan::Multiscan(const SensorModel& sensor, const BeamLayout& beams, std::size_t points,
+                     const MultiscanTuning& tuning)
+    : tuning_(tuning),
+      scan_limit_(scans_for(points, std::max<std::size_t>(beams.count, 1))),
       min_range_m_(sensor.min_range_m),
       max_range_m_(sensor.max_range_m) {
   SWIFTLET_CHECK(scan_limit_ * beams.count <= kMaxMultiscanPoints, "the multiscan's points fit its view");
@@ -47,6 +44,11 @@ Multiscan::Multiscan(const SensorModel& sensor, const BeamLayout& beams, std::si
 void Multiscan::restart() {
   oldest_ = 0;
   size_ = 0;
+}
+
+bool Multiscan::is_short(const Pose2& motion) const {
+  return std::hypot(motion.x_m(), motion.y_m()) < tuning_.min_motion_m &&
+         std::abs(motion.yaw_rad()) < tuning_.min_turn_rad;
 }
 
 void Multiscan::add(const RangeSample& sample, const UncertainMotion& step) {

@@ -39,6 +39,11 @@ struct MultiscanView {
   std::size_t scans = 0;
 };
 
+struct MultiscanTuning {
+  double min_motion_m = 0.01;          ///< smaller motions since the scan before ...
+  double min_turn_rad = radians(1.0);  ///< ... and smaller turns do not make a new scan
+};
+
 /// The last k scans (eqs. 1-4 of "Efficient 2D Graph SLAM for Sparse Sensing", IROS 2022). The paper gives
 /// each point a covariance of its own (eqs. 16-18) and takes the points for uncorrelated; but an error of the
 /// dead reckoning moves all older points together, so the view keeps the error of each motion, from which eq.
@@ -47,13 +52,10 @@ struct MultiscanView {
 /// @note Fixed storage. One thread at a time.
 class Multiscan {
  public:
-  /// Smaller motions than both since the scan before do not make a new scan.
-  static constexpr double kMinMotionMetres = 0.01;
-  static constexpr double kMinTurnRadians = radians(1.0);
-
   /// Holds ceil(points / beams) scans, at least 2. Precondition: points + beams.count - 1 <=
   /// kMaxMultiscanPoints.
-  Multiscan(const SensorModel& sensor, const BeamLayout& beams, std::size_t points);
+  Multiscan(const SensorModel& sensor, const BeamLayout& beams, std::size_t points,
+            const MultiscanTuning& tuning = {});
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t scan_limit() const { return scan_limit_; }
@@ -74,9 +76,11 @@ class Multiscan {
   };
 
   Scan& scan(std::size_t i) { return ring_[(oldest_ + i) % kMaxMultiscanScans]; }
+  [[nodiscard]] bool is_short(const Pose2& motion) const;
   void push_empty_scan();
   void read_hits(const RangeSample& sample, Scan& scan) const;
 
+  MultiscanTuning tuning_;
   std::size_t scan_limit_;
   double min_range_m_;
   double max_range_m_;

@@ -8,13 +8,6 @@
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
-namespace {
-
-// What a pilot who maps a room may do while nobody hears the vehicle.
-constexpr double kDetourSpeedMPerS = 0.5;
-constexpr double kDetourTurnRateRadPerS = 0.5;
-
-}  // namespace
 
 OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion) {
   const double distance_m = std::hypot(motion.x_m(), motion.y_m());
@@ -31,8 +24,8 @@ UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previo
 }
 
 UncertainMotion unwatched_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration silence) {
-  const double distance_m = kDetourSpeedMPerS * to_seconds(silence);
-  const double turn_rad = kDetourTurnRateRadPerS * to_seconds(silence);
+  const double distance_m = noise.detour_speed_m_per_s * to_seconds(silence);
+  const double turn_rad = noise.detour_turn_rate_rad_per_s * to_seconds(silence);
   UncertainMotion step = uncertain_step(noise, T_previous_this);
   step.covariance += uncertain_step(noise, Pose2(distance_m, 0.0, std::min(turn_rad, kPi))).covariance;
   return step;

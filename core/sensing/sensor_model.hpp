@@ -33,10 +33,12 @@ struct OdometryNoise {
   double yaw_per_radian = 0.05;
   double yaw_per_metre_rad = radians(1.0);
   double steps_err_together = 1.0;  ///< so many steps in a row share their error: what joins single steps
-                                    ///< believes each that much less
+                                    ///< weighs each that much less
   double drift_yaw_per_metre_rad =
       0.0;  ///< standard deviation of the yaw that is missed with every metre forward
-  double drift_yaw_per_radian = 0.0;  ///< ... and with every radian turned
+  double drift_yaw_per_radian = 0.0;        ///< ... and with every radian turned
+  double detour_speed_m_per_s = 0.5;        ///< how fast the vehicle may move while no packet arrives ...
+  double detour_turn_rate_rad_per_s = 0.5;  ///< ... and turn
 };
 
 /// Ranges that are older than this when their packet is stamped are no sensor's.

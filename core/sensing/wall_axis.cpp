@@ -9,15 +9,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kMinLengthM = 4.0;         // of walls along the axis
-constexpr double kMinShare = 0.4;           // ... and of the length of all walls
-constexpr double kRivalRad = radians(12);   // an axis farther off than this is another one ...
-constexpr double kRivalShare = 0.6;         // ... and must have less than this much of the best one's length
-constexpr double kScatterRad = radians(4);  // of walls of one axis: poorly seen ones included
-constexpr double kFloorSigmaRad = radians(2.5);  // buildings and sensors are not square beyond that
-constexpr int kRounds = 5;
-
-/// What the walls say of an axis near `yaw_rad`, those farther off counting less (Geman-McClure).
+/// The walls' support of an axis near `yaw_rad`; those farther off count less (Geman-McClure).
 struct Support {
   double length_m = 0.0;
   double length2_m2 = 0.0;
@@ -25,11 +17,11 @@ struct Support {
   double mean_square_off_rad2 = 0.0;
 };
 
-Support support_of(std::span<const WallRun> walls, double yaw_rad) {
+Support support_of(std::span<const WallDirection> walls, double yaw_rad, double scatter_rad) {
   Support support;
-  for (const WallRun& wall : walls) {
+  for (const WallDirection& wall : walls) {
     const double off_rad = wrap_axis(wall.yaw_rad - yaw_rad);
-    const double ratio = off_rad / kScatterRad;
+    const double ratio = off_rad / scatter_rad;
     const double weighted_m = wall.length_m / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));
     support.length_m += weighted_m;
     support.length2_m2 += weighted_m * weighted_m;
@@ -50,29 +42,30 @@ double wrap_axis(double yaw_rad) {
   return turned >= kPi / 4.0 ? turned - kPi / 2.0 : turned;
 }
 
-std::optional<WallAxis> wall_axis(std::span<const WallRun> walls) {
+std::optional<WallAxis> wall_axis(std::span<const WallDirection> walls, const WallAxisTuning& tuning) {
   double all_m = 0.0;
   double yaw_rad = 0.0;
   double best_m = 0.0;
-  for (const WallRun& wall : walls) {
+  for (const WallDirection& wall : walls) {
     all_m += wall.length_m;
-    const double supported_m = support_of(walls, wall.yaw_rad).length_m;
+    const double supported_m = support_of(walls, wall.yaw_rad, tuning.scatter_rad).length_m;
     if (supported_m <= best_m) continue;
     best_m = supported_m;
     yaw_rad = wall.yaw_rad;
   }
-  if (best_m < kMinLengthM || best_m < kMinShare * all_m) return std::nullopt;
+  if (best_m < tuning.min_length_m || best_m < tuning.min_share * all_m) return std::nullopt;
   Support support;
-  for (int round = 0; round < kRounds; ++round) {
-    support = support_of(walls, yaw_rad);
+  for (int round = 0; round < tuning.rounds; ++round) {
+    support = support_of(walls, yaw_rad, tuning.scatter_rad);
     yaw_rad += support.mean_off_rad;
   }
-  for (const WallRun& wall : walls) {
-    if (std::abs(wrap_axis(wall.yaw_rad - yaw_rad)) < kRivalRad) continue;
-    if (support_of(walls, wall.yaw_rad).length_m > kRivalShare * support.length_m) return std::nullopt;
+  for (const WallDirection& wall : walls) {
+    if (std::abs(wrap_axis(wall.yaw_rad - yaw_rad)) < tuning.rival_rad) continue;
+    if (support_of(walls, wall.yaw_rad, tuning.scatter_rad).length_m > tuning.rival_share * support.length_m)
+      return std::nullopt;
   }
   const double effective_count = support.length_m * support.length_m / support.length2_m2;
-  return WallAxis{wrap_axis(yaw_rad), std::sqrt(kFloorSigmaRad * kFloorSigmaRad +
+  return WallAxis{wrap_axis(yaw_rad), std::sqrt(tuning.floor_sigma_rad * tuning.floor_sigma_rad +
                                                 support.mean_square_off_rad2 / effective_count)};
 }
 

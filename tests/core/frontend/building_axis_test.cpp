@@ -15,7 +15,7 @@ namespace {
 constexpr double kSeen = radians(2) * radians(2);  // variance of a wall's direction
 constexpr int kWindow = 24;                        // keyframes
 
-std::vector<WallRun> walls_along(double yaw_rad) {
+std::vector<WallDirection> walls_along(double yaw_rad) {
   return {{yaw_rad, 4.0}, {yaw_rad + kPi / 2.0, 3.0}, {yaw_rad, 2.0}};
 }
 

@@ -14,9 +14,9 @@ namespace swiftlet {
 namespace {
 
 /// Walls along and square to an axis, seen with an error.
-std::vector<WallRun> square_walls(test::RandomGeometry& random, double axis_rad, int count,
+std::vector<WallDirection> square_walls(test::RandomGeometry& random, double axis_rad, int count,
                                   double sigma_rad) {
-  std::vector<WallRun> walls;
+  std::vector<WallDirection> walls;
   for (int i = 0; i < count; ++i)
     walls.push_back({axis_rad + i * kPi / 2.0 + random.normal(sigma_rad), random.uniform(0.5, 3.0)});
   return walls;
@@ -55,7 +55,7 @@ TEST(WallAxis, LiesWithinTheUncertaintyItClaims) {
 
 TEST(WallAxis, IsNotMovedByClutter) {
   test::RandomGeometry random(3);
-  std::vector<WallRun> walls = square_walls(random, 0.2, 10, radians(1));
+  std::vector<WallDirection> walls = square_walls(random, 0.2, 10, radians(1));
   for (const double yaw_rad : {0.2 + radians(25), 0.2 + radians(33), 0.2 - radians(28)})
     walls.push_back({yaw_rad, 1.0});
   const auto axis = wall_axis(walls);
@@ -64,19 +64,19 @@ TEST(WallAxis, IsNotMovedByClutter) {
 }
 
 TEST(WallAxis, IsNoneWhereWallsRunEveryWay) {
-  std::vector<WallRun> walls;
+  std::vector<WallDirection> walls;
   for (int i = 0; i < 18; ++i) walls.push_back({radians(5.0 * i), 2.0});
   EXPECT_FALSE(wall_axis(walls));
 }
 
 TEST(WallAxis, IsNoneBetweenTwoAsGood) {
-  const std::vector<WallRun> walls{{0.0, 4.0}, {kPi / 2.0, 4.0}, {radians(30), 4.0}, {radians(120), 3.8}};
+  const std::vector<WallDirection> walls{{0.0, 4.0}, {kPi / 2.0, 4.0}, {radians(30), 4.0}, {radians(120), 3.8}};
   EXPECT_FALSE(wall_axis(walls));
 }
 
 TEST(WallAxis, IsNoneOfNothingOrOfShortWalls) {
   EXPECT_FALSE(wall_axis({}));
-  EXPECT_FALSE(wall_axis(std::vector<WallRun>{{0.1, 1.0}, {0.1, 1.5}}));
+  EXPECT_FALSE(wall_axis(std::vector<WallDirection>{{0.1, 1.0}, {0.1, 1.5}}));
 }
 
 }  // namespace
