@@ -78,7 +78,7 @@ void Backend::State::carry_new_poses() {
 }
 
 void Backend::State::take_walls(const Keyframe& made) {
-  for (const WallUpdate& update : made.walls) {
+  for (const LandmarkUpdate& update : made.landmarks) {
     const Wall wall{update.id, made.id, update.start_keyframe, update.end_keyframe};
     const auto at = std::lower_bound(walls.begin(), walls.end(), update.id,
                                      [](const Wall& w, LandmarkId id) { return w.id < id; });

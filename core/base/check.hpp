@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// Stops the program when a caller broke a promise; active in every build. For programmer errors only: what
-/// comes from outside (radio, files, users) is answered with a Result. Allocates nothing.
+/// Aborts when a caller violates a precondition; active in every build. For programmer errors only: errors
+/// from outside (radio, files, users) are returned as a Result. Allocates nothing.
 #define SWIFTLET_CHECK(condition, promise)                                                               \
   do {                                                                                                   \
     if (!(condition)) {                                                                                  \

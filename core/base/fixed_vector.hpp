@@ -11,11 +11,11 @@
 
 namespace swiftlet {
 
-/// A list whose storage lies inside it and never grows; trivially copyable when T is, so it may cross a
-/// queue. Nothing here allocates. What is full says so: there is no verb for growing.
+/// A list of fixed capacity with its storage inside; trivially copyable when T is, so it may cross a queue. A
+/// full list refuses further items. Nothing here allocates.
 template <typename T, std::size_t kCapacity>
 class FixedVector {
-  static_assert(kCapacity > 0, "a list without room holds nothing");
+  static_assert(kCapacity > 0, "a list has room for one item at least");
 
  public:
   using value_type = T;

@@ -10,25 +10,26 @@
 
 namespace swiftlet {
 
-/// What kind of thing went wrong, for code that decides; the message is for people.
+/// The kind of an error, for code that branches on it; the message is for people.
 enum class ErrorCode {
   kInvalidInput,    ///< a file, URI, option or configuration that cannot be used as it is
   kNotFound,        ///< the named file, device or entry does not exist
   kDamaged,         ///< the beginning was usable, the rest is not
-  kEndOfRecording,  ///< a replay has delivered everything; not a fault
+  kEndOfRecording,  ///< a replay has delivered all its data; not a fault
   kTimeout,         ///< nothing received in time; try again
   kDeviceLost,      ///< the link must be opened anew
   kOutOfSpace,      ///< a disk or a fixed store is full
   kSolver,          ///< a numerical solve failed
 };
 
-/// An error as a value. The message is one line that says what, where and what to do.
+/// An error as a value. The message is one line: what, where and what to do.
 struct Error {
   ErrorCode code = ErrorCode::kInvalidInput;
   std::string message;
 };
 
-/// A value or the reason why there is none. Used wherever the outside is met (radio, USB, files, solver).
+/// A value or an error. Returned by everything that depends on the outside (radio, USB, files) or on a
+/// solver.
 template <typename T>
 class [[nodiscard]] Result {
  public:
@@ -40,15 +41,15 @@ class [[nodiscard]] Result {
 
   /// Precondition: ok().
   [[nodiscard]] const T& value() const& {
-    SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
+    SWIFTLET_CHECK(ok(), "value() needs a Result with a value");
     return std::get<0>(state_);
   }
   [[nodiscard]] T& value() & {
-    SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
+    SWIFTLET_CHECK(ok(), "value() needs a Result with a value");
     return std::get<0>(state_);
   }
   [[nodiscard]] T&& value() && {
-    SWIFTLET_CHECK(ok(), "value() is asked of a Result that holds one");
+    SWIFTLET_CHECK(ok(), "value() needs a Result with a value");
     return std::move(std::get<0>(state_));
   }
   const T& operator*() const& { return value(); }
@@ -58,7 +59,7 @@ class [[nodiscard]] Result {
 
   /// Precondition: !ok().
   [[nodiscard]] const Error& error() const {
-    SWIFTLET_CHECK(!ok(), "error() is asked of a Result that failed");
+    SWIFTLET_CHECK(!ok(), "error() needs a Result with an error");
     return std::get<1>(state_);
   }
 
@@ -66,7 +67,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
-/// Success, or the reason for failure.
+/// Success or an error.
 class [[nodiscard]] Status {
  public:
   Status() = default;
@@ -76,7 +77,7 @@ class [[nodiscard]] Status {
   explicit operator bool() const { return ok(); }
   /// Precondition: !ok().
   [[nodiscard]] const Error& error() const {
-    SWIFTLET_CHECK(failed_, "error() is asked of a Status that failed");
+    SWIFTLET_CHECK(failed_, "error() needs a Status with an error");
     return error_;
   }
 

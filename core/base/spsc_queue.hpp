@@ -10,9 +10,9 @@
 
 namespace swiftlet {
 
-/// One writer thread, one reader thread, fixed capacity, no lock, no heap after construction. The two ends
-/// are types of their own: each is handed to one worker, which cannot name the other end. When full the
-/// newest item is refused and counted. The queue must outlive both ends.
+/// A queue of fixed capacity between one writer thread and one reader thread, without locks and without heap
+/// after construction. Each end is a type of its own, so that a worker can use one end only. A full queue
+/// refuses the newest item and counts it. The queue must outlive both ends.
 template <typename T, std::size_t kCapacity>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>, "queue elements are plain structs");

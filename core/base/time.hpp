@@ -9,8 +9,8 @@ namespace swiftlet {
 
 using Duration = std::chrono::nanoseconds;
 
-/// Tag of the Unix time of the machine that received the vehicle. Has no now(): core cannot ask for the time,
-/// it is told.
+/// Tag of the Unix time of the machine that receives the vehicle's packets. Has no now(): core has no clock,
+/// times come with the samples.
 struct HostClock {
   using rep = std::int64_t;
   using period = std::nano;

@@ -11,7 +11,7 @@ namespace {
 
 using Verdict = CalibrationFinding::Verdict;
 
-/// What sets one error apart from the others.
+/// The properties of a systematic error.
 struct Kind {
   const char* setting;
   const char* meaning;

@@ -13,19 +13,19 @@
 
 namespace swiftlet {
 
-/// What a calibration has to say about one setting of the sensor model.
+/// The result of a calibration for one setting of the sensor model.
 struct CalibrationFinding {
   enum class Verdict {
-    kNotObservable,  ///< the run cannot tell; `reason` says why
-    kAsIs,           ///< what was taken so far agrees within two standard deviations
+    kNotObservable,  ///< for `reason`
+    kAsIs,           ///< the present value agrees within two standard deviations
     kNegligible,     ///< it differs, but too little to matter
-    kLearnt,         ///< it differs, but the frontend learns it in each run: better left alone
-    kMatters,        ///< it differs, and the map will show it
+    kLearnt,         ///< it differs, but the frontend estimates it in each run: better left alone
+    kMatters,        ///< it differs enough to be seen in a map
   };
   std::string setting;  ///< in the section [sensor] of a configuration file
   std::string meaning;
   std::string unit;
-  double present = 0.0;  ///< what was taken so far
+  double present = 0.0;  ///< the value used in the run
   double value = 0.0;    ///< meaningful unless not observable
   double sigma = 0.0;    ///< its standard deviation, likewise
   Verdict verdict = Verdict::kNotObservable;
@@ -45,19 +45,19 @@ struct CalibrationFindingsTuning {
   std::array<double, kSystematicErrors> negligible{0.01, 0.005, 0.01, radians(0.1), 0.005, radians(0.02)};
 };
 
-/// Why a run with so little motion cannot calibrate anything; nothing where it is worth trying.
+/// Why a run with so little motion calibrates nothing; nullopt where it may.
 [[nodiscard]] std::optional<std::string> why_hopeless(const MotionSummary& motion,
                                                       const CalibrationFindingsTuning& tuning = {});
 
-/// `sensor`: what the run was taken with; `estimate` is relative to its range age, and to no calibration of
-/// the odometry.
+/// `sensor`: the model used in the run; `estimate` is relative to its range age, and to no calibration of the
+/// odometry.
 [[nodiscard]] CalibrationFindings judge_estimate(const JointEstimate& estimate, const MotionSummary& motion,
                                                  const SensorModel& sensor,
                                                  const CalibrationFindingsTuning& tuning = {});
 /// All not observable, for that reason.
 [[nodiscard]] CalibrationFindings nothing_observable(const std::string& reason, const SensorModel& sensor);
 
-/// The sensor model with what matters put in its place.
+/// The sensor model with the values that matter replaced.
 [[nodiscard]] SensorModel calibrated(const CalibrationFindings& findings, SensorModel sensor);
 
 }  // namespace swiftlet

@@ -12,9 +12,9 @@
 
 namespace swiftlet {
 
-/// One scan as a calibration needs it.
+/// A scan as input of a calibration.
 struct CalibrationScan {
-  DeviceTime measured_at{};  ///< when its ranges were measured, as far as was assumed
+  DeviceTime measured_at{};  ///< when its ranges were measured, by the assumed range age
   Pose2 T_odom_body;         ///< the dead reckoning of that time, as measured
   bool starts_segment = false;
   std::vector<Point2> hits_body;
@@ -24,7 +24,7 @@ struct CalibrationScan {
 [[nodiscard]] std::vector<CalibrationScan> calibration_scans(std::span<const RangeSample> samples,
                                                              const BeamLayout& beams);
 
-/// How much a run has of the motions that tell systematic errors, by its dead reckoning.
+/// Amounts of motion, by dead reckoning, from which systematic errors are estimated.
 struct MotionSummary {
   double duration_s = 0.0;
   double forward_m = 0.0;   ///< to and fro: sum of amounts

@@ -81,11 +81,11 @@ class JointProblem {
         motion_(scans, tuning.motion),
         wall_sigma_m_(tuning.first_wall_sigma_m) {}
 
-  /// Takes the noise of dead reckoning's positions for that many times what the sensor model says.
+  /// Scales the standard deviations of dead reckoning's positions.
   void scale_position_noise(double scale) { position_noise_scale_ = scale; }
   void associate();
   Status step();
-  void judge(JointEstimate& estimate) const;
+  void summarize(JointEstimate& estimate) const;
   [[nodiscard]] bool settled() const { return settled_; }
   [[nodiscard]] const SystematicErrors& errors() const { return errors_; }
 
@@ -121,7 +121,7 @@ class JointProblem {
   Small errors_information_ = Small::Zero();
   Eigen::VectorXd gradient_;
   SystematicErrors errors_gradient_ = SystematicErrors::Zero();
-  Wide carried_;  // how the unknowns follow the errors, negative
+  Wide by_errors_;  // derivative of the unknowns with respect to the errors, negative
   Small reduced_ = Small::Identity();
   bool settled_ = false;
 };
@@ -171,8 +171,8 @@ WallRow JointProblem::wall_row(const WallReturn& wall) const {
   return row;
 }
 
-/// Predicted less measured, and how that changes. Noise is in what was measured, so the scales must act on
-/// the true motion: acting on the measured one they would shrink it to shrink its noise.
+/// Predicted less measured, with derivatives. The measured motion has the noise, so the scales act on the
+/// true one: acting on the measured motion they would shrink it to shrink its noise.
 MotionRow JointProblem::motion_row(std::size_t i) const {
   MotionRow row;
   row.from = static_cast<Index>(3 * (i - 1));
@@ -300,11 +300,11 @@ Status JointProblem::step() {
   if (solver_.info() != Eigen::Success)
     return Error{ErrorCode::kSolver,
                  "the joint problem of poses, walls and systematic errors has no solution"};
-  carried_ = solver_.solve(H_errors_);
+  by_errors_ = solver_.solve(H_errors_);
   const Eigen::VectorXd settled = solver_.solve(gradient_);
-  reduced_ = errors_information_ - H_errors_.transpose() * carried_;
+  reduced_ = errors_information_ - H_errors_.transpose() * by_errors_;
   const SystematicErrors change = -reduced_.ldlt().solve(errors_gradient_ - H_errors_.transpose() * settled);
-  const Eigen::VectorXd unknowns = -settled - carried_ * change;
+  const Eigen::VectorXd unknowns = -settled - by_errors_ * change;
   if (!unknowns.allFinite() || !change.allFinite())
     return Error{ErrorCode::kSolver, "the joint problem of poses, walls and systematic errors diverged"};
   move(unknowns, change);
@@ -313,31 +313,31 @@ Status JointProblem::step() {
   return {};
 }
 
-/// What each stretch of time says about the errors, everything else adjusted to it: sum of squares.
+/// Sum of squares of the gradients of single stretches of time, with the other unknowns eliminated.
 Small JointProblem::scatter_of_stretches() const {
   const auto stretch_of = [&](std::size_t scan) {
     return static_cast<std::size_t>((scans_[scan].measured_at - scans_.front().measured_at) /
                                     tuning_.stretch);
   };
-  std::vector<SystematicErrors> said(stretch_of(scans_.size() - 1) + 1, SystematicErrors::Zero());
+  std::vector<SystematicErrors> gradients(stretch_of(scans_.size() - 1) + 1, SystematicErrors::Zero());
   for (const WallReturn& wall : returns_) {
     const WallRow row = wall_row(wall);
-    const SystematicErrors by_errors = -carried_.middleRows<3>(row.pose).transpose() * row.by_pose -
-                                       carried_.middleRows<2>(row.patch).transpose() * row.by_patch;
-    said[stretch_of(wall.scan)] += row.weight * row.error * by_errors;
+    const SystematicErrors by_errors = -by_errors_.middleRows<3>(row.pose).transpose() * row.by_pose -
+                                       by_errors_.middleRows<2>(row.patch).transpose() * row.by_patch;
+    gradients[stretch_of(wall.scan)] += row.weight * row.error * by_errors;
   }
   for (std::size_t i = 1; i < T_.size(); ++i) {
     const MotionRow row = motion_row(i);
-    const MotionByErrors by_errors = row.by_errors - row.by_from * carried_.middleRows<3>(row.from) -
-                                     row.by_to * carried_.middleRows<3>(row.from + 3);
-    said[stretch_of(i)] += by_errors.transpose() * row.weight.cwiseProduct(row.error);
+    const MotionByErrors by_errors = row.by_errors - row.by_from * by_errors_.middleRows<3>(row.from) -
+                                     row.by_to * by_errors_.middleRows<3>(row.from + 3);
+    gradients[stretch_of(i)] += by_errors.transpose() * row.weight.cwiseProduct(row.error);
   }
   Small scatter = Small::Zero();
-  for (const SystematicErrors& s : said) scatter += s * s.transpose();
+  for (const SystematicErrors& g : gradients) scatter += g * g.transpose();
   return scatter;
 }
 
-void JointProblem::judge(JointEstimate& estimate) const {
+void JointProblem::summarize(JointEstimate& estimate) const {
   const Small by_model = reduced_.inverse();
   const Small by_scatter = by_model * scatter_of_stretches() * by_model;
   estimate.errors = errors_;
@@ -347,12 +347,12 @@ void JointProblem::judge(JointEstimate& estimate) const {
   estimate.wall_sigma_m = wall_sigma_m_;
 }
 
-/// Where the motion is hardly larger than its noise, an estimate hangs on how the two are weighed, and
-/// scatter does not show that: adds how far the answer moves when the noise is taken for half or twice as
-/// large.
-Status add_doubt_of_noise(const JointProblemTuning& tuning, JointProblem& problem, JointEstimate& estimate) {
+/// Where the motion is hardly larger than its noise, the estimate depends on the noise model, and scatter
+/// does not show that: adds the change of the estimate when the noise is half or twice as large.
+Status add_noise_uncertainty(const JointProblemTuning& tuning, JointProblem& problem,
+                             JointEstimate& estimate) {
   SystematicErrors furthest = SystematicErrors::Zero();
-  for (const double scale : {1.0 / tuning.noise_doubt, tuning.noise_doubt}) {
+  for (const double scale : {1.0 / tuning.noise_factor, tuning.noise_factor}) {
     problem.scale_position_noise(scale);
     for (int step = 0; step < tuning.steps_per_association; ++step)
       if (Status status = problem.step(); !status) return status;
@@ -362,18 +362,18 @@ Status add_doubt_of_noise(const JointProblemTuning& tuning, JointProblem& proble
   return {};
 }
 
-/// Poses and walls draw each other along, longest where little tells the errors: adds how far the answer went
-/// in the later half of finding walls anew.
-void add_doubt_of_settling(const SystematicErrors& halfway, JointEstimate& estimate) {
+/// Poses and walls converge together, slowest where the errors are hardly observable: adds the change of the
+/// estimate in the second half of the associations.
+void add_convergence_uncertainty(const SystematicErrors& halfway, JointEstimate& estimate) {
   const SystematicErrors moved = estimate.errors - halfway;
   estimate.sigma = (estimate.sigma.array().square() + moved.array().square()).sqrt();
 }
 
-/// Dead reckoning is a chord between its samples: much finer than these no time offset is known, whatever the
-/// scatter says.
-void add_doubt_of_sampling(double doubt_s, JointEstimate& estimate) {
+/// Dead reckoning is a chord between its samples, which limits the accuracy of a time offset; scatter does
+/// not show that.
+void add_sampling_uncertainty(double sampling_s, JointEstimate& estimate) {
   double& sigma_s = estimate.sigma(index_of(SystematicError::kRangeAge));
-  sigma_s = std::hypot(sigma_s, doubt_s);
+  sigma_s = std::hypot(sigma_s, sampling_s);
 }
 
 }  // namespace
@@ -395,10 +395,10 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
     }
   }
   JointEstimate estimate;
-  problem.judge(estimate);
-  if (Status status = add_doubt_of_noise(tuning, problem, estimate); !status) return status.error();
-  add_doubt_of_settling(halfway, estimate);
-  add_doubt_of_sampling(tuning.sampling_doubt * usual_interval_s(scans), estimate);
+  problem.summarize(estimate);
+  if (Status status = add_noise_uncertainty(tuning, problem, estimate); !status) return status.error();
+  add_convergence_uncertainty(halfway, estimate);
+  add_sampling_uncertainty(tuning.sampling_share * usual_interval_s(scans), estimate);
   return estimate;
 }
 

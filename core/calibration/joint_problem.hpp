@@ -17,7 +17,7 @@
 
 namespace swiftlet {
 
-/// What a run says about the systematic errors of its sensors.
+/// The systematic errors of the sensors, as estimated from a run.
 struct JointEstimate {
   SystematicErrors errors = SystematicErrors::Zero();
   SystematicErrors sigma = SystematicErrors::Zero();  ///< standard deviations
@@ -35,8 +35,8 @@ struct JointProblemTuning {
   double patch_distance_sigma_m = 1.0;
   double patch_turn_sigma_rad = 0.3;
   double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
-  double sampling_doubt = 0.05;       ///< of an interval; as seen in simulated flights
-  double noise_doubt = 2.0;           ///< the odometry's noise may be so many times larger or smaller
+  double sampling_share = 0.05;       ///< of an interval; as seen in simulated flights
+  double noise_factor = 2.0;          ///< the odometry's noise may be so many times larger or smaller
   Duration stretch = std::chrono::seconds(10);
   /// What is possible at all, in the order of SystematicError.
   std::array<double, kSystematicErrors> prior_sigma{0.3, 0.3, 0.3, radians(20.0), 0.3, radians(2.0)};
@@ -44,21 +44,22 @@ struct JointProblemTuning {
   SystematicMotionTuning motion;
 };
 
-/// Called between steps of long work with the share done, 0 to 1; false: stop.
+/// Called between steps of long work with the share done, 0 to 1; false stops the work.
 using GoOn = std::function<bool(double done)>;
 
-/// One least-squares problem over all that is unknown together: the pose of every scan, distance and
-/// direction of every stretch of wall, and the systematic errors. Returns hold poses to walls, dead reckoning
-/// less its systematic errors holds neighbouring scans together. So what walls and ranges leave open of the
-/// motion does not traversal for knowledge. Walls are found anew as the poses settle.
+/// One least-squares problem over all unknowns together: the pose of each scan, distance and direction of
+/// each wall patch, and the systematic errors. Its factors join returns with patches, and neighbouring scans
+/// by dead reckoning less its systematic errors. So a motion that walls and ranges do not determine adds no
+/// false information. Patches are found again as the poses converge.
 ///
-/// Standard deviations come from the scatter of what stretches of ten seconds say (a sandwich estimate with
-/// clusters, Liang & Zeger 1986), so errors within a stretch may be as correlated as they like; never less
-/// than the model's own; with the doubts about the odometry's noise, its sampling, and how far all has
-/// settled on top.
+/// Standard deviations follow from the scatter of the gradients of stretches of ten seconds (a sandwich
+/// estimate with clusters, Liang & Zeger 1986), which allows any correlation within a stretch; never less
+/// than the model's own; plus the effects of the odometry's noise model, of its sampling and of incomplete
+/// convergence.
 ///
 /// `T_map_body`: one pose per scan, close enough that traversals over one wall lie within a decimetre; in and
-/// out. Errors: kSolver; kTimeout where `go_on` said no. Allocates. Repeatable. Precondition: two scans.
+/// out. Errors: kSolver; kTimeout where `go_on` returned false. Allocates. Repeatable. Precondition: two
+/// scans.
 [[nodiscard]] Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans,
                                                      const SensorModel& sensor,
                                                      std::vector<Pose2>& T_map_body, const GoOn& go_on,

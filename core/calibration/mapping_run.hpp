@@ -13,13 +13,14 @@
 
 namespace swiftlet {
 
-/// A run through frontend and backend, the final pass included.
+/// A run through frontend and backend, with the batch refinement.
 struct MappingRun {
   std::vector<Pose2> T_map_body;  ///< one per sample
   BackendCounters counters;
 };
 
-/// Maps samples in lockstep with the default settings. Errors: kTimeout where `go_on` said no. Allocates.
+/// Maps samples in lockstep with the default settings. Errors: kTimeout where `go_on` returned false.
+/// Allocates.
 [[nodiscard]] Result<MappingRun> map_samples(std::span<const RangeSample> samples, const SensorModel& sensor,
                                              const BeamLayout& beams, const GoOn& go_on);
 

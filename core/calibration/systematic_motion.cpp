@@ -20,7 +20,7 @@ Eigen::Vector3d twist_between(const CalibrationScan& before, const CalibrationSc
          seconds_between(before, after);
 }
 
-/// Where a constant twist leads in a time; the arc's chord, to second order.
+/// The motion by a constant twist; the arc's chord, to second order.
 Pose2 moved(const Eigen::Vector3d& twist, double seconds) {
   const double half_turn_rad = 0.5 * twist(2) * seconds;
   const Point2 chord = Pose2(0.0, 0.0, half_turn_rad) * Point2{twist(0) * seconds, twist(1) * seconds};
@@ -58,7 +58,7 @@ Pose2 SystematicMotion::measured(std::size_t i) const {
 
 Pose2 SystematicMotion::predicted(std::size_t i, const Pose2& T_previous_this,
                                   const SystematicErrors& errors) const {
-  if (measured(i).vector().isZero(0.0)) return T_previous_this;  // as OdometryCalibration has it
+  if (measured(i).vector().isZero(0.0)) return T_previous_this;  // as in OdometryCalibration
   const auto error = [&](SystematicError which) { return errors(index_of(which)); };
   const double age_s = error(SystematicError::kRangeAge);
   const Pose2 T_moved = moved(twists_[i - 1], age_s).inverse() * T_previous_this * moved(twists_[i], age_s);

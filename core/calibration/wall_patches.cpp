@@ -52,7 +52,7 @@ std::optional<Point2> normal_of(const Moments2& moments, const WallPatchesTuning
   return scatter.normal();
 }
 
-/// Of the face around a return, towards who sees it.
+/// Of the face around a return, towards the sensor.
 std::optional<Point2> normal_at(const DrawnReturn& at, std::span<const DrawnReturn> returns,
                                 const ReturnsByCell& cells, const WallPatchesTuning& tuning) {
   const CellIndex low =
@@ -98,7 +98,7 @@ WallPatch mean_of(const std::vector<OnWall>& members) {
   return {{center.x_m / n, center.y_m / n}, {normal.x_m / length, normal.y_m / length}};
 }
 
-/// The one that most others agree with.
+/// The one with most others on its patch.
 const OnWall& best_seed(const std::vector<OnWall>& left, const WallPatchesTuning& tuning) {
   std::size_t best = 0;
   std::ptrdiff_t most = -1;
@@ -113,7 +113,7 @@ const OnWall& best_seed(const std::vector<OnWall>& left, const WallPatchesTuning
   return left[best];
 }
 
-/// Takes the returns of one cell apart into patches, the largest first.
+/// Splits the returns of one cell into patches, the largest first.
 void split_cell(std::vector<OnWall> left, const WallPatchesTuning& tuning, WallPatches& result) {
   while (left.size() >= tuning.min_returns) {
     const OnWall seed = best_seed(left, tuning);

@@ -17,16 +17,16 @@ struct DrawnReturn {
   Point2 direction_map;  ///< unit, of the beam
 };
 
-/// A short straight stretch of one face of a wall, seen by many returns.
+/// A short straight stretch of one face of a wall, with many returns on it.
 struct WallPatch {
   Point2 center_map;
-  Point2 normal_map;  ///< unit, towards those who see it
+  Point2 normal_map;  ///< unit, towards the sensor
 };
 
 struct WallPatches {
   static constexpr std::uint32_t kNone = UINT32_MAX;
   std::vector<WallPatch> patches;
-  std::vector<std::uint32_t> patch_of;  ///< of each return; kNone where it lies on no clear wall
+  std::vector<std::uint32_t> patch_of;  ///< of each return; kNone where it lies on no clear line
 };
 
 struct WallPatchesTuning {
@@ -40,7 +40,7 @@ struct WallPatchesTuning {
   std::size_t min_returns = 8;
 };
 
-/// Which returns show the same stretch of wall, about half a metre long. The two faces of a thin wall are two
+/// Groups returns on the same stretch of wall, about half a metre long. The two faces of a thin wall are two
 /// patches. Allocates. Repeatable.
 [[nodiscard]] WallPatches find_wall_patches(std::span<const DrawnReturn> returns,
                                             const WallPatchesTuning& tuning = {});

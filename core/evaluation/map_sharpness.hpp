@@ -15,8 +15,8 @@
 
 namespace swiftlet {
 
-/// How blurred a map is, without ground truth: distinct cells that returns fall into. Walls drawn twice take
-/// more cells. Longer and shorter returns than these count for nothing, the limits excluded.
+/// The blur of a map, without ground truth: the number of distinct cells with returns. Walls drawn twice take
+/// more cells. Only returns between these limits count, the limits excluded.
 struct MapSharpness {
   static constexpr float kMinRangeM = 0.05F;
   static constexpr float kMaxRangeM = 2.0F;
@@ -26,14 +26,14 @@ struct MapSharpness {
   std::size_t cells_20_cm = 0;  ///< of 0.2 m
 };
 
-/// Of samples drawn from the given poses, one a sample. Precondition: same size.
+/// Of samples drawn from the given poses, one for each sample. Precondition: same size.
 [[nodiscard]] MapSharpness map_sharpness(std::span<const RangeSample> samples,
                                          std::span<const Pose2> T_map_body, const BeamLayout& beams);
 
 /// A sample may be this much earlier or later than a path that it is drawn from: half a period, rounded up.
 inline constexpr Duration kPathMargin = std::chrono::milliseconds(60);
 
-/// What a flight looks like when drawn along a path.
+/// Of a flight drawn along a path.
 struct FlightSharpness {
   MapSharpness map;
   std::size_t drawn = 0;          ///< samples

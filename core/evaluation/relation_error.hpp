@@ -25,14 +25,14 @@ struct Spread {
   double max = 0.0;
 };
 
-/// How far motions were off. Without any, all is 0.
+/// Errors of motions. Without any, all is 0.
 struct MotionError {
   std::size_t count = 0;
   Spread translation_m;  ///< of the lengths of the translational parts
   Spread rotation_deg;   ///< of the absolute rotational parts
 };
 
-/// How an estimated path disagrees with true motions: all of them and by the time they span.
+/// Errors of an estimated path against true motions: all of them and by the time they span.
 struct RelationError {
   MotionError all;
   MotionError under_3_s;

@@ -12,12 +12,12 @@
 
 namespace swiftlet {
 
-/// Files round stamps: what lies closer names the same instant to the digit.
+/// Files round stamps: closer stamps are the same instant.
 inline constexpr Duration kExactStamp = std::chrono::microseconds(10);
-/// What lies farther off is another instant.
+/// Stamps farther apart are different instants.
 inline constexpr Duration kStampTolerance = std::chrono::milliseconds(2);
 
-/// A path as it was estimated or measured: poses in order of their stamps. Immutable.
+/// An estimated or measured path: poses in order of their stamps. Immutable.
 class StampedPath {
  public:
   /// Sorts by stamp; poses with equal stamps keep their order, and the first of them is the one found.
@@ -37,7 +37,7 @@ class StampedPath {
   std::vector<StampedPose> poses_;
 };
 
-/// What became of stamps that were looked for in a path; each stamp counts once.
+/// Counts of stamps by their match in a path; each stamp counts once.
 struct StampMatching {
   std::size_t exact = 0;            ///< within kExactStamp
   std::size_t near = 0;             ///< farther off, within kStampTolerance

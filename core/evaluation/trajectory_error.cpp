@@ -70,10 +70,10 @@ PathError path_error(const StampedPath& estimate, const StampedPath& truth) {
   std::vector<Point2> truth_m;
   for (const StampedPose& at : estimate.poses()) {
     stamps.push_back(at.stamp);
-    const StampedPose* known = truth.nearest(at.stamp);
-    if (known == nullptr) continue;
+    const StampedPose* true_pose = truth.nearest(at.stamp);
+    if (true_pose == nullptr) continue;
     estimate_m.push_back(at.pose.position());
-    truth_m.push_back(known->pose.position());
+    truth_m.push_back(true_pose->pose.position());
   }
   return {trajectory_error(estimate_m, truth_m), match_stamps(std::move(stamps), truth)};
 }

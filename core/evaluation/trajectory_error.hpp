@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// How far an estimated path lies from the true one after the best rigid alignment of the whole.
+/// Distance of an estimated path from the true one after the best rigid alignment of the whole.
 struct TrajectoryError {
   std::size_t pairs = 0;   ///< 0: nothing to compare, all else is 0
   double rmse_m = 0.0;     ///< the absolute trajectory error (ATE)

@@ -30,7 +30,7 @@ std::optional<BuildingAxis::Direction> BuildingAxis::direction_near(double yaw_r
   return Direction{yaw_rad - off_rad, robust / squared(tuning_.wall_sigma_rad)};
 }
 
-void BuildingAxis::learn(std::span<const WallDirection> walls) {
+void BuildingAxis::update(std::span<const WallDirection> walls) {
   const std::optional<WallAxis> seen = wall_axis(walls, tuning_.walls);
   if (!seen) return;
   const double seen_variance_rad2 = squared(seen->sigma_rad);

@@ -10,10 +10,10 @@
 
 namespace swiftlet {
 
-/// The axis that the walls of a building share, in the frontend's local frame, learnt from the walls in its
-/// window. A new wall near the axis most likely runs along it, and then tells the heading, which dead
-/// reckoning alone loses at every corner. In the spirit of the heuristic drift elimination of Borenstein &
-/// Ojeda 2010. Not in the paper.
+/// The axis that the walls of a building share, in the frontend's local frame, estimated from the landmarks
+/// in its window. A new wall near the axis most likely runs along it, and then gives the heading, which dead
+/// reckoning alone loses at every corner. Similar to the heuristic drift elimination of Borenstein & Ojeda
+/// 2010. Not in the paper.
 /// @note Fixed storage. One thread at a time.
 class BuildingAxis {
  public:
@@ -26,12 +26,12 @@ class BuildingAxis {
 
   /// The heading became uncertain by this much more.
   void turn(double yaw_variance_rad2) { heading_variance_rad2_ += yaw_variance_rad2; }
-  /// What the building says of a new wall that was seen along (or square to) `yaw_rad`: its direction near
-  /// that, or nothing where it is too far from the axis.
+  /// The expected direction of a new wall observed along (or at right angles to) `yaw_rad`; nothing where
+  /// that is too far from the axis.
   [[nodiscard]] std::optional<Direction> direction_near(double yaw_rad, double variance_rad2) const;
-  /// The walls in the window as they are estimated now. When they agree on another axis for so long that the
-  /// window holds no other, that becomes the axis.
-  void learn(std::span<const WallDirection> walls);
+  /// Updates the axis from the present estimates of the walls in the window. A different axis replaces it
+  /// after so many keyframes that the window has no other walls.
+  void update(std::span<const WallDirection> walls);
 
  private:
   [[nodiscard]] double gate_rad(double variance_rad2) const;

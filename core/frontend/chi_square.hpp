@@ -8,7 +8,7 @@
 namespace swiftlet {
 
 /// Inverse chi-square CDF at one confidence for whole degrees of freedom (eq. 19), tabulated when constructed
-/// so that asking is cheap and throws nothing.
+/// so that a lookup is cheap and throws nothing.
 class ChiSquareTable {
  public:
   static constexpr std::size_t kMaxDegrees = 512;

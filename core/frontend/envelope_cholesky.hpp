@@ -7,8 +7,8 @@
 
 namespace swiftlet {
 
-/// A symmetric matrix by its lower triangle, row by row; row i holds nothing left of column first_column[i].
-/// Poses in the order of time see walls of their own time only, so most of the triangle stays empty, and
+/// A symmetric matrix by its lower triangle, row by row; row i is empty left of column first_column[i]. Poses
+/// in the order of time share landmarks with their neighbours only, so most of the triangle stays empty, and
 /// Cholesky's factor fills no more than the same envelope (George & Liu, "Computer solution of large sparse
 /// positive definite systems", 1981, chapter 4). Borrows its storage.
 struct EnvelopeMatrix {
@@ -20,7 +20,7 @@ struct EnvelopeMatrix {
   [[nodiscard]] double* row(std::size_t i) const { return values + i * stride; }
 };
 
-/// Replaces A by L with A = L L^T. False when A is not positive definite: A is then spoilt. Allocates
+/// Replaces A by L with A = L L^T. False when A is not positive definite; A is then undefined. Allocates
 /// nothing.
 [[nodiscard]] bool factor_in_place(const EnvelopeMatrix& A);
 

@@ -22,14 +22,7 @@ namespace swiftlet {
 namespace {
 
 constexpr LandmarkGraphCapacity kCapacity{kMaxKeyframeWindow, 128, 1024};
-static_assert(kMaxLinesPerMultiscan <= kMaxWallsPerKeyframe);
-
-// So uncertain that the graph gets nothing from it, yet stays solvable.
-UncertainMotion unknown_motion() {
-  UncertainMotion motion;
-  motion.covariance.diagonal() << 1e4, 1e4, 1e2;
-  return motion;
-}
+static_assert(kMaxLinesPerMultiscan <= kMaxLandmarksPerKeyframe);
 
 }  // namespace
 
@@ -47,14 +40,14 @@ struct Frontend::State {
   void track_motion(const RangeSample& sample);
   [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
   void add_keyframe_pose(const RangeSample& sample);
-  void learn_drift();
+  void update_drift();
   void add_line_constraints();
   void insert(const LineSegment& segment);
-  void align_newest_wall();
-  void learn_axis();
+  void align_newest_landmark();
+  void update_axis();
   void optimize_or_roll_back();
   void report_keyframe(const RangeSample& sample);
-  void report_walls(Keyframe& keyframe) const;
+  void report_landmarks(Keyframe& keyframe) const;
 
   FrontendConfig config;
   OdometryNoise odometry_noise;
@@ -80,8 +73,8 @@ struct Frontend::State {
   KeyframeId newest{};
   KeyframeId first_of_segment{};
   std::uint32_t next_landmark = 0;
-  std::size_t associated = 0;      // observations of known walls in the present batch
-  std::size_t aligned = 0;         // new walls in it whose direction the building tells
+  std::size_t associated = 0;      // observations of earlier landmarks in the present batch
+  std::size_t aligned = 0;         // new landmarks in it with a prior on their direction
   double chi_square_before = 0.0;  // F without it
   FrontendCounters counters;
   FrontendStep step;
@@ -107,7 +100,7 @@ const FrontendStep& Frontend::process(const RangeSample& sample, const Pose2& T_
       s.graph.save(s.before_batch);                                        // line 7
       s.add_line_constraints();                                            // lines 4-6
       s.optimize_or_roll_back();                                           // lines 8-14
-      if (s.config.align_to_walls) s.learn_axis();
+      if (s.config.align_to_walls) s.update_axis();
     }
     s.report_keyframe(sample);
   }
@@ -150,7 +143,7 @@ bool Frontend::State::keyframe_due(const RangeSample& sample) const {
 void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
   ++counters.keyframes;
   if (graph.poses().empty()) {
-    keyframe_motion = unknown_motion();
+    keyframe_motion = {Pose2(), kUnknownMotion.covariance()};
     graph.add_first_pose(newest, Pose2());
   } else {
     ++newest;
@@ -158,17 +151,17 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
     axis.turn(since_keyframe.covariance(2, 2));
     viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
-    // Walls seen before say little about walls seen from here.
+    // Landmarks of the segment before are not associated in this one.
     if (sample.starts_segment) first_of_segment = newest;
     if (sample.starts_segment && !sample.odometry_ran_on) {
-      // Wherever the vehicle is now, odometry did not lead it there: it stays at the present estimate.
-      keyframe_motion.covariance = unknown_motion().covariance;
+      // Odometry does not lead to the vehicle's new place: the estimate stays where it is.
+      keyframe_motion.covariance = kUnknownMotion.covariance();
       viewpoint_covariance.setZero();
       axis = BuildingAxis(config.tuning.axis);
     }
-    learn_drift();
+    update_drift();
     if (graph.poses().size() == static_cast<std::size_t>(config.window_keyframes)) {
-      counters.landmarks_retired += graph.retire_oldest_pose();
+      counters.landmarks_retired += graph.marginalize_oldest_pose();
       ++counters.poses_retired;
     }
     const bool has_room = graph.try_add_pose(newest, keyframe_motion);
@@ -179,8 +172,9 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
   since_keyframe = UncertainMotion();
 }
 
-/// From a motion that enough has been seen of since; what was corrected already counts as error too.
-void Frontend::State::learn_drift() {
+/// From a motion that later keyframes have corrected since; the correction already applied is part of the
+/// error.
+void Frontend::State::update_drift() {
   const std::size_t lag = config.tuning.drift.lag_keyframes;
   if (graph.poses().size() < lag + 2) return;
   const PoseVertex& from = graph.poses()[graph.poses().size() - lag - 2];
@@ -188,8 +182,8 @@ void Frontend::State::learn_drift() {
   const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
   const double yaw_error_rad =
       motion_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
-  drift.learn(to.T_previous_body.x_m(), wrap_angle(to.T_previous_body.yaw_rad() - corrected_rad),
-              yaw_error_rad, 1.0 / to.information(2, 2));
+  drift.update(to.T_previous_body.x_m(), wrap_angle(to.T_previous_body.yaw_rad() - corrected_rad),
+               yaw_error_rad, 1.0 / to.information(2, 2));
 }
 
 void Frontend::State::add_line_constraints() {
@@ -218,32 +212,33 @@ void Frontend::State::insert(const LineSegment& segment) {
   } else {
     ++next_landmark;
     ++counters.landmarks_created;
-    if (config.align_to_walls) align_newest_wall();
+    if (config.align_to_walls) align_newest_landmark();
   }
 }
 
-void Frontend::State::align_newest_wall() {
-  const Landmark& wall = graph.landmarks().back();
-  const auto prior = axis.direction_near(wall.line_local.alpha_rad, wall.covariance(1, 1));
+void Frontend::State::align_newest_landmark() {
+  const Landmark& newest_landmark = graph.landmarks().back();
+  const auto prior =
+      axis.direction_near(newest_landmark.line_local.alpha_rad, newest_landmark.covariance(1, 1));
   if (!prior) return;
-  graph.hold_direction_of_newest(prior->yaw_rad, prior->information);
+  graph.add_direction_prior_to_newest(prior->yaw_rad, prior->information);
   ++aligned;
 }
 
-void Frontend::State::learn_axis() {
+void Frontend::State::update_axis() {
   FixedVector<WallDirection, kCapacity.landmarks> walls;
   for (const Landmark& wall : graph.landmarks()) {
     const double length_m =
         std::hypot(wall.end_local.x_m - wall.start_local.x_m, wall.end_local.y_m - wall.start_local.y_m);
     const bool has_room = walls.try_push_back({wall.line_local.alpha_rad, length_m});
-    SWIFTLET_CHECK(has_room, "there are no more walls than the graph holds");
+    SWIFTLET_CHECK(has_room, "the list has room for all landmarks of a graph");
   }
-  axis.learn(std::span(walls.begin(), walls.size()));
+  axis.update(std::span(walls.begin(), walls.size()));
 }
 
-// Eq. (19) on what the batch added to F: there the known walls' observations, and new walls' directions where
-// the building tells them, are the only degrees of freedom. On F as a whole, as in the paper, one bad batch
-// hides among many good ones, and then spoils the next.
+// Eq. (19) on the increase of F by the batch: its degrees of freedom are the observations of earlier
+// landmarks and the direction priors of new ones. On F as a whole, as in the paper, one bad batch is hidden
+// by many good ones and then makes the next one worse.
 void Frontend::State::optimize_or_roll_back() {
   if (associated + aligned > 0) {
     const double increase =
@@ -265,20 +260,20 @@ void Frontend::State::report_keyframe(const RangeSample& sample) {
   made.T_local_keyframe.clear();
   for (const PoseVertex& pose : graph.poses()) {
     const bool has_room = made.T_local_keyframe.try_push_back(pose.T_local_body);
-    SWIFTLET_CHECK(has_room, "a keyframe reports as many poses as the window holds");
+    SWIFTLET_CHECK(has_room, "a keyframe has room for the poses of a window");
   }
-  made.walls.clear();
-  if (config.use_landmarks) report_walls(made);
+  made.landmarks.clear();
+  if (config.use_landmarks) report_landmarks(made);
 }
 
-void Frontend::State::report_walls(Keyframe& keyframe) const {
+void Frontend::State::report_landmarks(Keyframe& keyframe) const {
   const Pose2 T_body_local = graph.poses().back().T_local_body.inverse();
   for (const Landmark& landmark : graph.landmarks()) {
     if (landmark.last_seen != newest) continue;
-    const WallUpdate wall{landmark.id, T_body_local * landmark.start_local,
-                          T_body_local * landmark.end_local};
-    const bool has_room = keyframe.walls.try_push_back(wall);
-    SWIFTLET_CHECK(has_room, "a keyframe reports as many walls as a multiscan shows");
+    const LandmarkUpdate update{landmark.id, T_body_local * landmark.start_local,
+                                T_body_local * landmark.end_local};
+    const bool has_room = keyframe.landmarks.try_push_back(update);
+    SWIFTLET_CHECK(has_room, "a keyframe has room for the lines of a multiscan");
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace swiftlet {
 
-/// What happened inside the frontend since the start; plain counts for status and reports.
+/// Counts since the start, for status and reports.
 struct FrontendCounters {
   std::uint64_t samples = 0;
   std::uint64_t keyframes = 0;
@@ -22,11 +22,11 @@ struct FrontendCounters {
   std::uint64_t landmarks_created = 0;
   std::uint64_t landmarks_retired = 0;
   std::uint64_t poses_retired = 0;
-  std::uint64_t refused_full = 0;  ///< landmarks, observations or points there was no room for
+  std::uint64_t refused_full = 0;  ///< landmarks, observations or points without room
 };
 
-/// Algorithm 1 of "Efficient 2D Graph SLAM for Sparse Sensing" (Zhou, Hu, Liu, Khan; IROS 2022): one call per
-/// sample, corrected pose at once, now and then a keyframe.
+/// Algorithm 1 of "Efficient 2D Graph SLAM for Sparse Sensing" (Zhou, Hu, Liu, Khan; IROS 2022): each call
+/// takes a sample and returns its pose, and a keyframe where the sample is one.
 /// @note Fixed storage: allocates in the constructor only. One thread at a time. Throws nothing.
 class Frontend {
  public:
@@ -36,7 +36,7 @@ class Frontend {
   Frontend(const Frontend&) = delete;
   Frontend& operator=(const Frontend&) = delete;
 
-  /// `T_map_local`: the map's correction by now, which only FrontendStep::T_map_body follows. The answer is
+  /// `T_map_local`: the present correction of the map, used for FrontendStep::T_map_body only. The result is
   /// valid until the next call.
   const FrontendStep& process(const RangeSample& sample, const Pose2& T_map_local = Pose2()) noexcept;
   [[nodiscard]] const FrontendCounters& counters() const noexcept;

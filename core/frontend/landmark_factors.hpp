@@ -25,9 +25,8 @@ MotionResidual motion_residual(const Pose2& T_from_to_measured, const Pose2& T_l
 /// Precondition: the covariance is positive definite.
 Eigen::Matrix3d motion_information(const Pose2& T_from_to_measured, const Eigen::Matrix3d& covariance);
 
-/// e_l of eq. (11): order (rho, alpha). The predicted line is taken with the sign of rho that turns its
-/// normal towards the measured one, so that a wall whose extension passes near the vehicle does not jump by
-/// pi.
+/// e_l of eq. (11): order (rho, alpha). The predicted line gets the sign of rho that turns its normal towards
+/// the measured one, so that a landmark whose extension is near the vehicle does not jump by pi.
 struct LineError {
   Eigen::Vector2d error;
   Eigen::Matrix<double, 2, 3> J_pose;  ///< d error / d T_local_body

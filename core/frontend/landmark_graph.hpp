@@ -18,7 +18,7 @@
 
 namespace swiftlet {
 
-/// How much a landmark graph can hold.
+/// Capacity of a landmark graph.
 struct LandmarkGraphCapacity {
   std::size_t poses = 0;
   std::size_t landmarks = 0;
@@ -34,7 +34,7 @@ struct PoseVertex {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of motion_residual()
 };
 
-/// What poses that have left the window knew about a wall.
+/// What poses that have left the window contributed to a landmark.
 struct LinePrior {
   Line2 mean_local;
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -43,14 +43,14 @@ struct LinePrior {
   Point2 end_local;
 };
 
-/// A wall.
+/// A line of the graph: a wall, or one of its two faces.
 struct Landmark {
   LandmarkId id{};
   Line2 line_local;  ///< not normalized: rho may go through 0 while it is estimated
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of line_local, the poses taken as known
   Point2 start_local;
   Point2 end_local;
-  Point2 seen_from_local;  ///< where the vehicle last saw it from: tells its two faces apart
+  Point2 seen_from_local;  ///< where it was last observed from: tells its two faces apart
   KeyframeId last_seen{};
   std::size_t observation_count = 0;  ///< in the window
   LinePrior prior;
@@ -65,10 +65,10 @@ struct LineObservation {
   Point2 end_body;
 };
 
-/// Poses, walls and what ties them together over a fixed lag (eq. 9 of "Efficient 2D Graph SLAM for Sparse
-/// Sensing", Zhou, Hu, Liu, Khan; IROS 2022). Other than the paper's, whose graph grows until a loop closes,
-/// it forgets its oldest pose and keeps what that pose knew of the walls as a prior on each. What does not
-/// fit is refused by the verb's return value; nothing grows or allocates. One thread at a time.
+/// Poses, landmarks and the factors between them over a fixed lag (eq. 9 of "Efficient 2D Graph SLAM for
+/// Sparse Sensing", Zhou, Hu, Liu, Khan; IROS 2022). Unlike the paper's, whose graph grows until a loop
+/// closes, it removes its oldest pose and keeps that pose's observations as a prior on each landmark. The
+/// try_ functions return false where there is no room; nothing grows or allocates. One thread at a time.
 template <LandmarkGraphCapacity kCapacity>
 class LandmarkGraph {
  public:
@@ -79,7 +79,7 @@ class LandmarkGraph {
   [[nodiscard]] std::span<const LineObservation> observations() const {
     return {observations_.data(), observations_.size()};
   }
-  /// Estimates only; the solver's.
+  /// For the solver, which changes the estimates only.
   [[nodiscard]] std::span<PoseVertex> poses() { return {poses_.data(), poses_.size()}; }
   [[nodiscard]] std::span<Landmark> landmarks() { return {landmarks_.data(), landmarks_.size()}; }
 
@@ -87,24 +87,23 @@ class LandmarkGraph {
   [[nodiscard]] bool try_add_pose(KeyframeId id, const UncertainMotion& motion);
   /// Appends the first keyframe, the gauge. Precondition: the graph is empty.
   void add_first_pose(KeyframeId id, const Pose2& T_local_body);
-  /// A new wall as the newest pose sees it, with that observation. False when either does not fit.
+  /// A new landmark, as observed by the newest pose, with that observation. False when either does not fit.
   [[nodiscard]] bool try_add_landmark(LandmarkId id, const LineSegment& segment);
-  /// The newest pose sees a known wall. False when full.
+  /// The newest pose observes a landmark again. False when full.
   [[nodiscard]] bool try_observe(std::size_t landmark, const LineSegment& segment);
-  /// What is known of the direction of the newest wall, which has no prior yet, before anything was seen of
-  /// it.
-  void hold_direction_of_newest(double alpha_local_rad, double information);
+  /// A prior on the direction of the newest landmark, which has none yet.
+  void add_direction_prior_to_newest(double alpha_local_rad, double information);
 
-  /// Folds what the oldest pose knows into the walls' priors and makes the next pose the gauge; walls that no
-  /// pose in the window sees any more are dropped. Returns how many. Precondition: more than one pose.
-  std::size_t retire_oldest_pose();
-  /// Algorithm 2: the end points of every wall from all its observations and its prior.
+  /// Folds the oldest pose's observations into the landmarks' priors and makes the next pose the gauge; drops
+  /// landmarks without an observation in the window. Returns how many. Precondition: more than one pose.
+  std::size_t marginalize_oldest_pose();
+  /// Algorithm 2: the end points of each landmark from all its observations and its prior.
   void update_end_points();
 
   /// F(X) of eq. (9) at the present estimates.
   [[nodiscard]] double chi_square() const;
 
-  /// Estimates and sizes to go back to: lines 7 and 12 of Algorithm 1.
+  /// Estimates and sizes for a rollback: lines 7 and 12 of Algorithm 1.
   class Checkpoint {
     friend class LandmarkGraph;
     FixedVector<PoseVertex, kCapacity.poses> poses_;
@@ -112,7 +111,7 @@ class LandmarkGraph {
     std::size_t observations_ = 0;
   };
   void save(Checkpoint& checkpoint) const;
-  /// Precondition: since save() things were added and estimates changed, but nothing was retired.
+  /// Precondition: since save() nothing was removed.
   void restore(const Checkpoint& checkpoint);
 
  private:

@@ -13,9 +13,9 @@ namespace swiftlet {
 
 template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraph<kCapacity>::add_first_pose(KeyframeId id, const Pose2& T_local_body) {
-  SWIFTLET_CHECK(poses_.empty(), "the first pose comes first");
+  SWIFTLET_CHECK(poses_.empty(), "the first pose is added to an empty graph");
   const bool has_room = poses_.try_push_back({id, T_local_body, Pose2(), Eigen::Matrix3d::Zero()});
-  SWIFTLET_CHECK(has_room, "a graph holds a pose");
+  SWIFTLET_CHECK(has_room, "a graph has room for a pose");
 }
 
 template <LandmarkGraphCapacity kCapacity>
@@ -53,14 +53,14 @@ bool LandmarkGraph<kCapacity>::try_observe(std::size_t landmark, const LineSegme
 }
 
 template <LandmarkGraphCapacity kCapacity>
-void LandmarkGraph<kCapacity>::hold_direction_of_newest(double alpha_local_rad, double information) {
+void LandmarkGraph<kCapacity>::add_direction_prior_to_newest(double alpha_local_rad, double information) {
   LinePrior& prior = landmarks_.back().prior;
   prior.mean_local = {landmarks_.back().line_local.rho_m, alpha_local_rad};
   prior.information(1, 1) = information;
 }
 
 template <LandmarkGraphCapacity kCapacity>
-std::size_t LandmarkGraph<kCapacity>::retire_oldest_pose() {
+std::size_t LandmarkGraph<kCapacity>::marginalize_oldest_pose() {
   SWIFTLET_CHECK(poses_.size() > 1, "a pose remains as gauge");
   std::size_t folded = 0;
   while (folded < observations_.size() && observations_[folded].pose == 0)
@@ -71,8 +71,8 @@ std::size_t LandmarkGraph<kCapacity>::retire_oldest_pose() {
   return drop_unseen_landmarks();
 }
 
-// The pose has no say any more and counts as known: its measured line, carried into the local frame, joins
-// the prior by information-weighted mean.
+// The pose is fixed from now on: its measured line, in the local frame, joins the prior by an
+// information-weighted mean.
 template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraph<kCapacity>::fold(const LineObservation& observation, const Pose2& T_local_body) {
   Landmark& landmark = landmarks_[observation.landmark];

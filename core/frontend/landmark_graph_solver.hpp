@@ -12,9 +12,9 @@
 
 namespace swiftlet {
 
-/// Minimises F(X) of eq. (9) by Levenberg-Marquardt. Each wall is eliminated on its own in a 2x2 block (Schur
-/// complement); what remains is one system over the poses, factored in place within its envelope. The oldest
-/// pose stays where it is.
+/// Minimises F(X) of eq. (9) by Levenberg-Marquardt. Each landmark is eliminated on its own in a 2x2 block
+/// (Schur complement); the remaining system over the poses is factored in place within its envelope. The
+/// oldest pose is fixed.
 /// @note Fixed storage. One thread at a time.
 template <LandmarkGraphCapacity kCapacity>
 class LandmarkGraphSolver {
@@ -26,15 +26,15 @@ class LandmarkGraphSolver {
     double chi_square = 0.0;  ///< reached
   };
 
-  /// At most `max_steps`, fewer when F settles. The estimates never get worse than they were.
+  /// At most `max_steps`, fewer when F converges. F never increases.
   Summary optimize(Graph& graph, int max_steps, const LandmarkGraphSolverTuning& tuning = {});
 
  private:
   static constexpr std::size_t kMaxUnknowns = 3 * kCapacity.poses;
   using Block3x2 = Eigen::Matrix<double, 3, 2>;
 
-  // The walls' part of the normal equations H dx = -g.
-  struct WallBlock {
+  // A landmark's part of the normal equations H dx = -g.
+  struct LandmarkBlock {
     Eigen::Matrix2d H;
     Eigen::Matrix2d H_inverse;  // damped
     Eigen::Vector2d g;
@@ -48,9 +48,9 @@ class LandmarkGraphSolver {
   void find_envelope(const Graph& graph);
   void linearize(const Graph& graph);
   void linearize_motions(const Graph& graph);
-  void linearize_walls(const Graph& graph);
+  void linearize_lines(const Graph& graph);
   void damp(const Graph& graph, double damping);
-  void eliminate_walls(const Graph& graph);
+  void eliminate_landmarks(const Graph& graph);
   [[nodiscard]] bool solve(const Graph& graph, double damping);
   void apply(Graph& graph) const;
 
@@ -66,9 +66,9 @@ class LandmarkGraphSolver {
   std::array<std::size_t, kMaxUnknowns> first_column_{};
   std::array<double, kMaxUnknowns> g_{};  // then the step
   std::size_t unknowns_ = 0;
-  std::array<WallBlock, kCapacity.landmarks> walls_;
-  std::array<Block3x2, kCapacity.observations> cross_;         // pose-wall block of each observation
-  std::array<std::size_t, kCapacity.observations> grouped_{};  // observations, wall by wall
+  std::array<LandmarkBlock, kCapacity.landmarks> blocks_;
+  std::array<Block3x2, kCapacity.observations> cross_;         // pose-landmark block of each observation
+  std::array<std::size_t, kCapacity.observations> grouped_{};  // observations, landmark by landmark
   std::array<std::size_t, kCapacity.landmarks + 1> group_begin_{};
   std::array<Pose2, kCapacity.poses> saved_poses_;
   std::array<Line2, kCapacity.landmarks> saved_lines_;

@@ -70,7 +70,7 @@ void LandmarkGraphSolver<kCapacity>::find_envelope(const Graph& graph) {
     std::fill_n(first_column_.begin() + static_cast<std::ptrdiff_t>(row_of(pose)), 3,
                 row_of(std::max<std::size_t>(pose - 1, 1)));
   for (std::size_t landmark = 0; landmark < graph.landmarks().size(); ++landmark) {
-    std::size_t first_pose = 0;  // the first that may move; a wall's observations are in the order of poses
+    std::size_t first_pose = 0;  // the first that may move; observations are in the order of poses
     for (const std::size_t index : seen_by(landmark)) {
       const std::size_t pose = graph.observations()[index].pose;
       if (pose == 0) continue;
@@ -88,8 +88,8 @@ void LandmarkGraphSolver<kCapacity>::clear(const Graph& graph) {
   std::fill_n(g_.begin(), unknowns_, 0.0);
   for (std::size_t i = 0; i < graph.landmarks().size(); ++i) {
     const Landmark& landmark = graph.landmarks()[i];
-    walls_[i].H = landmark.prior.information;
-    walls_[i].g =
+    blocks_[i].H = landmark.prior.information;
+    blocks_[i].g =
         -landmark.prior.information * line_difference(landmark.prior.mean_local, landmark.line_local);
   }
 }
@@ -108,7 +108,7 @@ template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraphSolver<kCapacity>::linearize(const Graph& graph) {
   clear(graph);
   linearize_motions(graph);
-  linearize_walls(graph);
+  linearize_lines(graph);
 }
 
 template <LandmarkGraphCapacity kCapacity>
@@ -131,14 +131,14 @@ void LandmarkGraphSolver<kCapacity>::linearize_motions(const Graph& graph) {
 }
 
 template <LandmarkGraphCapacity kCapacity>
-void LandmarkGraphSolver<kCapacity>::linearize_walls(const Graph& graph) {
+void LandmarkGraphSolver<kCapacity>::linearize_lines(const Graph& graph) {
   for (std::size_t i = 0; i < graph.observations().size(); ++i) {
     const LineObservation& seen = graph.observations()[i];
     const LineError line = line_error(seen.line_body, graph.poses()[seen.pose].T_local_body,
                                       graph.landmarks()[seen.landmark].line_local);
     const Eigen::Matrix2d weighted_line = seen.information * line.J_line;
-    walls_[seen.landmark].H += line.J_line.transpose() * weighted_line;
-    walls_[seen.landmark].g += weighted_line.transpose() * line.error;
+    blocks_[seen.landmark].H += line.J_line.transpose() * weighted_line;
+    blocks_[seen.landmark].g += weighted_line.transpose() * line.error;
     if (seen.pose == 0) continue;
     const std::size_t row = row_of(seen.pose);
     const Eigen::Matrix<double, 2, 3> weighted_pose = seen.information * line.J_pose;
@@ -151,20 +151,20 @@ void LandmarkGraphSolver<kCapacity>::linearize_walls(const Graph& graph) {
 template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraphSolver<kCapacity>::damp(const Graph& graph, double damping) {
   for (std::size_t i = 0; i < unknowns_; ++i) H_[i * kMaxUnknowns + i] *= 1.0 + damping;
-  for (std::size_t i = 0; i < graph.landmarks().size(); ++i) walls_[i].H.diagonal() *= 1.0 + damping;
+  for (std::size_t i = 0; i < graph.landmarks().size(); ++i) blocks_[i].H.diagonal() *= 1.0 + damping;
 }
 
 template <LandmarkGraphCapacity kCapacity>
-void LandmarkGraphSolver<kCapacity>::eliminate_walls(const Graph& graph) {
+void LandmarkGraphSolver<kCapacity>::eliminate_landmarks(const Graph& graph) {
   for (std::size_t landmark = 0; landmark < graph.landmarks().size(); ++landmark) {
-    WallBlock& wall = walls_[landmark];
-    wall.H_inverse = wall.H.inverse();
+    LandmarkBlock& block = blocks_[landmark];
+    block.H_inverse = block.H.inverse();
     const std::span<const std::size_t> seen_by_poses = seen_by(landmark);
     for (std::size_t a = 0; a < seen_by_poses.size(); ++a) {
       const std::size_t pose_a = graph.observations()[seen_by_poses[a]].pose;
       if (pose_a == 0) continue;
-      const Block3x2 scaled = cross_[seen_by_poses[a]] * wall.H_inverse;
-      Eigen::Map<Eigen::Vector3d>(g_.data() + row_of(pose_a)) -= scaled * wall.g;
+      const Block3x2 scaled = cross_[seen_by_poses[a]] * block.H_inverse;
+      Eigen::Map<Eigen::Vector3d>(g_.data() + row_of(pose_a)) -= scaled * block.g;
       for (std::size_t b = 0; b < seen_by_poses.size(); ++b) {
         const std::size_t pose_b = graph.observations()[seen_by_poses[b]].pose;
         if (pose_b == 0 || pose_b > pose_a) continue;
@@ -178,18 +178,18 @@ void LandmarkGraphSolver<kCapacity>::eliminate_walls(const Graph& graph) {
 template <LandmarkGraphCapacity kCapacity>
 bool LandmarkGraphSolver<kCapacity>::solve(const Graph& graph, double damping) {
   damp(graph, damping);
-  eliminate_walls(graph);
+  eliminate_landmarks(graph);
   const EnvelopeMatrix system{H_.data(), kMaxUnknowns, unknowns_, first_column_.data()};
   if (!factor_in_place(system)) return false;
   solve_in_place(system, std::span(g_.data(), unknowns_));
   for (std::size_t landmark = 0; landmark < graph.landmarks().size(); ++landmark) {
-    Eigen::Vector2d right = walls_[landmark].g;
+    Eigen::Vector2d right = blocks_[landmark].g;
     for (const std::size_t index : seen_by(landmark)) {
       const std::size_t pose = graph.observations()[index].pose;
       if (pose == 0) continue;
       right -= cross_[index].transpose() * Eigen::Map<const Eigen::Vector3d>(g_.data() + row_of(pose));
     }
-    walls_[landmark].step = walls_[landmark].H_inverse * right;
+    blocks_[landmark].step = blocks_[landmark].H_inverse * right;
   }
   return true;
 }
@@ -204,9 +204,9 @@ void LandmarkGraphSolver<kCapacity>::apply(Graph& graph) const {
   }
   const std::span<Landmark> landmarks = graph.landmarks();
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    landmarks[i].line_local.rho_m -= walls_[i].step(0);
-    landmarks[i].line_local.alpha_rad = wrap_angle(landmarks[i].line_local.alpha_rad - walls_[i].step(1));
-    landmarks[i].covariance = walls_[i].H_inverse;
+    landmarks[i].line_local.rho_m -= blocks_[i].step(0);
+    landmarks[i].line_local.alpha_rad = wrap_angle(landmarks[i].line_local.alpha_rad - blocks_[i].step(1));
+    landmarks[i].covariance = blocks_[i].H_inverse;
   }
 }
 

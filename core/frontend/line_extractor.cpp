@@ -48,9 +48,9 @@ std::size_t LineExtractor::extract(const MultiscanView& view, LineSegments& segm
   return left_out;
 }
 
-// Beam by beam, each in the order of time: a beam sweeps along a wall as the vehicle moves, and what it sees
-// in succession lies side by side. Ordered by bearing, surfaces that older poses saw behind nearer ones would
-// interleave. What several beams saw of one wall is put together by merge().
+// Beam by beam, each in the order of time: a beam sweeps along a wall as the vehicle moves, so its successive
+// points lie side by side. Ordered by bearing, surfaces behind nearer ones, observed from older poses, would
+// interleave. merge() joins the pieces of one wall from several beams.
 void LineExtractor::order_points(const MultiscanView& view) {
   order_.clear();
   for (std::size_t i = 0; i < view.points.size(); ++i) {
@@ -161,8 +161,8 @@ bool LineExtractor::try_merge(Piece& into, const Piece& other) const {
   return true;
 }
 
-// A beam that hardly leaves the line it draws followed something that moved along: a person, or an echo at
-// the end of its range.
+// A beam nearly parallel to its line observed something that moved along with it: a person, or an echo at the
+// end of its range.
 bool LineExtractor::is_grazed(const MultiscanView& view, const Piece& piece) const {
   const Line2 line = piece.fit.line();
   const double c = std::cos(line.alpha_rad);
@@ -206,7 +206,7 @@ Eigen::Matrix2d LineExtractor::covariance_of(const MultiscanView& view, const Pi
     if (scan < view.motion_covariance.size())  // eqs. (16) and (17), of all points so far together
       motions += J_motion * view.motion_covariance[scan] * J_motion.transpose();
   }
-  // A range that earlier multiscans used too is not new evidence.
+  // A range that earlier multiscans used already is not new evidence.
   const double reuse =
       static_cast<double>(view.scans) / static_cast<double>(std::max<std::size_t>(view.new_scans, 1));
   Eigen::Matrix2d covariance = reuse * ranges + motions;

@@ -15,10 +15,10 @@
 
 namespace swiftlet {
 
-/// Most line segments that one multiscan yields; further ones are counted and left out.
+/// Most lines that one multiscan yields; further ones are counted and left out.
 inline constexpr std::size_t kMaxLinesPerMultiscan = 32;
 
-/// A stretch of wall in the frame of the multiscan.
+/// A line as observed now, in the frame of the multiscan.
 struct LineSegment {
   Line2 line;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< of (rho, alpha): m^2, m rad, rad^2
@@ -30,23 +30,23 @@ using LineSegments = FixedVector<LineSegment, kMaxLinesPerMultiscan>;
 
 /// Split-and-merge on the points of a multiscan (Nguyen et al., "A comparison of line extraction algorithms
 /// using 2D laser rangefinder for indoor mobile robotics", IROS 2005). The points are split beam by beam in
-/// the order of time, as one beam sweeps along a wall while the vehicle moves, then merged across beams; so
-/// the same steps serve four beams with thirty scans and sixty beams with two. The covariance of a line is
+/// the order of time, as one beam sweeps along a wall while the vehicle moves, then merged across beams; this
+/// serves four beams with thirty scans and sixty beams with two. The covariance of a line is
 /// eqs. (15)-(18) of "Efficient 2D Graph SLAM for Sparse Sensing" (IROS 2022), with the error of each motion
-/// common to all points seen before it, ranges that an earlier multiscan used counted down, and a share for
-/// walls that are not ideal lines.
+/// common to all points observed before it, less weight for ranges that an earlier multiscan used, and a
+/// share for walls that are not ideal lines.
 /// @note Fixed storage. One thread at a time.
 class LineExtractor {
  public:
   LineExtractor(const FrontendConfig& config, double range_sigma_m);
 
-  /// Replaces `segments` by the lines in the view; they come in a fixed order. Returns how many there was no
-  /// room for.
+  /// Replaces `segments` by the lines in the view, in a fixed order. Returns the number of lines without
+  /// room.
   std::size_t extract(const MultiscanView& view, LineSegments& segments);
 
  private:
   static constexpr std::uint16_t kNoPiece = kMaxMultiscanPoints;
-  // A piece of wall while splitting and merging: all points with its label.
+  // A piece of a line while splitting and merging: all points with its label.
   struct Piece {
     LineFit fit;
     Point2 end_a;

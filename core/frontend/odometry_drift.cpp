@@ -15,7 +15,8 @@ OdometryDrift::OdometryDrift(const OdometryNoise& noise, const OdometryDriftTuni
                       .asDiagonal()),
       wander_(squared(tuning.wander_share) * covariance_) {}
 
-void OdometryDrift::learn(double forward_m, double turn_rad, double yaw_error_rad, double yaw_variance_rad2) {
+void OdometryDrift::update(double forward_m, double turn_rad, double yaw_error_rad,
+                           double yaw_variance_rad2) {
   const Eigen::Vector2d motion(forward_m, turn_rad);
   covariance_ += wander_;
   const double innovation_variance =

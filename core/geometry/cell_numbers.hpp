@@ -11,18 +11,18 @@
 
 namespace swiftlet {
 
-/// Numbers the square cells that points fall into, in the order in which they are first met: for thinning. A
-/// hash table of open addresses. Allocates in reset(), and keeps what it has.
+/// Numbers the square cells that points fall into, in the order of their first points: for thinning. A hash
+/// table with open addressing. Allocates in reset() and keeps its memory.
 class CellNumbers {
  public:
   explicit CellNumbers(double cell_m) : cell_m_(cell_m) {}
 
-  /// Forgets all cells; there will be at most so many.
-  void reset(std::size_t most) {
-    slots_.assign(std::bit_ceil(2 * most + 2), Slot{});
+  /// Removes all cells and makes room for so many.
+  void reset(std::size_t max_cells) {
+    slots_.assign(std::bit_ceil(2 * max_cells + 2), Slot{});
     count_ = 0;
   }
-  /// Precondition: not more cells than reset() was told.
+  /// Precondition: no more cells than reset() made room for.
   std::uint32_t number_of(const Point2& p) {
     const CellIndex at_p = cell_of(p, cell_m_);
     const std::uint64_t cell =
@@ -34,7 +34,7 @@ class CellNumbers {
       if (slot.cell == cell) return slot.number;
     }
   }
-  /// Whether the point's cell was not met before.
+  /// Whether the point is the first of its cell.
   bool is_first(const Point2& p) {
     const std::uint32_t before = count_;
     return number_of(p) == before;

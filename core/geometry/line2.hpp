@@ -23,7 +23,7 @@ struct Line2 {
   }
   /// The foot point a of eq. (6) of the paper: nearest to the origin.
   [[nodiscard]] Point2 foot() const { return {rho_m * std::cos(alpha_rad), rho_m * std::sin(alpha_rad)}; }
-  /// t of eq. (7): where the foot of the perpendicular from p lies along the line, in metres from foot().
+  /// t of eq. (7): position of the foot of the perpendicular from p along the line, in metres from foot().
   [[nodiscard]] double along_m(const Point2& p) const {
     return -p.x_m * std::sin(alpha_rad) + p.y_m * std::cos(alpha_rad);
   }
@@ -39,8 +39,8 @@ struct Line2 {
   }
 };
 
-/// f(x, l) of the paper (eq. 12) with its two derivatives: the line seen in b, given in a frame that T_b_a
-/// leads from. `flipped` tells that rho came out negative and was mended.
+/// f(x, l) of the paper (eq. 12) with its two derivatives: a line of frame a in frame b. `flipped`: rho came
+/// out negative and was normalized.
 struct TransformedLine {
   Line2 line_b;
   Eigen::Matrix<double, 2, 3> J_pose;  ///< d line_b / d T_b_a (x, y, yaw)

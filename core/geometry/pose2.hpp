@@ -15,8 +15,7 @@ struct Point2 {
 };
 
 /// Rigid motion of the plane, SE(2). Named by its frames, destination first: T_a_b * p_b == p_a and
-/// T_a_b * T_b_c == T_a_c. Trivially copyable, so it may cross a queue; wherever a pose is a vector its order
-/// is (x, y, yaw).
+/// T_a_b * T_b_c == T_a_c. Trivially copyable, so it may cross a queue. As a vector its order is (x, y, yaw).
 class Pose2 {
  public:
   /// Identity.
@@ -57,7 +56,7 @@ class Pose2 {
   double sin_yaw_ = 0.0;
 };
 
-/// T_a_b of two poses in one frame: where b stands as seen from a.
+/// T_a_b of two poses in one frame: the pose of b in the frame of a.
 inline Pose2 between(const Pose2& T_w_a, const Pose2& T_w_b) { return T_w_a.inverse() * T_w_b; }
 
 /// Derivative of T_a_b * T_b_c (as a vector) with respect to T_a_b (Smith, Self & Cheeseman 1990, J1 of the

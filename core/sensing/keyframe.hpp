@@ -15,14 +15,14 @@ namespace swiftlet {
 
 /// The most keyframes the frontend keeps optimising at once (its fixed lag).
 inline constexpr std::size_t kMaxKeyframeWindow = 64;
-/// The most walls one keyframe can report.
-inline constexpr std::size_t kMaxWallsPerKeyframe = 32;
+/// The most landmarks one keyframe can report.
+inline constexpr std::size_t kMaxLandmarksPerKeyframe = 32;
 
-/// A wall as the frontend now knows it, anchored to the keyframe that saw it last, so that later corrections
-/// of that keyframe carry it along. A later update of the same id replaces it.
-struct WallUpdate {
+/// The present estimate of a landmark, anchored to the keyframe that observed it last: later corrections of
+/// that keyframe move it along. A later update of the same id replaces it.
+struct LandmarkUpdate {
   LandmarkId id{};
-  Point2 start_keyframe;  ///< end points in the frame of the keyframe that reports it
+  Point2 start_keyframe;  ///< end points in the frame of the reporting keyframe
   Point2 end_keyframe;
 };
 
@@ -30,24 +30,24 @@ struct WallUpdate {
 struct Keyframe {
   KeyframeId id{};
   Covariance3 motion_covariance;  ///< of T_previous_this, in the frame of the previous keyframe
-  bool starts_segment = false;    ///< the motion from the previous keyframe was not watched
+  bool starts_segment = false;    ///< the motion from the previous keyframe was not measured
   bool odometry_ran_on = false;   ///< with starts_segment: dead reckoning guesses it; else it is unknown
-  /// The present estimates of the last keyframes, oldest first, this one last (eq. 20 takes the steps between
-  /// consecutive ones). Ids are consecutive.
+  /// The present estimates of the last keyframes, oldest first, this one last (eq. 20 uses the motions
+  /// between consecutive ones). Ids are consecutive.
   FixedVector<Pose2, kMaxKeyframeWindow> T_local_keyframe;
-  FixedVector<WallUpdate, kMaxWallsPerKeyframe> walls;
+  FixedVector<LandmarkUpdate, kMaxLandmarksPerKeyframe> landmarks;
 };
 
-/// What one sample brought: element of the queue from frontend to backend.
+/// The frontend's result for one sample: element of the queue from frontend to backend.
 struct FrontendStep {
   RangeSample sample;
-  Pose2 T_local_body;     ///< estimate at once, in the frontend's continuous frame
-  Pose2 T_map_body;       ///< the same in the map, as corrected by then
-  Pose2 T_dead_body;      ///< dead reckoning less its learnt drift: runs on through keyframes, stands still
-                          ///< where a segment starts without it
-  KeyframeId keyframe{};  ///< the newest keyframe, this sample's own if it made one
-  Pose2 T_keyframe_body;  ///< by dead reckoning from that keyframe
-  bool has_keyframe = false;  ///< `made` below is filled: this sample is the keyframe
+  Pose2 T_local_body;  ///< online estimate, in the frontend's continuous frame
+  Pose2 T_map_body;    ///< the same in the map, with the correction of that time
+  Pose2 T_dead_body;  ///< dead reckoning less its estimated drift: continues through keyframes, does not move
+                      ///< where a segment starts without it
+  KeyframeId keyframe{};      ///< the newest keyframe, this sample's own if it is one
+  Pose2 T_keyframe_body;      ///< by dead reckoning from that keyframe
+  bool has_keyframe = false;  ///< `made` below is filled: this sample is a keyframe
   Keyframe made;
 };
 static_assert(std::is_trivially_copyable_v<FrontendStep>);

@@ -13,9 +13,8 @@ Point2 rotated(const Pose2& T_a_b, const Point2& direction_b) {
           T_a_b.sin_yaw() * direction_b.x_m + T_a_b.cos_yaw() * direction_b.y_m};
 }
 
-// How an error of T_j_next, where T_present_j and T_present_next are known, displaces a point of the present
-// frame that was seen at or before j: the derivative of (v_x, v_y, w) with respect to (x, y, yaw) of
-// T_j_next.
+// The displacement of a point of the present frame, observed at or before j, by an error of T_j_next: the
+// derivative of (v_x, v_y, w) with respect to (x, y, yaw) of T_j_next.
 Eigen::Matrix3d displacement_jacobian(const Pose2& T_present_j, const Pose2& T_present_next) {
   Eigen::Matrix3d J;
   J << -T_present_j.cos_yaw(), T_present_j.sin_yaw(), -T_present_next.y_m(),  //

@@ -27,14 +27,14 @@ struct MultiscanPoint {
   std::uint8_t beam{};
 };
 
-/// What several scans saw, as seen from the present pose.
+/// The points of several scans in the frame of the present pose.
 struct MultiscanView {
   FixedVector<MultiscanPoint, kMaxMultiscanPoints> points;  ///< scan by scan, oldest first, beams in order
   /// The error of the motion from scan j to j + 1 displaces all points of the scans 0..j together, by
   /// p += (v_x, v_y) + w * (-p.y, p.x). Covariance of (v_x, v_y, w), m^2, m rad, rad^2. The newest scan is
   /// the present one: there is one entry fewer than scans.
   FixedVector<Eigen::Matrix3d, kMaxMultiscanScans> motion_covariance;
-  /// Scans that were not in the view assembled before.
+  /// Scans that were not in the previous view.
   std::size_t new_scans = 0;
   std::size_t scans = 0;
 };
@@ -45,10 +45,10 @@ struct MultiscanTuning {
 };
 
 /// The last k scans (eqs. 1-4 of "Efficient 2D Graph SLAM for Sparse Sensing", IROS 2022). The paper gives
-/// each point a covariance of its own (eqs. 16-18) and takes the points for uncorrelated; but an error of the
-/// dead reckoning moves all older points together, so the view keeps the error of each motion, from which eq.
-/// 16 follows for one point and the honest covariance of a line for many. Scans taken without moving add
-/// nothing and would push others out: they replace each other.
+/// each point a covariance of its own (eqs. 16-18) and treats the points as uncorrelated; but an error of the
+/// dead reckoning moves all older points together. So the view keeps the error of each motion, from which eq.
+/// 16 follows for one point and the covariance of a line for many. Scans without motion between them add
+/// nothing and would displace others: each replaces the one before.
 /// @note Fixed storage. One thread at a time.
 class Multiscan {
  public:
@@ -60,10 +60,10 @@ class Multiscan {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t scan_limit() const { return scan_limit_; }
 
-  /// Forgets all scans: the motion from them to the next is unknown.
+  /// Removes all scans: the motion from them to the next is unknown.
   void restart();
-  /// `step` leads from the sample added before to this one (ignored for the first after a restart). Hits only
-  /// are kept.
+  /// `step`: motion from the sample added before to this one (ignored for the first after a restart). Only
+  /// hits are kept.
   void add(const RangeSample& sample, const UncertainMotion& step);
   /// Moves all points into the frame of the newest sample (eq. 4).
   void assemble(MultiscanView& view);

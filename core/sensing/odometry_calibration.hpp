@@ -7,17 +7,17 @@
 
 namespace swiftlet {
 
-/// How dead reckoning errs always in the same way, known from a calibration: what a motion was, from what was
-/// measured of it. The default changes nothing. Nothing here allocates.
+/// Systematic errors of dead reckoning, from a calibration: converts a measured motion to the true one. The
+/// default changes nothing. Nothing here allocates.
 struct OdometryCalibration {
   double forward_scale = 1.0;       ///< metres moved per metre measured, along the body's x
   double sideways_scale = 1.0;      ///< the same along its y
-  double yaw_per_metre_rad = 0.0;   ///< yaw that is missed with every metre measured forward
+  double yaw_per_metre_rad = 0.0;   ///< yaw that is missed with each metre measured forward
   double yaw_per_radian = 0.0;      ///< share of each turn that is missed
-  double yaw_per_second_rad = 0.0;  ///< yaw that is missed with every second in motion
+  double yaw_per_second_rad = 0.0;  ///< yaw that is missed with each second in motion
 
-  /// The motion behind a measured one, which took `elapsed`. No motion at all stays none: the vehicle stood,
-  /// or sits on the ground with its estimate held.
+  /// The true motion of a measured one, which took `elapsed`. No motion stays none: the vehicle stood still,
+  /// or its odometry is frozen while it is landed.
   [[nodiscard]] Pose2 corrected(const Pose2& T_previous_this, Duration elapsed) const {
     const double x_m = T_previous_this.x_m();
     const double y_m = T_previous_this.y_m();

@@ -34,11 +34,15 @@ struct OdometrySigma {
 /// As OdometryNoise gives them, the floor of a motion of nothing too.
 OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion);
 
-/// One step of dead reckoning with its error; a step of exactly no motion has none (the vehicle stood still).
+/// Of a motion that was neither measured nor guessed: anywhere in a building, any heading. Weak enough that
+/// it decides nothing, strong enough that every system of equations stays solvable.
+inline constexpr OdometrySigma kUnknownMotion{100.0, 10.0};
+
+/// One step of dead reckoning with its error; exactly no motion has none (the vehicle stood still).
 UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this);
 
-/// A step of dead reckoning over a silence: the vehicle went from one end to the other, but nobody knows how.
-/// The error of an assumed detour, which grows with the silence, comes on top.
+/// A step of dead reckoning over a silence: the vehicle moved from one end to the other on an unknown path.
+/// The error of an assumed detour, which grows with the silence, is added.
 UncertainMotion unwatched_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration silence);
 
 /// T_a_b then T_b_c, their errors independent of one another.

@@ -18,23 +18,22 @@ inline constexpr std::size_t kMaxBeams = 64;
 enum class RangeStatus : std::uint8_t {
   kHit,       ///< distance_m is the distance to something
   kNoReturn,  ///< nothing within the sensor's range; distance_m is 0
-  kInvalid,   ///< no measurement: says nothing about the world; distance_m is 0
+  kInvalid,   ///< no measurement and no information; distance_m is 0
 };
 
-/// One instant of ranging with the dead reckoning of the same instant. What every input delivers and all of
-/// core works on. Trivially copyable: crosses queues by value.
+/// Ranges with the dead reckoning of the same time. Every input delivers these, and all of core works on
+/// them. Trivially copyable: crosses queues by value.
 struct RangeSample {
   std::uint32_t sequence = 0;  ///< counts up from 0 within a run
   DeviceTime measured_at{};  ///< when the ranges were measured: the packet's device time less the range's age
   HostTime stamp{};   ///< Unix time at which the packet holding the ranges was received (laser logs: the
-                      ///< scan's own stamp, exactly as logged). Names the sample in all outputs.
+                      ///< scan's own stamp, exactly as logged). Identifies the sample in all outputs.
   Pose2 T_odom_body;  ///< dead reckoning, interpolated to measured_at
   bool starts_segment =
       false;  ///< the dead reckoning does not continue from the sample before (first sample, reboot,
-              ///< silence, estimator reset): the step between the two is not a motion that was watched
-  bool odometry_ran_on =
-      false;  ///< with starts_segment: the link was silent, but the vehicle's dead reckoning ran on: the step
-              ///< is the best guess there is, over a path that nobody saw
+              ///< silence, estimator reset): the step between the two is not a measured motion
+  bool odometry_ran_on = false;  ///< with starts_segment: the link was silent, but the vehicle's dead
+                                 ///< reckoning ran on: the step is the best guess, over an unknown path
   std::uint8_t beam_count = 0;                ///< beams in use; bearings are in the BeamLayout of the input
   std::array<float, kMaxBeams> distance_m{};  ///< from body to the hit, along the beam
   std::array<RangeStatus, kMaxBeams> status{};

@@ -21,10 +21,10 @@ struct BeamLayout {
   static BeamLayout multiranger() { return {4, {0.0, kPi / 2.0, kPi, -kPi / 2.0}}; }
 };
 
-/// How dead reckoning errs. Independent errors of one step, as functions of its length d (m) and turn (rad):
+/// Errors of dead reckoning. Independent errors of one step, as functions of its length d (m) and turn (rad):
 /// sigma_xy = xy_floor + xy_per_metre * d + xy_per_radian * turn,
 /// sigma_yaw = yaw_floor + yaw_per_radian * turn + yaw_per_metre * d;
-/// and errors that persist over the whole run, which the frontend learns to take out (none where 0).
+/// and errors that persist over the whole run, which the frontend estimates and removes (none where 0).
 struct OdometryNoise {
   double xy_floor_m = 0.002;
   double xy_per_metre = 0.05;
@@ -32,11 +32,11 @@ struct OdometryNoise {
   double yaw_floor_rad = radians(0.05);
   double yaw_per_radian = 0.05;
   double yaw_per_metre_rad = radians(1.0);
-  double steps_err_together = 1.0;  ///< so many steps in a row share their error: what joins single steps
-                                    ///< weighs each that much less
+  double steps_err_together = 1.0;  ///< so many consecutive steps share their error: a sum over single steps
+                                    ///< gives each that much less weight
   double drift_yaw_per_metre_rad =
-      0.0;  ///< standard deviation of the yaw that is missed with every metre forward
-  double drift_yaw_per_radian = 0.0;        ///< ... and with every radian turned
+      0.0;  ///< standard deviation of the yaw that is missed with each metre forward
+  double drift_yaw_per_radian = 0.0;        ///< ... and with each radian turned
   double detour_speed_m_per_s = 0.5;        ///< how fast the vehicle may move while no packet arrives ...
   double detour_turn_rate_rad_per_s = 0.5;  ///< ... and turn
 };
@@ -44,16 +44,16 @@ struct OdometryNoise {
 /// Ranges that are older than this when their packet is stamped are no sensor's.
 inline constexpr Duration kMaxRangeAge = std::chrono::seconds(1);
 
-/// All that is particular to a sensor and its vehicle; the algorithm's settings are the same for all of them.
+/// All that depends on the sensor and its vehicle; the algorithm's settings are the same for all of them.
 struct SensorModel {
   double min_range_m = 0.05;    ///< shorter readings are invalid
   double max_range_m = 3.0;     ///< longer readings count as no return
   double range_sigma_m = 0.02;  ///< standard deviation of a reading, along the beam
   Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp
   OdometryNoise odometry;
-  OdometryCalibration odometry_calibration;  ///< taken out of each motion before anything else sees it
+  OdometryCalibration odometry_calibration;  ///< applied to each measured motion first
 
-  /// Crazyflie with Multiranger and flow deck. Its yaw comes from a gyro, so no error of it goes with travel.
+  /// Crazyflie with Multiranger and flow deck. Its yaw comes from a gyro: no error of it grows with travel.
   /// Readings are measured about 0.1 s before the packet that carries them.
   static SensorModel crazyflie() {
     SensorModel model;

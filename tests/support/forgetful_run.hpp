@@ -26,7 +26,7 @@ struct ForgetfulRun {
     for (const RangeSample& sample : samples) {
       FrontendStep step = frontend.process(sample);
       if (step.has_keyframe)  // and a wall that nobody sees again
-        (void)step.made.walls.try_push_back(
+        (void)step.made.landmarks.try_push_back(
             {make_id<LandmarkId>(100'000 + index_of(step.made.id)), {0.0, 1.0}, {0.5, 1.0}});
       const BackendUpdate update = backend.add(step);
       after_step(update);

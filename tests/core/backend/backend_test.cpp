@@ -345,8 +345,8 @@ TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
       const double end_m = keyframe;
       // Walls 9, 8, 7, ... and wall 20 always.
       const LandmarkId own{9 - keyframe};
-      ASSERT_TRUE(step.made.walls.try_push_back({LandmarkId{20}, {0.0, 1.0}, {end_m, 1.0}}));
-      ASSERT_TRUE(step.made.walls.try_push_back({own, {0.0, 2.0}, {end_m, 2.0}}));
+      ASSERT_TRUE(step.made.landmarks.try_push_back({LandmarkId{20}, {0.0, 1.0}, {end_m, 1.0}}));
+      ASSERT_TRUE(step.made.landmarks.try_push_back({own, {0.0, 2.0}, {end_m, 2.0}}));
       ++keyframe;
     }
     backend->add(step);
@@ -379,7 +379,7 @@ double yaw_error_at_the_end_rad(const std::vector<RangeSample>& samples, std::si
     for (const Point2& end : {Point2{here.x_m + 4.0, here.y_m}, Point2{here.x_m, here.y_m + 3.0}}) {
       const auto id = make_id<LandmarkId>(2 * index_of(step.made.id) + (end.y_m > here.y_m ? 1 : 0));
       if (step.has_keyframe)
-        (void)step.made.walls.try_push_back({id, T_body_world * here, T_body_world * end});
+        (void)step.made.landmarks.try_push_back({id, T_body_world * here, T_body_world * end});
     }
     backend->add(step);
   }

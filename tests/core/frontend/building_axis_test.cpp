@@ -19,9 +19,9 @@ std::vector<WallDirection> walls_along(double yaw_rad) {
   return {{yaw_rad, 4.0}, {yaw_rad + kPi / 2.0, 3.0}, {yaw_rad, 2.0}};
 }
 
-BuildingAxis that_learnt(double yaw_rad) {
+BuildingAxis estimated_axis(double yaw_rad) {
   BuildingAxis axis;
-  for (int i = 0; i < kWindow; ++i) axis.learn(walls_along(yaw_rad));
+  for (int i = 0; i < kWindow; ++i) axis.update(walls_along(yaw_rad));
   return axis;
 }
 
@@ -30,7 +30,7 @@ TEST(BuildingAxis, SaysNothingBeforeItHasSeenWalls) {
 }
 
 TEST(BuildingAxis, TellsTheDirectionOfAWallNearIt) {
-  const BuildingAxis axis = that_learnt(0.1);
+  const BuildingAxis axis = estimated_axis(0.1);
   for (const double quarter : {0.0, kPi / 2.0, kPi, -kPi / 2.0}) {
     const auto direction = axis.direction_near(0.1 + quarter + radians(3), kSeen);
     ASSERT_TRUE(direction);
@@ -41,13 +41,13 @@ TEST(BuildingAxis, TellsTheDirectionOfAWallNearIt) {
 }
 
 TEST(BuildingAxis, LeavesAWallAloneThatRunsAnotherWay) {
-  const BuildingAxis axis = that_learnt(0.1);
+  const BuildingAxis axis = estimated_axis(0.1);
   EXPECT_FALSE(axis.direction_near(0.1 + radians(30), kSeen));
   EXPECT_FALSE(axis.direction_near(0.1 - radians(15), kSeen));
 }
 
 TEST(BuildingAxis, BelievesAWallLessTheFartherOffItIs) {
-  const BuildingAxis axis = that_learnt(0.0);
+  const BuildingAxis axis = estimated_axis(0.0);
   const auto near = axis.direction_near(radians(0.5), kSeen);
   const auto far = axis.direction_near(radians(6), kSeen);
   ASSERT_TRUE(near && far);
@@ -55,7 +55,7 @@ TEST(BuildingAxis, BelievesAWallLessTheFartherOffItIs) {
 }
 
 TEST(BuildingAxis, LooksFartherAfterACornerThatTheHeadingMayHaveLostItselfIn) {
-  BuildingAxis axis = that_learnt(0.0);
+  BuildingAxis axis = estimated_axis(0.0);
   EXPECT_FALSE(axis.direction_near(radians(14), kSeen));
   axis.turn(radians(5) * radians(5));
   EXPECT_TRUE(axis.direction_near(radians(14), kSeen));
@@ -64,16 +64,16 @@ TEST(BuildingAxis, LooksFartherAfterACornerThatTheHeadingMayHaveLostItselfIn) {
 }
 
 TEST(BuildingAxis, IsNotMovedByAFewWallsOfAnotherAxis) {
-  BuildingAxis axis = that_learnt(0.0);
-  for (int i = 0; i < kWindow - 1; ++i) axis.learn(walls_along(radians(30)));
+  BuildingAxis axis = estimated_axis(0.0);
+  for (int i = 0; i < kWindow - 1; ++i) axis.update(walls_along(radians(30)));
   const auto direction = axis.direction_near(radians(1), kSeen);
   ASSERT_TRUE(direction);
   EXPECT_NEAR(direction->yaw_rad, 0.0, radians(0.1));
 }
 
 TEST(BuildingAxis, GoesOverToAnotherAxisWhenTheWindowHoldsNoOther) {
-  BuildingAxis axis = that_learnt(0.0);
-  for (int i = 0; i < kWindow; ++i) axis.learn(walls_along(radians(30)));
+  BuildingAxis axis = estimated_axis(0.0);
+  for (int i = 0; i < kWindow; ++i) axis.update(walls_along(radians(30)));
   const auto direction = axis.direction_near(radians(31), kSeen);
   ASSERT_TRUE(direction);
   EXPECT_NEAR(direction->yaw_rad, radians(30), radians(0.1));

@@ -144,9 +144,9 @@ TEST(Frontend, LearnsThatTheOdometryTurnsWithoutKnowingIt) {
   SensorModel drifting = SensorModel::crazyflie();
   drifting.odometry.drift_yaw_per_metre_rad = radians(2.0);
   const RoomDrive drive = drive_around(6, beams, drifting, {1.0, radians(2.0)}, 6);
-  const double learnt_m = relative_error(drive, run(drive, {}, beams, drifting).steps, 200).position_m;
-  const double not_learnt_m = relative_error(drive, run(drive).steps, 200).position_m;
-  EXPECT_LT(learnt_m, 0.6 * not_learnt_m);
+  const double corrected_m = relative_error(drive, run(drive, {}, beams, drifting).steps, 200).position_m;
+  const double uncorrected_m = relative_error(drive, run(drive).steps, 200).position_m;
+  EXPECT_LT(corrected_m, 0.6 * uncorrected_m);
 }
 
 TEST(Frontend, ReportsTheWallsThatAreThere) {
@@ -155,7 +155,7 @@ TEST(Frontend, ReportsTheWallsThatAreThere) {
   std::size_t reported = 0;
   for (const FrontendStep& step : run(drive).steps) {
     if (!step.has_keyframe) continue;
-    for (const WallUpdate& wall : step.made.walls) {
+    for (const LandmarkUpdate& wall : step.made.landmarks) {
       ++reported;
       const Pose2& T_room_body = drive.T_room_body[step.sample.sequence];
       double nearest_m = 1e9;
@@ -179,7 +179,7 @@ TEST(Frontend, KeepsOneWallOneLandmarkAsLongAsItIsInSight) {
   std::set<LandmarkId> seen_in_first_corridor;
   for (std::size_t i = 0; i < 230; ++i)
     if (out.steps[i].has_keyframe)
-      for (const WallUpdate& wall : out.steps[i].made.walls) seen_in_first_corridor.insert(wall.id);
+      for (const LandmarkUpdate& wall : out.steps[i].made.landmarks) seen_in_first_corridor.insert(wall.id);
   EXPECT_EQ(seen_in_first_corridor.size(), 2U);
 }
 
@@ -192,7 +192,7 @@ TEST(Frontend, DeadReckonsWithoutLandmarks) {
     ASSERT_NEAR(error.x_m(), 0.0, 1e-9);
     ASSERT_NEAR(error.y_m(), 0.0, 1e-9);
     ASSERT_NEAR(error.yaw_rad(), 0.0, 1e-9);
-    ASSERT_TRUE(step.made.walls.empty());
+    ASSERT_TRUE(step.made.landmarks.empty());
   }
 }
 
@@ -246,7 +246,8 @@ TEST(Frontend, TakesNoWallsAcrossAJump) {
   std::set<LandmarkId> after;
   for (std::size_t i = 0; i < 230; ++i)
     if (out.steps[i].has_keyframe)
-      for (const WallUpdate& wall : out.steps[i].made.walls) (i < kJump ? before : after).insert(wall.id);
+      for (const LandmarkUpdate& wall : out.steps[i].made.landmarks)
+        (i < kJump ? before : after).insert(wall.id);
   EXPECT_FALSE(before.empty());
   EXPECT_FALSE(after.empty());
   for (const LandmarkId id : after) EXPECT_EQ(before.count(id), 0U);
@@ -268,7 +269,7 @@ TEST(Frontend, GivesTheSameForTheSame) {
   const RunOutcome second = run(drive);
   for (std::size_t i = 0; i < first.steps.size(); ++i) {
     ASSERT_EQ(first.steps[i].T_local_body.vector(), second.steps[i].T_local_body.vector());
-    ASSERT_EQ(first.steps[i].made.walls.size(), second.steps[i].made.walls.size());
+    ASSERT_EQ(first.steps[i].made.landmarks.size(), second.steps[i].made.landmarks.size());
   }
 }
 

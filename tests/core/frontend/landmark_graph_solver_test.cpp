@@ -121,7 +121,7 @@ TEST_F(LandmarkGraphSolverTest, EndsWhereFHasNoSlope) {
 TEST_F(LandmarkGraphSolverTest, MindsThePriorsOfRetiredPoses) {
   build(1.0, 3);
   solver_->optimize(*graph_, 50);
-  for (int i = 0; i < 4; ++i) graph_->retire_oldest_pose();
+  for (int i = 0; i < 4; ++i) graph_->marginalize_oldest_pose();
   disturb(4);
   const double slope_before = steepest_slope();
   solver_->optimize(*graph_, 50);

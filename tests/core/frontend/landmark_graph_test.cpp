@@ -86,7 +86,7 @@ TEST(LandmarkGraph, KeepsWhatARetiredPoseKnewOfAWall) {
   ASSERT_TRUE(graph.try_add_landmark(LandmarkId{7}, wall_segment(-1.0, 0.5)));
   ASSERT_TRUE(graph.try_add_pose(KeyframeId{1}, forward(0.5)));
   ASSERT_TRUE(graph.try_observe(0, wall_segment(-0.5, 1.0)));
-  EXPECT_EQ(graph.retire_oldest_pose(), 0U);
+  EXPECT_EQ(graph.marginalize_oldest_pose(), 0U);
   ASSERT_EQ(graph.poses().size(), 1U);
   EXPECT_EQ(graph.poses()[0].id, KeyframeId{1});
   ASSERT_EQ(graph.observations().size(), 1U);
@@ -110,7 +110,7 @@ TEST(LandmarkGraph, FoldsObservationsIntoThePriorByTheirInformation) {
   ASSERT_TRUE(graph.try_observe(0, vague));
   ASSERT_TRUE(graph.try_add_pose(KeyframeId{1}, forward(0.5)));
   ASSERT_TRUE(graph.try_observe(0, precise));
-  graph.retire_oldest_pose();
+  graph.marginalize_oldest_pose();
   EXPECT_NEAR(graph.landmarks()[0].prior.mean_local.rho_m, (3.0 * 1.0 + 1.04) / 4.0, 1e-9);
   EXPECT_NEAR(graph.landmarks()[0].prior.information(0, 0), 1e4 * 4.0 / 3.0, 1e-3);
 }
@@ -121,7 +121,7 @@ TEST(LandmarkGraph, DropsWallsThatNoPoseSeesAnyMore) {
   ASSERT_TRUE(graph.try_add_landmark(LandmarkId{1}, wall_segment(0.0, 1.0, 1.0)));
   ASSERT_TRUE(graph.try_add_pose(KeyframeId{1}, forward(0.5)));
   ASSERT_TRUE(graph.try_observe(1, wall_segment(0.0, 1.0)));
-  EXPECT_EQ(graph.retire_oldest_pose(), 1U);
+  EXPECT_EQ(graph.marginalize_oldest_pose(), 1U);
   ASSERT_EQ(graph.landmarks().size(), 1U);
   EXPECT_EQ(graph.landmarks()[0].id, LandmarkId{1});
   EXPECT_EQ(graph.observations()[0].landmark, 0U);
@@ -143,7 +143,7 @@ TEST(LandmarkGraph, HoldsTheDirectionOfANewWall) {
   ASSERT_TRUE(graph.try_add_landmark(LandmarkId{0}, wall_segment(0.0, 1.0)));
   EXPECT_NEAR(graph.chi_square(), 0.0, 1e-12);
   const double off_rad = radians(2);
-  graph.hold_direction_of_newest(kPi / 2.0 + off_rad, 100.0);
+  graph.add_direction_prior_to_newest(kPi / 2.0 + off_rad, 100.0);
   EXPECT_NEAR(graph.chi_square(), 100.0 * off_rad * off_rad, 1e-9);
 }
 

@@ -15,7 +15,7 @@ OdometryDrift usual_drift() { return OdometryDrift(SensorModel::carmen_laser().o
 
 TEST(OdometryDrift, IsNeverFoundWhereTheSensorHasNone) {
   OdometryDrift drift(SensorModel::crazyflie().odometry);
-  for (int i = 0; i < 100; ++i) drift.learn(0.5, 0.2, 0.1, kNoiseVariance);
+  for (int i = 0; i < 100; ++i) drift.update(0.5, 0.2, 0.1, kNoiseVariance);
   EXPECT_EQ(drift.yaw_correction_rad(1.0, 1.0), 0.0);
 }
 
@@ -28,7 +28,7 @@ TEST(OdometryDrift, FindsASystematicYaw) {
   for (const double truth : {radians(2.5), radians(-1.5)}) {
     OdometryDrift drift = usual_drift();
     for (int i = 0; i < 200; ++i)
-      drift.learn(0.5, 0.0, 0.5 * truth + random.normal(radians(0.3)), kNoiseVariance);
+      drift.update(0.5, 0.0, 0.5 * truth + random.normal(radians(0.3)), kNoiseVariance);
     EXPECT_NEAR(drift.yaw_correction_rad(1.0, 0.0), truth, radians(0.4));
   }
 }
@@ -41,7 +41,7 @@ TEST(OdometryDrift, TellsYawPerMetreFromAShareOfTheTurns) {
   for (int i = 0; i < 600; ++i) {
     const double turn_rad = i % 3 == 0 ? radians(30.0) : 0.0;
     const double error_rad = 0.4 * kPerMetre + turn_rad * kPerRadian + random.normal(radians(0.2));
-    drift.learn(0.4, turn_rad, error_rad, kNoiseVariance);
+    drift.update(0.4, turn_rad, error_rad, kNoiseVariance);
   }
   EXPECT_NEAR(drift.yaw_correction_rad(1.0, 0.0), kPerMetre, radians(0.4));
   EXPECT_NEAR(drift.yaw_correction_rad(0.0, 1.0), kPerRadian, 0.02);
@@ -51,23 +51,23 @@ TEST(OdometryDrift, LeavesACalibratedVehicleAlone) {
   test::RandomGeometry random(2);
   OdometryDrift drift = usual_drift();
   for (int i = 0; i < 1000; ++i) {
-    drift.learn(0.5, 0.0, random.normal(radians(0.3)), kNoiseVariance);
+    drift.update(0.5, 0.0, random.normal(radians(0.3)), kNoiseVariance);
     ASSERT_NEAR(drift.yaw_correction_rad(1.0, 0.0), 0.0, radians(0.6)) << "after " << i;
   }
 }
 
 TEST(OdometryDrift, LearnsNothingFromStandingStillOrFromUnknownMotion) {
   OdometryDrift drift = usual_drift();
-  for (int i = 0; i < 100; ++i) drift.learn(0.0, 0.0, 0.5, kNoiseVariance);
+  for (int i = 0; i < 100; ++i) drift.update(0.0, 0.0, 0.5, kNoiseVariance);
   EXPECT_EQ(drift.yaw_correction_rad(1.0, 1.0), 0.0);
-  for (int i = 0; i < 100; ++i) drift.learn(0.5, 0.0, 0.5, 1e6);
+  for (int i = 0; i < 100; ++i) drift.update(0.5, 0.0, 0.5, 1e6);
   EXPECT_NEAR(drift.yaw_correction_rad(1.0, 0.0), 0.0, 1e-6);
 }
 
 TEST(OdometryDrift, FollowsAChange) {
   OdometryDrift drift = usual_drift();
-  for (int i = 0; i < 300; ++i) drift.learn(0.5, 0.0, 0.5 * radians(2.0), kNoiseVariance);
-  for (int i = 0; i < 500; ++i) drift.learn(0.5, 0.0, 0.5 * radians(-2.0), kNoiseVariance);
+  for (int i = 0; i < 300; ++i) drift.update(0.5, 0.0, 0.5 * radians(2.0), kNoiseVariance);
+  for (int i = 0; i < 500; ++i) drift.update(0.5, 0.0, 0.5 * radians(-2.0), kNoiseVariance);
   EXPECT_NEAR(drift.yaw_correction_rad(1.0, 0.0), radians(-2.0), radians(0.2));
 }
 
