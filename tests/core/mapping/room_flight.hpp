@@ -52,7 +52,7 @@ inline std::vector<FrontendStep> room_flight(int samples, double drift_per_keyfr
       const int window = std::min(keyframe + 1, static_cast<int>(kMaxKeyframeWindow));
       for (int k = keyframe - window + 1; k <= keyframe; ++k)
         (void)step.made.T_local_keyframe.try_push_back(pose_at(k * kSamplesPerKeyframe));
-      (void)step.made.walls.try_push_back({LandmarkId{0}, {-1.0, 2.0}, {1.0, 2.0}});
+      (void)step.made.landmarks.try_push_back({LandmarkId{0}, {-1.0, 2.0}, {1.0, 2.0}});
     }
     steps.push_back(step);
   }

@@ -15,7 +15,7 @@ namespace {
 
 /// Walls along and square to an axis, seen with an error.
 std::vector<WallDirection> square_walls(test::RandomGeometry& random, double axis_rad, int count,
-                                  double sigma_rad) {
+                                        double sigma_rad) {
   std::vector<WallDirection> walls;
   for (int i = 0; i < count; ++i)
     walls.push_back({axis_rad + i * kPi / 2.0 + random.normal(sigma_rad), random.uniform(0.5, 3.0)});
@@ -70,7 +70,8 @@ TEST(WallAxis, IsNoneWhereWallsRunEveryWay) {
 }
 
 TEST(WallAxis, IsNoneBetweenTwoAsGood) {
-  const std::vector<WallDirection> walls{{0.0, 4.0}, {kPi / 2.0, 4.0}, {radians(30), 4.0}, {radians(120), 3.8}};
+  const std::vector<WallDirection> walls{
+      {0.0, 4.0}, {kPi / 2.0, 4.0}, {radians(30), 4.0}, {radians(120), 3.8}};
   EXPECT_FALSE(wall_axis(walls));
 }
 
