@@ -25,10 +25,6 @@ struct DenseGraph {
 
 }  // namespace
 
-double PoseGraphOptimizer::scale(const RelativePoseFactor<PoseIndex>& factor, double chi_square) const {
-  return factor.is_closure ? dcs_scale(chi_square, dcs_phi_) : 1.0;
-}
-
 /// What weights of s^2 minimise: their integral over chi-square.
 double PoseGraphOptimizer::robust_cost(double chi_square) const {
   if (chi_square <= dcs_phi_) return chi_square;
@@ -45,7 +41,7 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const Opti
   while (report.iterations < most) {
     system_.set_zero();
     for (const RelativePoseFactor<PoseIndex>& f : dense.factors) {
-      const double s = scale(f, chi_square(f, poses));
+      const double s = f.is_closure ? dcs_scale(chi_square(f, poses), dcs_phi_) : 1.0;
       system_.add(f, s * s, poses);
     }
     for (const HeadingFactor<PoseIndex>& f : dense.headings) {
@@ -61,7 +57,7 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const Opti
   for (std::size_t i = 0; i < dense.factors.size(); ++i) {
     const RelativePoseFactor<PoseIndex>& f = dense.factors[i];
     const double error = chi_square(f, poses);
-    graph.factors.values()[i].dcs_scale = scale(f, error);
+    graph.factors.values()[i].dcs_scale = f.is_closure ? dcs_scale(error, dcs_phi_) : 1.0;
     report.chi_square += f.is_closure ? robust_cost(error) : error;
   }
   for (std::size_t i = 0; i < dense.headings.size(); ++i) {

@@ -33,7 +33,6 @@ class PoseGraphOptimizer {
   Result<OptimizeReport> optimize(PoseGraph& graph, const OptimizeEffort& effort = {});
 
  private:
-  [[nodiscard]] double scale(const RelativePoseFactor<PoseIndex>& factor, double chi_square) const;
   [[nodiscard]] double robust_cost(double chi_square) const;
 
   double dcs_phi_;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace swiftlet {
 namespace {
@@ -16,9 +18,9 @@ namespace {
 constexpr double kBelieved = 0.5;
 
 struct Step {
-  std::uint32_t to = 0;
-  Eigen::Matrix3d covariance;  ///< of T_here_to, in the frame of here
-  double length = 0.0;         ///< what Dijkstra adds up
+  PoseIndex to{};
+  std::uint32_t factor = 0;  ///< where it lies among the graph's
+  double length = 0.0;       ///< what Dijkstra adds up
 };
 
 double size_of(const Eigen::Matrix3d& covariance) {
@@ -26,24 +28,69 @@ double size_of(const Eigen::Matrix3d& covariance) {
   return covariance(0, 0) + covariance(1, 1) + kLeverM2 * covariance(2, 2);
 }
 
-std::vector<std::vector<Step>> steps_of(const PoseGraph& graph) {
-  std::vector<std::vector<Step>> steps(graph.T_map_keyframe.size());
-  for (const RelativePoseFactor<KeyframeId>& c : graph.factors.values()) {
-    if (c.is_closure && c.dcs_scale < kBelieved) continue;
-    // The factor's error is in the frame of `to`; T_from_to moves with it by R(from <- to).
-    const Eigen::Matrix3d in_to = c.information.inverse();
-    const Eigen::Matrix3d J = jacobian_compose_second(c.T_from_to);
-    const Eigen::Matrix3d forward = J * in_to * J.transpose();
-    const Eigen::Matrix3d J_back = jacobian_inverse(c.T_from_to);
-    const Eigen::Matrix3d backward = J_back * forward * J_back.transpose();
-    const double length = size_of(forward);
-    const std::uint32_t from = index_of(graph.pose_index(c.from));
-    const std::uint32_t to = index_of(graph.pose_index(c.to));
-    steps[from].push_back({to, forward, length});
-    steps[to].push_back({from, backward, length});
+/// The factors that count, as steps from pose to pose. Those from one pose lie together, in the order of the
+/// factors.
+class Steps {
+ public:
+  explicit Steps(const PoseGraph& graph)
+      : graph_(&graph), first_(graph.T_map_keyframe.size() + 2, 0), forward_(graph.factors.size()) {
+    std::uint32_t count = 0;
+    for (const Factor& f : graph.factors.values()) {
+      if (!is_used(f)) continue;
+      ++first_[index_of(graph.pose_index(f.from)) + 2];
+      ++first_[index_of(graph.pose_index(f.to)) + 2];
+      count += 2;
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    steps_.resize(count);
+    for (std::uint32_t i = 0; i < graph.factors.size(); ++i)
+      if (is_used(graph.factors.values()[i])) insert(i);
   }
-  return steps;
-}
+
+  [[nodiscard]] std::span<const Step> from(PoseIndex pose) const {
+    const std::uint32_t first = first_[index_of(pose)];
+    return std::span(steps_).subspan(first, first_[index_of(pose + 1)] - first);
+  }
+
+  /// Of T_here_to, in the frame of here.
+  [[nodiscard]] Eigen::Matrix3d covariance(const Step& step) const {
+    const Factor& f = graph_->factors.values()[step.factor];
+    const Eigen::Matrix3d& forward = forward_[step.factor];
+    if (step.to == graph_->pose_index(f.to)) return forward;
+    const Eigen::Matrix3d J_back = jacobian_inverse(f.T_from_to);
+    return J_back * forward * J_back.transpose();
+  }
+
+ private:
+  using Factor = RelativePoseFactor<KeyframeId>;
+
+  static bool is_used(const Factor& f) { return !f.is_closure || f.dcs_scale >= kBelieved; }
+
+  /// While filling, first_[p + 1] is where the next step from p goes.
+  void insert(std::uint32_t i) {
+    const Factor& f = graph_->factors.values()[i];
+    // The factor's error is in the frame of `to`; T_from_to moves with it by R(from <- to).
+    const Eigen::Matrix3d in_to = f.information.inverse();
+    const Eigen::Matrix3d J = jacobian_compose_second(f.T_from_to);
+    forward_[i] = J * in_to * J.transpose();
+    const double length = size_of(forward_[i]);
+    const PoseIndex from = graph_->pose_index(f.from);
+    const PoseIndex to = graph_->pose_index(f.to);
+    steps_[first_[index_of(from) + 1]++] = {to, i, length};
+    steps_[first_[index_of(to) + 1]++] = {from, i, length};
+  }
+
+  const PoseGraph* graph_;
+  std::vector<std::uint32_t> first_;  ///< by pose: of its steps
+  std::vector<Step> steps_;
+  std::vector<Eigen::Matrix3d> forward_;  ///< by factor: of T_from_to, in the frame of `from`
+};
+
+/// A step that led to a pose, and the pose it came from.
+struct Arrival {
+  PoseIndex here{};
+  Step step;
+};
 
 /// Variance of each keyframe's heading in the map by what the graph's headings say; infinite where nothing.
 std::vector<double> heading_variances(const PoseGraph& graph) {
@@ -64,32 +111,39 @@ void know_heading(double variance_rad2, Eigen::Matrix3d& covariance) {
 }  // namespace
 
 IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from) {
-  const auto steps = steps_of(graph);
+  const Steps steps(graph);
   const std::vector<double> headings = heading_variances(graph);
   const std::span<const Pose2> T_map_pose = graph.T_map_keyframe.values();
-  const std::uint32_t start = index_of(graph.pose_index(from));
-  std::vector<double> distance(T_map_pose.size(), std::numeric_limits<double>::infinity());
+  const PoseIndex start = graph.pose_index(from);
+  const Pose2 T_from_map = T_map_pose[index_of(start)].inverse();
   std::vector<Eigen::Matrix3d> covariance(T_map_pose.size(), Eigen::Matrix3d::Identity() * 1e6);
-  using Entry = std::pair<double, std::uint32_t>;
+  const auto carry_on = [&](const Arrival& arrival) {
+    const std::uint32_t here = index_of(arrival.here);
+    const std::uint32_t to = index_of(arrival.step.to);
+    const Pose2 T_from_here = T_from_map * T_map_pose[here];
+    const Eigen::Matrix3d J1 = jacobian_compose_first(T_from_here, between(T_map_pose[here], T_map_pose[to]));
+    const Eigen::Matrix3d J2 = jacobian_compose_second(T_from_here);
+    covariance[to] =
+        J1 * covariance[here] * J1.transpose() + J2 * steps.covariance(arrival.step) * J2.transpose();
+    know_heading(2.0 * headings[to], covariance[to]);  // that of `from` is known no better
+  };
+  std::vector<Arrival> arrivals(T_map_pose.size());
+  std::vector<double> distance(T_map_pose.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, PoseIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const Pose2 T_from_map = T_map_pose[start].inverse();
-  distance[start] = 0.0;
-  covariance[start].setZero();
+  distance[index_of(start)] = 0.0;
+  covariance[index_of(start)].setZero();
   open.emplace(0.0, start);
   while (!open.empty()) {
     const auto [length, here] = open.top();
     open.pop();
-    if (length > distance[here]) continue;
-    const Pose2 T_from_here = T_from_map * T_map_pose[here];
-    for (const Step& step : steps[here]) {
+    if (length > distance[index_of(here)]) continue;
+    if (here != start) carry_on(arrivals[index_of(here)]);
+    for (const Step& step : steps.from(here)) {
       const double candidate = length + step.length;
-      if (candidate >= distance[step.to]) continue;
-      distance[step.to] = candidate;
-      const Pose2 T_here_to = between(T_map_pose[here], T_map_pose[step.to]);
-      const Eigen::Matrix3d J1 = jacobian_compose_first(T_from_here, T_here_to);
-      const Eigen::Matrix3d J2 = jacobian_compose_second(T_from_here);
-      covariance[step.to] = J1 * covariance[here] * J1.transpose() + J2 * step.covariance * J2.transpose();
-      know_heading(2.0 * headings[step.to], covariance[step.to]);  // that of `from` is known no better
+      if (candidate >= distance[index_of(step.to)]) continue;
+      distance[index_of(step.to)] = candidate;
+      arrivals[index_of(step.to)] = {here, step};
       open.emplace(candidate, step.to);
     }
   }
