@@ -23,6 +23,53 @@ double lowest_score(const BackendConfig& config) {
   return std::min(config.min_group_score, config.min_score);
 }
 
+double widest_search_m(const BackendConfig& config) { return std::max(kMinRadiusM, config.search_radius_m); }
+
+/// Around a box.
+struct Disc {
+  Disc(const Point2& low, const Point2& high)
+      : centre{0.5 * (low.x_m + high.x_m), 0.5 * (low.y_m + high.y_m)},
+        radius_m(0.5 * std::hypot(high.x_m - low.x_m, high.y_m - low.y_m)) {}
+  Point2 centre;
+  double radius_m;
+};
+
+Disc disc_around(std::span<const Point2> points) {
+  Point2 low = points.front();
+  Point2 high = low;
+  for (const Point2& p : points) {
+    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
+    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  }
+  return {low, high};
+}
+
+/// Around the submap's box, grown by `reach_m` on all sides.
+Disc disc_around(const Submap& submap, double reach_m) {
+  return {{submap.low_m.x_m - reach_m, submap.low_m.y_m - reach_m},
+          {submap.high_m.x_m + reach_m, submap.high_m.y_m + reach_m}};
+}
+
+/// False only where the discs have no point in common, whatever the rounding.
+bool may_overlap(const Disc& a, const Pose2& T_map_a, const Disc& b, const Pose2& T_map_b) {
+  constexpr double kRoundingM = 1e-3;
+  const Point2 a_map = T_map_a * a.centre;
+  const Point2 b_map = T_map_b * b.centre;
+  return std::hypot(b_map.x_m - a_map.x_m, b_map.y_m - a_map.y_m) < a.radius_m + b.radius_m + kRoundingM;
+}
+
+/// Of the points, those that may fall on the submap somewhere in the window.
+double share_within(std::span<const Point2> points, const SearchWindow& window, const Submap& submap) {
+  const double r = window.radius_m;
+  std::size_t inside = 0;
+  for (const Point2& p : points) {
+    const Point2 q = window.T_submap_scan * p;
+    inside += q.x_m > submap.low_m.x_m - r && q.x_m < submap.high_m.x_m + r && q.y_m > submap.low_m.y_m - r &&
+              q.y_m < submap.high_m.y_m + r;
+  }
+  return static_cast<double>(inside) / static_cast<double>(points.size());
+}
+
 }  // namespace
 
 struct LoopDetector::Candidate {
@@ -46,9 +93,14 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph) const {
   std::vector<Candidate> found;
   std::optional<IdMap<KeyframeId, Eigen::Matrix3d>> covariances;
-  const Pose2 T_query_map = graph.T_map_keyframe[query].inverse();
+  const Pose2& T_map_query = graph.T_map_keyframe[query];
+  const Pose2 T_query_map = T_map_query.inverse();
+  const Disc around_points = disc_around(points_query);
   for (const auto& submap : submaps) {
     if (chain_->path_m(query) - submap->end_path_m < config_->min_travel_between_m) continue;
+    const Disc around_search = disc_around(*submap, widest_search_m(*config_));
+    if (!may_overlap(around_points, T_map_query, around_search, graph.T_map_keyframe[submap->reference]))
+      continue;
     if (!covariances) covariances = relative_covariances(graph, query);
     const Pose2 T_query_submap = T_query_map * graph.T_map_keyframe[submap->reference];
     // From the covariance of T_query_submap to that of its inverse, which is searched.
@@ -58,18 +110,10 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
-    c.window.radius_m =
-        std::clamp(kSigmas * sigma_m, kMinRadiusM, std::max(kMinRadiusM, config_->search_radius_m));
+    c.window.radius_m = std::clamp(kSigmas * sigma_m, kMinRadiusM, widest_search_m(*config_));
     c.window.angle_rad =
         std::clamp(kSigmas * std::sqrt(P(2, 2)), kMinSearchAngleRad, config_->search_angle_rad);
-    std::size_t inside = 0;
-    for (const Point2& p : points_query) {
-      const Point2 q = c.window.T_submap_scan * p;
-      const double r = c.window.radius_m;
-      inside += q.x_m > submap->low_m.x_m - r && q.x_m < submap->high_m.x_m + r &&
-                q.y_m > submap->low_m.y_m - r && q.y_m < submap->high_m.y_m + r;
-    }
-    c.overlap = static_cast<double>(inside) / static_cast<double>(points_query.size());
+    c.overlap = share_within(points_query, c.window, *submap);
     if (c.overlap >= lowest_score(*config_)) found.push_back(c);
   }
   const auto most = static_cast<std::size_t>(config_->max_candidates);

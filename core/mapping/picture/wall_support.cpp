@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -141,23 +142,25 @@ bool runs_along(const MapSegment& a, const MapSegment& b) {
   return std::abs(dot) > kSameWallCos * length_of(a) * length_of(b);
 }
 
-/// The stretches of `wall` that no wall of `told` covers.
-std::vector<MapSegment> untold_parts(const MapSegment& wall, const std::vector<MapSegment>& told) {
+/// The stretches of `wall` that none of the `drawn` walls covers.
+std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vector<MapSegment>& drawn) {
   const int steps = std::max(1, static_cast<int>(std::ceil(length_of(wall) / kProbeM)));
   const auto point_at = [&](int step) {
     const double share = static_cast<double>(step) / steps;
     return Point2{wall.start_map.x_m + share * (wall.end_map.x_m - wall.start_map.x_m),
                   wall.start_map.y_m + share * (wall.end_map.y_m - wall.start_map.y_m)};
   };
-  const auto is_told = [&](const Point2& p) {
-    return std::any_of(told.begin(), told.end(), [&](const MapSegment& t) {
-      return runs_along(wall, t) && distance_m(p, t) < kSameWallM;
-    });
+  std::vector<MapSegment> alongside;
+  std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(alongside),
+               [&](const MapSegment& other) { return runs_along(wall, other); });
+  const auto is_covered = [&](const Point2& p) {
+    return std::any_of(alongside.begin(), alongside.end(),
+                       [&](const MapSegment& other) { return distance_m(p, other) < kSameWallM; });
   };
   std::vector<MapSegment> parts;
   int first = 0;
   for (int step = 0; step <= steps + 1; ++step) {
-    if (step <= steps && !is_told(point_at(step))) continue;
+    if (step <= steps && !is_covered(point_at(step))) continue;
     const MapSegment part{point_at(first), point_at(std::max(first, step - 1))};
     if (length_of(part) >= kMinM) parts.push_back(part);
     first = step + 1;
@@ -170,12 +173,12 @@ std::vector<MapSegment> untold_parts(const MapSegment& wall, const std::vector<M
 std::vector<MapSegment> distinct_walls(std::vector<MapSegment> walls) {
   std::stable_sort(walls.begin(), walls.end(),
                    [](const MapSegment& a, const MapSegment& b) { return length_of(a) > length_of(b); });
-  std::vector<MapSegment> told;
+  std::vector<MapSegment> drawn;
   for (const MapSegment& wall : walls) {
-    const std::vector<MapSegment> parts = untold_parts(wall, told);
-    told.insert(told.end(), parts.begin(), parts.end());
+    const std::vector<MapSegment> parts = uncovered_parts(wall, drawn);
+    drawn.insert(drawn.end(), parts.begin(), parts.end());
   }
-  return told;
+  return drawn;
 }
 
 }  // namespace swiftlet
