@@ -62,7 +62,7 @@ Result<ReceivedSample> LinkSampleSource::next() {
   first_sample_.reset();
   if (!received) return received;
   const RangeSample& sample = received->sample;
-  if (live_) live_->see(sample.T_odom_body);
+  if (live_) live_->on_odometry(sample.T_odom_body);
   if (input_.truth)
     input_.truth->kept.push_back({sample.stamp, input_.truth->T_world_body_at(sample.measured_at)});
   return received;

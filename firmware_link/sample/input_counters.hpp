@@ -18,7 +18,7 @@ struct InputCounters {
   std::uint64_t gaps = 0;             ///< holes of more than 1.5 periods between range packets
   std::uint64_t missing_packets = 0;  ///< range packets those holes stand for
   std::uint64_t unpaired = 0;         ///< range packets without dead reckoning around them: dropped
-  std::uint64_t segments = 0;         ///< times the dead reckoning began anew (1 for an undisturbed run)
+  std::uint64_t segments = 0;         ///< starts of the dead reckoning (1 for an undisturbed run)
   std::uint64_t hits = 0;             ///< beams by status
   std::uint64_t no_returns = 0;
   std::uint64_t invalid = 0;

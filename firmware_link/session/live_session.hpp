@@ -37,7 +37,7 @@ class LiveSession {
   /// A packet from the vehicle; `record` if it is log data that can be read.
   void on_frame(const LinkFrame& frame, const std::optional<LogRecord>& record);
   /// The dead reckoning of each sample.
-  void see(const Pose2& T_odom_body) { monitor_.see(T_odom_body); }
+  void on_odometry(const Pose2& T_odom_body) { monitor_.on_odometry(T_odom_body); }
   /// As LogHandshake's: replies to be handled as if the vehicle had sent them now.
   [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return handshake_.take_cached_replies(); }
 

@@ -67,7 +67,7 @@ void VehicleMonitor::watch_ranges(const Ranges& ranges_mm, DeviceTime at) {
   ranges_are_frozen_ = at - *ranges_moved_at_ >= kFrozen;
 }
 
-void VehicleMonitor::see(const Pose2& T_odom_body) {
+void VehicleMonitor::on_odometry(const Pose2& T_odom_body) {
   if (health_.is_flying.value_or(true)) {
     T_odom_standing_.reset();
     return;

@@ -27,7 +27,7 @@ class VehicleMonitor {
 
   void on_frame(const LogRecord& record);
   /// The dead reckoning of each sample.
-  void see(const Pose2& T_odom_body);
+  void on_odometry(const Pose2& T_odom_body);
   [[nodiscard]] const VehicleHealth& health() const { return health_; }
   /// At most one of each kind in a connection; of frozen ranges, whenever they freeze.
   [[nodiscard]] std::optional<VehicleEvent> take_event();

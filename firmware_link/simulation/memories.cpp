@@ -11,7 +11,7 @@
 namespace swiftlet {
 namespace {
 
-// The firmware builds these headers anew: their link bits are 0.
+// The firmware builds these headers itself: their link bits are 0.
 constexpr std::uint8_t kInfoHeader = 0x40;
 constexpr std::uint8_t kReadHeader = 0x41;
 constexpr std::uint8_t kWriteHeader = 0x42;

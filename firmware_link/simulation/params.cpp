@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-// Headers that the firmware builds anew have their link bits 0; other answers keep those of the request.
+// Headers that the firmware builds itself have link bits 0; other answers keep those of the request.
 constexpr std::uint8_t kMiscHeader = 0x23;
 
 enum Channel : std::uint8_t { kTable = 0, kRead = 1, kWrite = 2, kMisc = 3 };

@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 // The firmware's answers about its tables of contents, version 2, on channel 0 of a port. It builds these
-// headers anew, so their link bits are 0; other answers keep those of the request.
+// headers itself, so their link bits are 0; other answers keep those of the request.
 
 /// Whether a packet of channel 0 requests the length of the table.
 inline bool asks_for_toc_info(std::span<const std::uint8_t> packet) {

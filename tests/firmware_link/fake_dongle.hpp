@@ -94,7 +94,7 @@ class FakeDongle final : public UsbBus {
   UsbOutcome reset_outcome = UsbOutcome::kDone;
   UsbOutcome request_outcome = UsbOutcome::kDone;
   FakeRadioVehicle vehicle;
-  std::function<bool()> receives_us = [] { return true; };
+  std::function<bool()> is_in_range = [] { return true; };
   std::deque<Fate> fates;                  ///< of the next packets; delivered beyond
   std::optional<std::uint8_t> raw_status;  ///< instead of the usual 0x01
   Duration exchange_time = std::chrono::milliseconds(1);
@@ -166,7 +166,7 @@ class FakeDongle final : public UsbBus {
     if (fate_ == Fate::kOutStalls) return {UsbOutcome::kStall, 0};
     packets.push_back({clock.now(), bytes});
     clock.sleep_for(exchange_time);
-    const bool is_received = receives_us() && fate_ != Fate::kPacketLost;
+    const bool is_received = is_in_range() && fate_ != Fate::kPacketLost;
     Bytes answer{0x00};
     if (is_received) {
       const Bytes payload = vehicle.on_frame(bytes);

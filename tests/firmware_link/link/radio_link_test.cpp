@@ -160,9 +160,9 @@ TEST_F(RadioLinkTest, GivesUpSafelinkAfterTenAnswersThatAreNoEcho) {
 TEST_F(RadioLinkTest, NeverRequestsSafelinkIfTheUserSwitchedItOff) {
   address_.safelink = false;
   static_cast<void>(listen(milliseconds(100)));
-  dongle_.receives_us = [] { return false; };
+  dongle_.is_in_range = [] { return false; };
   static_cast<void>(listen(seconds(3)));
-  dongle_.receives_us = [] { return true; };
+  dongle_.is_in_range = [] { return true; };
   static_cast<void>(listen(milliseconds(100)));
   EXPECT_EQ(safelink_requests(), 0);
   EXPECT_EQ(condition(), LinkCondition::kConnected);
@@ -279,7 +279,7 @@ TEST_F(RadioLinkTest, RequestsSafelinkAgainWhenRepeatsAreMixedWithIdleAnswers) {
 
 TEST_F(RadioLinkTest, ReportsSilenceAfterASecondAndContinuesToPollSlowly) {
   connect();
-  dongle_.receives_us = [] { return false; };
+  dongle_.is_in_range = [] { return false; };
   static_cast<void>(listen(milliseconds(900)));
   EXPECT_EQ(condition(), LinkCondition::kConnected);
   static_cast<void>(listen(milliseconds(200)));
@@ -293,13 +293,13 @@ TEST_F(RadioLinkTest, ReportsSilenceAfterASecondAndContinuesToPollSlowly) {
 
 TEST_F(RadioLinkTest, ConnectsAgainAfterASilenceWithoutTheRequestsFromBefore) {
   connect();
-  dongle_.receives_us = [] { return false; };
+  dongle_.is_in_range = [] { return false; };
   ASSERT_TRUE(link().send(Bytes{0x5C, 3}).ok());
   EXPECT_EQ(listen(milliseconds(20)).size(), 1U);
   ASSERT_TRUE(link().send(Bytes{0x5C, 4}).ok());
   static_cast<void>(listen(seconds(2)));
   dongle_.vehicle = FakeRadioVehicle{};  // it was off
-  dongle_.receives_us = [] { return true; };
+  dongle_.is_in_range = [] { return true; };
   ASSERT_TRUE(link().send(Bytes{0x5C, 5}).ok());
   const std::vector<LinkFrame> frames = listen(milliseconds(100));
   EXPECT_EQ(packets_of(frames, LinkDirection::kToVehicle), (std::vector<Bytes>{{0x50, 5}}));
@@ -314,9 +314,9 @@ TEST_F(RadioLinkTest, DeliversAPacketRepeatedAfterASilenceOnce) {
   EXPECT_EQ(listen(milliseconds(20)).size(), 1U);
   dongle_.vehicle.last = {0x52, 1};  // and repeats it after the silence
   dongle_.vehicle.down = 1;
-  dongle_.receives_us = [] { return false; };
+  dongle_.is_in_range = [] { return false; };
   static_cast<void>(listen(milliseconds(1100)));
-  dongle_.receives_us = [] { return true; };
+  dongle_.is_in_range = [] { return true; };
   EXPECT_TRUE(listen(milliseconds(100)).empty());
   EXPECT_EQ(link().statistics().duplicates, 1U);
 }
@@ -436,7 +436,7 @@ TEST_F(RadioLinkTest, ReportsAFaultWhileTheDongleFailsAfterEachOpening) {
     EXPECT_EQ(condition(), LinkCondition::kDeviceStalls);
   }
   dongle_.fates.clear();
-  dongle_.receives_us = [] { return false; };
+  dongle_.is_in_range = [] { return false; };
   static_cast<void>(listen(milliseconds(1500)));
   EXPECT_EQ(condition(), LinkCondition::kSilent) << "the dongle works again, no vehicle answers";
 }

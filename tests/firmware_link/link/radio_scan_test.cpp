@@ -32,7 +32,7 @@ class RadioScanTest : public testing::Test {
 TEST_F(RadioScanTest, FindsEachRateAndChannelThatAnswers) {
   wanted_.address = {1, 2, 3, 4, 5};
   std::set<std::pair<int, int>> asked;
-  dongle_.receives_us = [&] {
+  dongle_.is_in_range = [&] {
     asked.insert(rate_and_channel());
     return rate_and_channel() == std::pair(0, 125) || rate_and_channel() == std::pair(2, 80);
   };
@@ -51,7 +51,7 @@ TEST_F(RadioScanTest, FindsEachRateAndChannelThatAnswers) {
 }
 
 TEST_F(RadioScanTest, FindsNothingWithoutAVehicle) {
-  dongle_.receives_us = [] { return false; };
+  dongle_.is_in_range = [] { return false; };
   dongle_.fates = {Fate::kNeverAnswered, Fate::kInStalls};
   const auto scanned = scan_radio(dongle_, wanted_);
   ASSERT_EQ(scanned.index(), 0U);

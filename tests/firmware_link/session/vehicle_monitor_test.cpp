@@ -132,18 +132,18 @@ TEST_F(VehicleMonitorTest, WarnsOnceOfALowBattery) {
 
 TEST_F(VehicleMonitorTest, WarnsOfTheYawTrapWhenCarriedNotWhenFlownOrStanding) {
   on_state(kFlying, 3800);
-  monitor_.see(Pose2(0.0, 0.0, 0.0));
-  monitor_.see(Pose2(5.0, 0.0, 2.0));
+  monitor_.on_odometry(Pose2(0.0, 0.0, 0.0));
+  monitor_.on_odometry(Pose2(5.0, 0.0, 2.0));
   EXPECT_FALSE(monitor_.take_event().has_value());
   on_state(0, 3800);
-  monitor_.see(Pose2(5.0, 0.0, 2.0));
-  monitor_.see(Pose2(5.1, 0.0, 2.1));
+  monitor_.on_odometry(Pose2(5.0, 0.0, 2.0));
+  monitor_.on_odometry(Pose2(5.1, 0.0, 2.1));
   EXPECT_FALSE(monitor_.take_event().has_value());
-  monitor_.see(Pose2(5.1, 0.0, 2.7));
+  monitor_.on_odometry(Pose2(5.1, 0.0, 2.7));
   const auto event = monitor_.take_event();
   ASSERT_TRUE(event.has_value());
   EXPECT_EQ(event->kind, VehicleEvent::Kind::kYawTrap);
-  monitor_.see(Pose2(6.1, 0.0, 2.7));
+  monitor_.on_odometry(Pose2(6.1, 0.0, 2.7));
   EXPECT_FALSE(monitor_.take_event().has_value());
 }
 
