@@ -4,12 +4,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/pruning/pruning.hpp"
+#include "core/backend/store/frontend_estimates.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/sensing/keyframe.hpp"
@@ -25,17 +25,9 @@ struct MapCorrection {
   std::uint32_t version = 0;  ///< counts up whenever keyframes moved that were there before
 };
 
-/// A wall in the frame of the keyframe that saw it last.
-struct Wall {
-  LandmarkId id{};
-  KeyframeId anchor{};
-  Point2 start_keyframe;
-  Point2 end_keyframe;
-};
-
 struct BackendCounters {
   std::uint64_t scans = 0;
-  std::uint64_t scans_pruned = 0;  ///< of those, forgotten
+  std::uint64_t scans_pruned = 0;  ///< of those
   std::uint64_t keyframes = 0;
   std::uint64_t submaps = 0;
   std::uint64_t candidates_matched = 0;  ///< submaps searched
@@ -43,10 +35,10 @@ struct BackendCounters {
   std::uint64_t closures_dropped = 0;
   std::uint64_t optimizations = 0;
   std::uint64_t solver_failures = 0;
-  std::uint64_t windows_refined = 0;  ///< steps of refinement while flying that were kept
-  std::uint64_t windows_refused = 0;  ///< ... and that explained held-out returns worse
-  bool refined = false;               ///< the final refinement was done and kept
-  double held_out_before_m = 0.0;     ///< what it was judged by: distance of held-out returns from walls
+  std::uint64_t windows_refined = 0;  ///< windows of the online refinement that were accepted
+  std::uint64_t windows_refused = 0;  ///< ... that held-out returns refused
+  bool refined = false;               ///< the batch refinement was accepted
+  double held_out_before_m = 0.0;     ///< its criterion: distance of held-out returns from walls
   double held_out_after_m = 0.0;
 };
 
@@ -73,10 +65,10 @@ class Backend {
 
   /// Takes one frontend step; at keyframes looks for loops, optimises and refines one window.
   BackendUpdate add(const FrontendStep& step);
-  /// What is to be forgotten now; mostly empty, and always until there are config.max_scans scans. After
-  /// finish() never asked for.
+  /// What is to be pruned now; mostly empty, and always until there are config.max_scans scans. Precondition:
+  /// not after finish().
   [[nodiscard]] Pruning next_pruning();
-  /// Forgets it. Precondition: nothing was added since it was asked for.
+  /// Prunes it. Precondition: nothing was added since next_pruning().
   void prune(const Pruning& pruning);
   /// The final pass: last optimisation, false closures dropped, every scan's pose refined. Nothing may be
   /// added afterwards.
@@ -93,7 +85,7 @@ class Backend {
   [[nodiscard]] MapCorrection correction() const;
   [[nodiscard]] const IdMap<ClosureId, LoopClosure>& closures() const;
   [[nodiscard]] const std::vector<Wall>& walls() const;
-  [[nodiscard]] const BackendCounters& counters() const;
+  [[nodiscard]] BackendCounters counters() const;
 
  private:
   struct State;

@@ -134,19 +134,19 @@ FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<
   const std::vector<Point2> points =
       thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse());
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;
-  CrossCheck reverse(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
+  CrossCheck cross_check(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
   for (const Candidate& c : candidates(query, points, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
         CorrelativeMatcher(*c.submap, points, c.window).match(lowest_score(*config_));
-    if (!match || !reverse.holds(*c.submap, match->T_submap_scan_best)) continue;
-    (match->score < config_->min_score ? loops.maybe : loops.sure)
+    if (!match || !cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
+    (match->score < config_->min_score ? loops.tentative : loops.confirmed)
         .push_back({.from = c.submap->reference,
                     .to = query,
                     .T_from_to = match->T_submap_scan,
                     .covariance = Covariance3::from_matrix(match->covariance),
                     .score = match->score});
-    if (loops.sure.size() == kMaxClosures) break;
+    if (loops.confirmed.size() == kMaxClosures) break;
   }
   return loops;
 }

@@ -15,8 +15,8 @@ namespace swiftlet {
 
 /// What one query found.
 struct FoundLoops {
-  std::vector<LoopClosure> sure;   ///< scores of at least config.min_score: closures
-  std::vector<LoopClosure> maybe;  ///< of at least config.min_group_score: each alone proves nothing
+  std::vector<LoopClosure> confirmed;  ///< scores of at least config.min_score
+  std::vector<LoopClosure> tentative;  ///< ... of at least config.min_group_score: each alone proves nothing
 };
 
 /// Finds where the recent travel overlaps earlier submaps (Algorithm 3, lines 1-2).

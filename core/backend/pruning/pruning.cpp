@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/pruning/pruning.hpp"
-#include "core/backend/store/traversal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/backend/store/traversal.hpp"
+#include "core/sensing/keyframe.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -19,6 +21,7 @@ constexpr std::size_t kReturnsPerTraversal = 64;  // tell where a traversal was
 constexpr double kShareOfReturns = 0.9;           // decides: the rest are glances through doors
 constexpr std::size_t kOldestKept = 3;            // traversals in each tile, and ...
 constexpr std::size_t kNewestKept = 3;            // ... as many again
+constexpr double kPrunedShare = 0.05;             // of the most scans, at a time
 constexpr std::size_t kMinRun = 4;                // traversals: every hole needs ties on both sides
 // Of a tie: looser than what was known of the place.
 constexpr double kTieSigmaM = 0.1;
@@ -138,32 +141,62 @@ std::optional<KeyframeId> Coverage::anchor_of(const Traversal& traversal, double
 
 }  // namespace
 
-Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain, const KeyframePoses& T_map_keyframe,
-                     std::span<const KeyframeId> anchors, KeyframeId first_recent, double other_time_m,
-                     std::size_t scans_wanted) {
-  const Coverage coverage(scans, chain, T_map_keyframe, anchors);
+void Pruning::add(const PrunedTraversal& traversal, std::size_t scans_in_it) {
+  traversals.push_back(traversal);
+  keyframes.add(traversal.keyframes);
+  scans.add(traversal.scans);
+  ids.add(traversal_of(traversal.keyframes.first));
+  scan_count += scans_in_it;
+}
+
+Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recent,
+                     std::size_t scans_wanted) const {
+  const Coverage coverage(*scans_, *chain_, T_map_keyframe, anchors_);
   const std::vector<Traversal>& traversals = coverage.traversals();
   std::vector<std::optional<KeyframeId>> anchor_of(traversals.size());  // of those that can go
   for (std::size_t p = 0; p < traversals.size(); ++p)
     if (traversals[p].is_redundant && traversals[p].keyframes.end <= first_recent)
-      anchor_of[p] = coverage.anchor_of(traversals[p], other_time_m);
+      anchor_of[p] = coverage.anchor_of(traversals[p], config_->min_travel_between_m);
   Pruning pruning;
   for (std::size_t p = 0; p < traversals.size() && pruning.scan_count < scans_wanted;) {
     std::size_t end = p;
     while (end < traversals.size() && anchor_of[end]) ++end;
-    const bool widens_a_hole = end > p && (scans[traversals[p].scans.first].starts_segment ||
-                                           scans[traversals[end - 1].scans.end].starts_segment);
+    const bool widens_a_hole = end > p && ((*scans_)[traversals[p].scans.first].starts_segment ||
+                                           (*scans_)[traversals[end - 1].scans.end].starts_segment);
     if (end - p >= kMinRun || widens_a_hole) {
-      for (std::size_t k = p; k < end && pruning.scan_count < scans_wanted; ++k) {
-        pruning.traversals.push_back({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]});
-        pruning.keyframes.add(traversals[k].keyframes);
-        pruning.scans.add(traversals[k].scans);
-        pruning.scan_count += scans.all().count(traversals[k].scans);
-      }
+      for (std::size_t k = p; k < end && pruning.scan_count < scans_wanted; ++k)
+        pruning.add({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]},
+                    scans_->all().count(traversals[k].scans));
     }
     p = end + 1;
   }
   return pruning;
+}
+
+Pruning Pruner::next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use) {
+  if (scans_->size() < due_at_ || chain_->size() == 0) return {};
+  const auto at_a_time = static_cast<std::size_t>(kPrunedShare * config_->max_scans);
+  Pruning pruning =
+      plan(T_map_keyframe, first_recent(first_in_use), scans_->size() - max_scans() + at_a_time);
+  // Where little can be spared, there is nothing to be gained by asking at every step.
+  due_at_ = std::max(max_scans(), scans_->size() - pruning.scan_count + at_a_time);
+  return pruning;
+}
+
+void Pruner::keep_anchors(const Pruning& pruning) {
+  for (const PrunedTraversal& traversal : pruning.traversals) anchors_.push_back(traversal.anchor);
+  std::sort(anchors_.begin(), anchors_.end());
+  anchors_.erase(std::unique(anchors_.begin(), anchors_.end()), anchors_.end());
+}
+
+/// What the frontend may still change, is part of open submaps or multiscans, or tells the building's axis.
+KeyframeId Pruner::first_recent(KeyframeId first_in_use) const {
+  const IdMap<KeyframeId, ScanId>& keyframes = chain_->all();
+  const double recent_m = chain_->path_m(keyframes.last_id()) -
+                          2.0 * std::max(config_->submap_length_m, config_->multiscan_length_m);
+  std::size_t first = chain_->size() - std::min(chain_->size(), 2 * kMaxKeyframeWindow);
+  while (first > 0 && chain_->path_m(keyframes.id_at(first)) > recent_m) --first;
+  return std::min(keyframes.id_at(first), first_in_use);
 }
 
 std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning, const ScanStore& scans,

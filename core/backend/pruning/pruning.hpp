@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
+#include "core/backend/config/backend_config.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
@@ -13,32 +13,54 @@
 
 namespace swiftlet {
 
-/// A traversal over space that others know well, which is to be forgotten.
+/// A traversal over space that others cover as well, to be pruned.
 struct PrunedTraversal {
   IdRange<KeyframeId> keyframes;
   ScanRange scans;
   KeyframeId anchor{};  ///< the nearest keyframe of those that are never pruned, from another time
 };
 
-/// What the backend is to forget, so that memory and time do not grow with every lap through known space.
+/// What the backend is to prune, so that memory and time do not grow with every lap through known space.
 struct Pruning {
   std::vector<PrunedTraversal> traversals;  ///< in order
-  IdRanges<KeyframeId> keyframes;           ///< the same, of all traversals
+  IdRanges<KeyframeId> keyframes;           ///< of all traversals
   IdRanges<ScanId> scans;
+  IdRanges<TraversalId> ids;  ///< of the traversals
   std::size_t scan_count = 0;
   [[nodiscard]] bool empty() const { return traversals.empty(); }
+  void add(const PrunedTraversal& traversal, std::size_t scans_in_it);
 };
 
-/// Chooses traversals to prune, the oldest first, until at least `scans_wanted` scans are found or no more
-/// can be spared. The place of a traversal is told by coarse tiles: in those that hold most of its returns,
-/// several traversals before it and several after it must remain. So the first layers of every place stay for
-/// good, and hold the map together; the newest stay, because things change; what goes is in between. Like the
-/// trimming of overlapping submaps in Hess et al. 2016, but with the oldest kept. Nothing from keyframe
-/// `first_recent` on is touched, nor are the `anchors` of earlier prunings. `other_time_m`: travel between a
-/// traversal and its anchor. Allocates.
-[[nodiscard]] Pruning plan_pruning(const ScanStore& scans, const KeyframeChain& chain,
-                                   const KeyframePoses& T_map_keyframe, std::span<const KeyframeId> anchors,
-                                   KeyframeId first_recent, double other_time_m, std::size_t scans_wanted);
+/// Chooses traversals to prune, the oldest first. The place of a traversal is given by coarse tiles: in those
+/// that hold most of its returns, several traversals before it and several after it must remain. So the first
+/// layers of every place stay for good, and hold the map together; the newest stay, because things change;
+/// those in between go. Hess et al. 2016 trim overlapping submaps in a similar way, but keep only the newest.
+/// The anchors of earlier prunings stay. One thread at a time; allocates.
+class Pruner {
+ public:
+  /// Views its arguments, which must outlive it.
+  Pruner(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
+      : config_(&config), scans_(&scans), chain_(&chain), due_at_(max_scans()) {}
+
+  /// What is to be pruned now: mostly empty, and always until there are config.max_scans scans. Nothing from
+  /// keyframe `first_in_use` on is touched, nor what was travelled last.
+  [[nodiscard]] Pruning next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use);
+  /// At least `scans_wanted` scans, or all that can be spared of what lies before `first_recent`.
+  [[nodiscard]] Pruning plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recent,
+                             std::size_t scans_wanted) const;
+  /// The anchors of what is pruned stay from now on.
+  void keep_anchors(const Pruning& pruning);
+
+ private:
+  [[nodiscard]] std::size_t max_scans() const { return static_cast<std::size_t>(config_->max_scans); }
+  [[nodiscard]] KeyframeId first_recent(KeyframeId first_in_use) const;
+
+  const BackendConfig* config_;
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+  std::size_t due_at_ = 0;           // that many scans
+  std::vector<KeyframeId> anchors_;  // of what was pruned, ascending
+};
 
 /// What holds the ends of the holes to the anchors: from now on no motion does. An end that no motion held
 /// before has its tie from an earlier pruning, or needs none. Allocates.

@@ -52,7 +52,7 @@ class LoopDetectorTest : public testing::Test {
     return LoopDetector(config_, run_.scans(), run_.chain())
         .find(query, submaps_, graph_, run_.T_local_keyframe(), tried_);
   }
-  std::vector<LoopClosure> find(KeyframeId query) { return find_all(query).sure; }
+  std::vector<LoopClosure> find(KeyframeId query) { return find_all(query).confirmed; }
   [[nodiscard]] Pose2 T_from_to_truth(const LoopClosure& c) const {
     return between(run_.T_local_keyframe()[c.from], run_.T_local_keyframe()[c.to]);
   }
@@ -129,7 +129,7 @@ TEST_F(LoopDetectorTest, KeepsNoMatchBelowTheLeastScore) {
   config_.min_score = 0.999;
   EXPECT_TRUE(find(run_.newest()).empty());
   config_.min_group_score = 0.999;
-  EXPECT_THAT(find_all(run_.newest()).maybe, IsEmpty());
+  EXPECT_THAT(find_all(run_.newest()).tentative, IsEmpty());
 }
 
 TEST_F(LoopDetectorTest, WeakerMatchesMayBeLoops) {
@@ -138,9 +138,9 @@ TEST_F(LoopDetectorTest, WeakerMatchesMayBeLoops) {
   config_.min_group_score = 0.5;
   config_.min_score = 0.999;
   const FoundLoops found = find_all(run_.newest());
-  EXPECT_THAT(found.sure, IsEmpty());
-  EXPECT_GE(found.maybe.size(), count);
-  for (const LoopClosure& c : found.maybe) {
+  EXPECT_THAT(found.confirmed, IsEmpty());
+  EXPECT_GE(found.tentative.size(), count);
+  for (const LoopClosure& c : found.tentative) {
     EXPECT_GE(c.score, 0.5);
     EXPECT_LT(chi_square_against(c, T_from_to_truth(c)), kChiSquare99);
   }

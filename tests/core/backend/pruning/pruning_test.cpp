@@ -16,7 +16,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kOtherTimeM = 12.0;
+const double kOtherTimeM = BackendConfig().min_travel_between_m;
 
 std::vector<RangeSample> laps(int count) {
   TestVehicle vehicle = vehicle_at_start({}, 5);
@@ -30,10 +30,10 @@ const StoredRun& ten_laps() {
   return kRun;
 }
 
-Pruning plan(const StoredRun& run, std::size_t scans_wanted, std::span<const KeyframeId> anchors = {},
-             std::optional<KeyframeId> first_recent = {}) {
-  return plan_pruning(run.scans(), run.chain(), run.T_local_keyframe(), anchors,
-                      first_recent.value_or(run.newest()), kOtherTimeM, scans_wanted);
+Pruning plan(const StoredRun& run, std::size_t scans_wanted, std::optional<KeyframeId> first_recent = {}) {
+  const BackendConfig config;
+  return Pruner(config, run.scans(), run.chain())
+      .plan(run.T_local_keyframe(), first_recent.value_or(run.newest()), scans_wanted);
 }
 
 double lap_of(const StoredRun& run, KeyframeId keyframe) {
@@ -74,8 +74,8 @@ TEST(Pruning, LeavesALookIntoARoomThatNoOtherPassSaw) {
   KeyframePoses T_map_keyframe;
   for (const ScanId scan : run.chain().all().values())
     T_map_keyframe.push_back(vehicle.T_world_body()[index_of(scan)]);
-  const Pruning all =
-      plan_pruning(run.scans(), run.chain(), T_map_keyframe, {}, run.newest(), kOtherTimeM, 1'000'000);
+  const BackendConfig config;
+  const Pruning all = Pruner(config, run.scans(), run.chain()).plan(T_map_keyframe, run.newest(), 1'000'000);
   ASSERT_FALSE(all.empty());
   for (const PrunedTraversal& traversal : all.traversals)
     EXPECT_TRUE(traversal.scans.end <= first || traversal.scans.first >= end)
@@ -125,9 +125,7 @@ TEST(Pruning, AHoleThatGrowsIsTiedAtItsNewEndOnly) {
   const IdRange<KeyframeId> next{hole.end, hole.end + kKeyframesPerTraversal};
   ASSERT_FALSE(begun.keyframes.contains(next.end)) << "not the next hole's";
   Pruning grown;
-  grown.traversals.push_back({next, ten_laps().chain().scans_of(next), begun.traversals.front().anchor});
-  grown.keyframes.add(next);
-  grown.scans.add(ten_laps().chain().scans_of(next));
+  grown.add({next, ten_laps().chain().scans_of(next), begun.traversals.front().anchor}, 1);
   const auto more = ties_around(grown, scans, T_map_keyframe);
   ASSERT_EQ(more.size(), 1U);
   EXPECT_EQ(more.front().to, next.end);
@@ -136,12 +134,35 @@ TEST(Pruning, AHoleThatGrowsIsTiedAtItsNewEndOnly) {
 TEST(Pruning, LeavesAnchorsOfEarlierOnesAndWhatIsRecent) {
   const Pruning before = plan(ten_laps(), 1'000'000);
   const KeyframeId kept = before.traversals[3].keyframes.first + 1;
-  const Pruning after = plan(ten_laps(), 1'000'000, std::vector{kept});
+  Pruning earlier;
+  earlier.add({{}, {}, kept}, 0);
+  const BackendConfig config;
+  Pruner pruner(config, ten_laps().scans(), ten_laps().chain());
+  pruner.keep_anchors(earlier);
   EXPECT_TRUE(before.keyframes.contains(kept));
-  EXPECT_FALSE(after.keyframes.contains(kept));
+  EXPECT_FALSE(
+      pruner.plan(ten_laps().T_local_keyframe(), ten_laps().newest(), 1'000'000).keyframes.contains(kept));
   const KeyframeId recent = before.traversals[before.traversals.size() / 2].keyframes.first;
-  for (const PrunedTraversal& traversal : plan(ten_laps(), 1'000'000, {}, recent).traversals)
+  for (const PrunedTraversal& traversal : plan(ten_laps(), 1'000'000, recent).traversals)
     EXPECT_LE(traversal.keyframes.end, recent);
+}
+
+TEST(Pruning, IsDueOnceThereAreMoreScansThanAllowed) {
+  BackendConfig config;
+  const auto count = static_cast<int>(ten_laps().scans().size());
+  config.max_scans = count + 1;
+  const KeyframeId end = ten_laps().chain().all().end_id();
+  EXPECT_TRUE(Pruner(config, ten_laps().scans(), ten_laps().chain())
+                  .next(ten_laps().T_local_keyframe(), end)
+                  .empty());
+  config.max_scans = count - 10;
+  Pruner pruner(config, ten_laps().scans(), ten_laps().chain());
+  const Pruning pruning = pruner.next(ten_laps().T_local_keyframe(), end);
+  EXPECT_GE(pruning.scan_count, 10U + static_cast<std::size_t>(count) / 21);
+  EXPECT_TRUE(Pruner(config, ten_laps().scans(), ten_laps().chain())
+                  .next(ten_laps().T_local_keyframe(), pruning.traversals.front().keyframes.first)
+                  .empty())
+      << "all of it lies behind what is in use";
 }
 
 }  // namespace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/backend/loop_closing/closure_groups.hpp"
+#include "core/backend/loop_closing/loop_closure.hpp"
+#include "core/backend/loop_closing/loop_detector.hpp"
+#include "core/backend/loop_closing/submap.hpp"
+#include "core/backend/pose_graph/keyframe_graph.hpp"
+
+namespace swiftlet {
+
+struct LoopCloserCounters {
+  std::uint64_t submaps = 0;
+  std::uint64_t candidates_matched = 0;  ///< submaps searched
+  std::uint64_t closures_dropped = 0;
+};
+
+/// Builds submaps, looks for loops, and adds closures to the graph: confirmed matches at once, tentative ones
+/// once a group of them agrees. One thread at a time; allocates.
+class LoopCloser {
+ public:
+  /// Views its arguments, which must outlive it.
+  LoopCloser(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain);
+
+  /// Builds the submaps that end at the newest keyframe.
+  void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
+  /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
+  std::uint32_t close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
+  /// Takes over what DCS makes of each closure.
+  void take_scales(const PoseGraph& graph);
+  /// Drops the closure that DCS scales down most, if any lies below config.drop_scale. False: none does.
+  bool drop_worst(KeyframeGraph& graph);
+  /// Submaps go with the keyframe that is their frame, closures with either end; tentative matches are
+  /// forgotten.
+  void erase(const IdRanges<KeyframeId>& pruned);
+
+  [[nodiscard]] const IdMap<ClosureId, LoopClosure>& closures() const { return closures_; }
+  /// Where the oldest submap begins that is not yet complete.
+  [[nodiscard]] std::optional<KeyframeId> open_since() const;
+  [[nodiscard]] const LoopCloserCounters& counters() const { return counters_; }
+
+ private:
+  void accept(LoopClosure closure, KeyframeGraph& graph);
+  void accept_group(std::span<const LoopClosure> group, KeyframeGraph& graph);
+
+  const BackendConfig* config_;
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+  LoopDetector detector_;
+  ClosureGroups groups_;
+  std::vector<KeyframeId> open_submaps_;  // where those being travelled begin
+  std::vector<std::shared_ptr<const Submap>> submaps_;
+  IdMap<ClosureId, LoopClosure> closures_;
+  LoopCloserCounters counters_;
+};
+
+}  // namespace swiftlet

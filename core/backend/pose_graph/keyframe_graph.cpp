@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pose_graph/keyframe_graph.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <utility>
+
+#include "core/backend/pose_graph/relative_uncertainty.hpp"
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+// New factors that the graph had expected wait for others ...
+constexpr double kExpectedChiSquare = 1.0;
+constexpr std::uint32_t kMaxKeyframesWaiting = 8;
+// ... and until the end of the run solutions need not be exact: the next keyframe goes on.
+constexpr double kLiveStep = 1e-3;
+constexpr OptimizeEffort kLiveEffort{kLiveStep, 4};
+constexpr OptimizeEffort kTrialEffort{kLiveStep, 10};
+// Of a group, chi-square a closure: half of the three that a closure's degrees of freedom would allow, for
+// the covariances of matches are wide.
+constexpr double kMaxMisfit = 1.5;
+constexpr double kLostHeadingRad = radians(15);  // more than this, motion alone does not know the heading
+
+/// Of a motion that nobody measured.
+Eigen::Matrix3d unknown_motion_information() { return Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal(); }
+
+/// Chi-square a factor.
+double misfit(std::span<const RelativePoseFactor<KeyframeId>> group, const KeyframePoses& T_map_keyframe) {
+  double sum = 0.0;
+  for (const RelativePoseFactor<KeyframeId>& factor : group) sum += chi_square(factor, T_map_keyframe);
+  return sum / static_cast<double>(group.size());
+}
+
+}  // namespace
+
+KeyframeGraph::KeyframeGraph(const BackendConfig& config, const KeyframeChain& chain)
+    : config_(&config), chain_(&chain), optimizer_(config.dcs_phi, config.optimizer_iterations) {}
+
+void KeyframeGraph::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
+  const auto steps = static_cast<std::uint32_t>(made.T_local_keyframe.size() - 1);
+  for (KeyframeId id = made.id - steps; id < made.id; ++id) {
+    if (const std::optional<FactorId> step = motion_factor_[id])
+      graph_.factors[*step].T_from_to = between(T_local_keyframe[id - 1], T_local_keyframe[id]);
+  }
+  add_motion(made, T_local_keyframe);
+  predict_new_poses();
+}
+
+void KeyframeGraph::add_motion(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
+  graph_.T_map_keyframe.push_back(T_local_keyframe[made.id]);
+  motion_factor_.push_back({});
+  if (made.id == T_local_keyframe.first_id()) return;
+  RelativePoseFactor<KeyframeId> step;
+  step.from = T_local_keyframe.previous(made.id);
+  step.to = made.id;
+  step.T_from_to = between(T_local_keyframe[step.from], T_local_keyframe[step.to]);
+  step.information = made.starts_segment && !made.odometry_ran_on
+                         ? unknown_motion_information()
+                         : residual_information(step.T_from_to, made.motion_covariance.matrix());
+  motion_factor_[made.id] = graph_.factors.push_back(step);
+}
+
+void KeyframeGraph::predict_new_poses() {
+  KeyframePoses& T_map = graph_.T_map_keyframe;
+  for (KeyframeId k = T_map.next(optimized_upto_); k < T_map.end_id(); k = T_map.next(k))
+    T_map[k] = T_map[T_map.previous(k)] * motion_to(k).T_from_to;
+}
+
+/// Uncertainty of the heading from one keyframe to a later one by motion alone, or, where motion loses it, by
+/// the whole graph: closures may have recovered it.
+double KeyframeGraph::yaw_variance_rad2(KeyframeId from, KeyframeId to) const {
+  double variance_rad2 = 0.0;
+  for (KeyframeId k = from; k != to;) {
+    k = motion_factor_.next(k);
+    variance_rad2 += motion_to(k).information.inverse()(2, 2);
+  }
+  return variance_rad2 < kLostHeadingRad * kLostHeadingRad ? variance_rad2
+                                                           : relative_covariances(graph_, from)[to](2, 2);
+}
+
+void KeyframeGraph::observe_building_axis(const FrontendEstimates& estimates) {
+  const KeyframeId newest = graph_.T_map_keyframe.last_id();
+  const double here_m = chain_->path_m(newest);
+  if (!config_->align_to_walls || here_m - axis_observed_at_m_ < 0.5 * config_->submap_length_m) return;
+  axis_observed_at_m_ = here_m;
+  const std::optional<WallAxis> axis = estimates.wall_axis_around_newest(*chain_, config_->submap_length_m);
+  if (!axis) return;
+  const std::size_t before = graph_.headings.size();
+  const double variance_rad2 = before == 0 ? 0.0 : yaw_variance_rad2(graph_.headings.back().pose, newest);
+  building_axis_prior_.add(newest, *axis, variance_rad2, graph_);
+  has_new_heading_ = graph_.headings.size() > before;
+}
+
+FactorId KeyframeGraph::add_closure(const RelativePoseFactor<KeyframeId>& closure) {
+  return new_closures_.emplace_back(graph_.factors.push_back(closure));
+}
+
+bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> group) {
+  if (misfit(group, graph_.T_map_keyframe) <= kMaxMisfit) return true;
+  building_axis_prior_.update(graph_);
+  PoseGraph trial = graph_;
+  for (RelativePoseFactor<KeyframeId> factor : group) {
+    factor.is_closure = false;
+    trial.factors.push_back(factor);
+  }
+  if (!optimizer_.optimize(trial, kTrialEffort)) {
+    ++counters_.solver_failures;
+    return false;
+  }
+  if (misfit(group, trial.T_map_keyframe) > kMaxMisfit) return false;
+  graph_.T_map_keyframe = std::move(trial.T_map_keyframe);
+  state_ = GraphState::kMoved;
+  return true;
+}
+
+bool KeyframeGraph::settle() {
+  const bool due = is_due();
+  new_closures_.clear();
+  has_new_heading_ = false;
+  return due && optimize(kLiveEffort);
+}
+
+/// Whether the last solution is still on its way, what is new disagrees with the graph, or something that
+/// does not has waited long enough.
+bool KeyframeGraph::is_due() {
+  if (state_ == GraphState::kSettled && (has_new_heading_ || !new_closures_.empty()))
+    state_ = GraphState::kPending;
+  if (state_ != GraphState::kPending) return state_ != GraphState::kSettled;
+  if (graph_.T_map_keyframe.last_id() - optimized_upto_ >= kMaxKeyframesWaiting) return true;
+  if (has_new_heading_) {
+    building_axis_prior_.update(graph_);
+    if (chi_square(graph_.headings.back(), graph_.T_map_keyframe) > kExpectedChiSquare) return true;
+  }
+  return std::any_of(new_closures_.begin(), new_closures_.end(), [&](FactorId id) {
+    return chi_square(graph_.factors[id], graph_.T_map_keyframe) > kExpectedChiSquare;
+  });
+}
+
+bool KeyframeGraph::optimize(const OptimizeEffort& effort) {
+  ++counters_.optimizations;
+  const bool was_moved = state_ == GraphState::kMoved;
+  building_axis_prior_.update(graph_);
+  const Result<OptimizeReport> report = optimizer_.optimize(graph_, effort);
+  state_ = report && !report->converged ? GraphState::kConverging : GraphState::kSettled;
+  if (!report) {
+    ++counters_.solver_failures;
+    return was_moved;
+  }
+  optimized_upto_ = graph_.T_map_keyframe.last_id();
+  return true;
+}
+
+void KeyframeGraph::erase(const IdRanges<KeyframeId>& pruned,
+                          std::span<const RelativePoseFactor<KeyframeId>> ties) {
+  for (const RelativePoseFactor<KeyframeId>& tie : ties) graph_.factors.push_back(tie);
+  graph_.factors.erase_if([&](const RelativePoseFactor<KeyframeId>& factor) {
+    return pruned.contains(factor.from) || pruned.contains(factor.to);
+  });
+  building_axis_prior_.erase(pruned, graph_);
+  motion_factor_.erase(pruned);
+  graph_.T_map_keyframe.erase(pruned);
+  optimized_upto_ = graph_.T_map_keyframe.at_or_after(optimized_upto_);
+  join_across_holes();
+}
+
+void KeyframeGraph::join_across_holes() {
+  const KeyframePoses& T_map = graph_.T_map_keyframe;
+  for (std::size_t k = 1; k < motion_factor_.size(); ++k) {
+    std::optional<FactorId>& joined = motion_factor_.values()[k];
+    if (graph_.factors.contains(*joined)) continue;
+    RelativePoseFactor<KeyframeId> unknown;
+    unknown.from = T_map.id_at(k - 1);
+    unknown.to = T_map.id_at(k);
+    unknown.T_from_to = between(T_map[unknown.from], T_map[unknown.to]);
+    unknown.information = unknown_motion_information();
+    joined = graph_.factors.push_back(unknown);
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+
+#include "core/backend/config/backend_config.hpp"
+#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/online_refinement.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+struct RefinementCounters {
+  std::uint64_t windows_refined = 0;
+  std::uint64_t windows_refused = 0;
+  std::uint64_t solver_failures = 0;
+  bool refined = false;  ///< the batch refinement was accepted
+  double held_out_before_m = 0.0;
+  double held_out_after_m = 0.0;
+};
+
+/// The poses of all scans: between the graph's keyframes, refined window by window while the run goes on, and
+/// all at once at its end. One thread at a time; allocates.
+class RunRefinement {
+ public:
+  /// Views scans and chain, which must outlive it.
+  RunRefinement(const BackendConfig& config, const SensorModel& sensor, const ScanStore& scans,
+                const KeyframeChain& chain);
+
+  void add_scan() { online_.add_scan(); }
+  /// A loop has closed there.
+  void queue_around(KeyframeId place) {
+    if (is_wanted()) online_.queue_around(place);
+  }
+  /// The graph was optimised.
+  void follow(const KeyframePoses& T_map_keyframe);
+  /// After each keyframe: refines one window. Returns what has moved.
+  ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
+  /// Gives every scan a pose of its own, for good. True: poses have moved.
+  bool refine_all(const PoseGraph& graph);
+  void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
+
+  [[nodiscard]] Pose2 T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const;
+  /// Where the newest keyframe lies as the last few see it, the frontend's path from them to it being good to
+  /// a centimetre: each was refined by itself, and the published pose must not jump with every one.
+  [[nodiscard]] Pose2 T_map_newest(const KeyframePoses& T_map_keyframe,
+                                   const KeyframePoses& T_local_keyframe) const;
+  /// Whether refine_all() was accepted.
+  [[nodiscard]] bool is_final() const { return !T_map_refined_.empty(); }
+  [[nodiscard]] RefinementCounters counters() const;
+
+ private:
+  [[nodiscard]] bool is_wanted() const { return config_->refine && config_->close_loops; }
+
+  const BackendConfig* config_;
+  SensorModel sensor_;
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+  OnlineRefinement online_;
+  IdMap<ScanId, Pose2> T_map_refined_;  // by refine_all()
+  RefinementCounters counters_;
+};
+
+}  // namespace swiftlet

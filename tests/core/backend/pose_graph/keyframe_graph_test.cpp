@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/pose_graph/keyframe_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/pose_near.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kStepM = 0.5;
+
+KeyframeId id(std::uint32_t number) { return make_id<KeyframeId>(number); }
+
+/// A straight flight along x, one scan a keyframe.
+class KeyframeGraphTest : public testing::Test {
+ protected:
+  void fly(std::uint32_t keyframes) {
+    for (std::uint32_t i = 0; i < keyframes; ++i) add_keyframe();
+  }
+  /// Returns whether the graph moved.
+  bool add_keyframe() {
+    const KeyframeId made_id = T_local_keyframe_.end_id();
+    FrontendStep step;
+    step.keyframe = made_id;
+    step.sample.T_odom_body = Pose2(kStepM * index_of(made_id), 0.0, 0.0);
+    chain_.add(scans_.add(step));
+    Keyframe made;
+    made.id = made_id;
+    made.starts_segment = made_id == id(0);
+    made.motion_covariance = Covariance3::from_matrix(Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal());
+    EXPECT_TRUE(made.T_local_keyframe.try_push_back(step.sample.T_odom_body));
+    T_local_keyframe_.push_back(step.sample.T_odom_body);
+    graph_.add_keyframe(made, T_local_keyframe_);
+    return graph_.settle();
+  }
+  /// The way from keyframe 0 is longer than the motion has it.
+  [[nodiscard]] RelativePoseFactor<KeyframeId> closure_to(std::uint32_t to, double longer_m) const {
+    return {id(0), id(to), Pose2(kStepM * to + longer_m, 0.0, 0.0), 1e4 * Eigen::Matrix3d::Identity(), true};
+  }
+
+  BackendConfig config_;
+  ScanStore scans_{BeamLayout::multiranger()};
+  KeyframeChain chain_{scans_};
+  KeyframePoses T_local_keyframe_;
+  KeyframeGraph graph_{config_, chain_};
+};
+
+TEST_F(KeyframeGraphTest, FollowsTheMotionWhileNothingElseIsKnown) {
+  fly(20);
+  EXPECT_EQ(graph_.state(), GraphState::kSettled);
+  EXPECT_EQ(graph_.counters().optimizations, 0U);
+  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
+}
+
+TEST_F(KeyframeGraphTest, AnExpectedClosureWaitsForOthersButNotForEver) {
+  fly(20);
+  EXPECT_TRUE(graph_.optimize());
+  graph_.add_closure(closure_to(19, 0.0));
+  EXPECT_FALSE(add_keyframe());
+  EXPECT_EQ(graph_.state(), GraphState::kPending);
+  int keyframes = 1;
+  while (!add_keyframe() && keyframes < 100) ++keyframes;
+  EXPECT_EQ(keyframes, 7) << "since the last optimisation 8";
+  EXPECT_EQ(graph_.state(), GraphState::kSettled);
+}
+
+TEST_F(KeyframeGraphTest, AClosureThatDisagreesMovesTheGraphAtOnce) {
+  fly(20);
+  graph_.add_closure(closure_to(19, 0.05));
+  EXPECT_TRUE(add_keyframe());
+  EXPECT_GT(graph_.T_map_keyframe()[id(19)].x_m(), 19 * kStepM + 0.01);
+  EXPECT_EQ(graph_.counters().optimizations, 1U);
+}
+
+TEST_F(KeyframeGraphTest, AGroupThatAgreesMovesNothing) {
+  fly(20);
+  const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(17, 0.0), closure_to(19, 0.0)};
+  EXPECT_TRUE(graph_.accommodate(group));
+  EXPECT_EQ(graph_.state(), GraphState::kSettled);
+}
+
+TEST_F(KeyframeGraphTest, AGroupThatFitsMovesTheGraphToItself) {
+  fly(400);
+  std::vector<RelativePoseFactor<KeyframeId>> group;
+  for (const std::uint32_t to : {390U, 393U, 396U, 399U}) group.push_back(closure_to(to, 0.5));
+  EXPECT_TRUE(graph_.accommodate(group));
+  EXPECT_EQ(graph_.state(), GraphState::kMoved);
+  EXPECT_NEAR(graph_.T_map_keyframe()[id(399)].x_m(), 399 * kStepM + 0.5, 0.05);
+  for (const RelativePoseFactor<KeyframeId>& closure : group) graph_.add_closure(closure);
+  EXPECT_TRUE(add_keyframe());
+  EXPECT_EQ(graph_.state(), GraphState::kSettled);
+}
+
+TEST_F(KeyframeGraphTest, AGroupThatContradictsTheMotionIsRefused) {
+  fly(20);
+  const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(17, 3.0), closure_to(19, 3.0)};
+  EXPECT_FALSE(graph_.accommodate(group));
+  EXPECT_EQ(graph_.state(), GraphState::kSettled);
+  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
+}
+
+TEST_F(KeyframeGraphTest, AcrossAHoleTheMotionIsUnknownAndTiesHold) {
+  fly(20);
+  const FactorId gone = graph_.add_closure(closure_to(10, 0.0));
+  const FactorId kept = graph_.add_closure(closure_to(18, 0.0));
+  IdRanges<KeyframeId> pruned;
+  pruned.add({id(9), id(12)});
+  const RelativePoseFactor<KeyframeId> tie = closure_to(12, 0.0);
+  graph_.erase(pruned, std::vector{tie});
+  const IdMap<FactorId, RelativePoseFactor<KeyframeId>>& factors = graph_.graph().factors;
+  EXPECT_FALSE(factors.contains(gone));
+  EXPECT_TRUE(factors.contains(kept));
+  const RelativePoseFactor<KeyframeId>& across = factors[factors.last_id()];
+  EXPECT_EQ(across.from, id(8));
+  EXPECT_EQ(across.to, id(12));
+  EXPECT_LT(across.information(0, 0), 1e-3);
+  EXPECT_EQ(factors[factors.previous(factors.last_id())].to, tie.to);
+  EXPECT_TRUE(graph_.optimize());
+  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-6, 1e-6));
+}
+
+}  // namespace
+}  // namespace swiftlet
