@@ -12,12 +12,6 @@
 #include "core/mapping/scan_drawing.hpp"
 
 namespace swiftlet {
-namespace {
-
-constexpr double kFollowsWithinCells = 0.5;
-constexpr std::size_t kMaxReturnsMoved = 4000;  // in one update: about a millisecond
-
-}  // namespace
 
 struct MapBuilder::State {
   State(const MapConfig& map_config, const SensorModel& sensor)
@@ -59,7 +53,7 @@ MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend
 bool MapBuilder::State::has_moved(const Pose2& drawn, const Pose2& now) const {
   const Pose2 moved = between(drawn, now);
   const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * clear_range_m;
-  return farthest_m > kFollowsWithinCells * config.resolution_m;
+  return farthest_m > config.tuning.drawing.follow_cells * config.resolution_m;
 }
 
 void MapBuilder::State::take_new_scans(const Backend& backend) {
@@ -100,7 +94,7 @@ std::size_t MapBuilder::State::follow(const Backend& backend, KeyframeId k) {
 
 /// A correction of everything is followed over several updates, in turn, so that none takes long.
 void MapBuilder::State::sweep(const Backend& backend) {
-  for (std::size_t moved = 0; !swept.is_done() && moved < kMaxReturnsMoved;)
+  for (std::size_t moved = 0; !swept.is_done() && moved < config.tuning.drawing.max_returns_moved;)
     moved += follow(backend, swept.take(stretches));
 }
 

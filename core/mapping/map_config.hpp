@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/settings.hpp"
+#include "core/mapping/map_tuning.hpp"
 
 namespace swiftlet {
 
@@ -26,6 +27,8 @@ struct MapConfig {
       {"clear_range_m", &MapConfig::clear_range_m, "m", "beams clear cells up to this distance at most", 0.1,
        100},
   };
+
+  MapTuning tuning{};  ///< no setting: for experiments
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const { return setting_problems(*this); }

@@ -8,7 +8,6 @@ namespace swiftlet {
 
 namespace {
 
-constexpr double kLatticePerCell = 4.0;
 constexpr double kFarthestM = 1e5;  // cells of 1 cm and lattice steps of 1/4 of it still fit an int32
 
 }  // namespace
@@ -16,7 +15,7 @@ constexpr double kFarthestM = 1e5;  // cells of 1 cm and lattice steps of 1/4 of
 ScanDrawing::ScanDrawing(const MapConfig& config, double clear_range_m)
     : cells_per_m_(1.0 / config.resolution_m),
       clear_range_m_(clear_range_m),
-      position_step_m_(config.resolution_m / kLatticePerCell),
+      position_step_m_(config.resolution_m / config.tuning.drawing.lattice_per_cell),
       yaw_step_rad_(position_step_m_ / clear_range_m),
       store_(config) {}
 

@@ -12,7 +12,8 @@ namespace swiftlet {
 std::int8_t occupancy_percent(const CellCounts& counts, const MapConfig& config) {
   if (counts.hits == 0 && counts.misses == 0) return -1;
   const double log_odds = counts.hits * config.hit_log_odds + counts.misses * config.miss_log_odds;
-  const double limited = std::clamp(log_odds, -kMaxLogOdds, kMaxLogOdds);
+  const double limit = config.tuning.drawing.max_log_odds;
+  const double limited = std::clamp(log_odds, -limit, limit);
   return static_cast<std::int8_t>(std::lround(100.0 / (1.0 + std::exp(-limited))));
 }
 

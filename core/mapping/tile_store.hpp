@@ -22,10 +22,8 @@ struct CellCounts {
 
 /// 0..100 percent occupied, -1 where nothing was counted. Log odds add up over independent beams (H. Moravec
 /// and A. Elfes, "High resolution maps from wide angle sonar", ICRA 1985; Thrun, Burgard & Fox,
-/// "Probabilistic Robotics", Algorithm 9.2); the sum is limited to +-kMaxLogOdds.
+/// "Probabilistic Robotics", Algorithm 9.2); the sum is limited on both sides.
 [[nodiscard]] std::int8_t occupancy_percent(const CellCounts& counts, const MapConfig& config);
-
-inline constexpr double kMaxLogOdds = 4.0;  ///< between 2 and 98 percent
 
 /// The cells of the map, in tiles that exist where something is counted. Allocates as the map grows.
 /// One thread at a time.

@@ -5,13 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/base/settings.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
-
-/// No search for a loop is narrower than this to either side: covariances of motion are models.
-inline constexpr double kMinSearchAngleRad = 0.1;
 
 /// Settings of submaps, loop closing and the pose graph (Algorithm 3). One set serves all places and sensors.
 struct BackendConfig {
@@ -68,7 +66,7 @@ struct BackendConfig {
       {"search_radius_m", &BackendConfig::search_radius_m, "m", "widest search around the predicted position",
        0.1, 50},
       {"search_angle_rad", &BackendConfig::search_angle_rad, "rad",
-       "widest search around the predicted heading", kMinSearchAngleRad, kPi},
+       "widest search around the predicted heading", LoopDetectorTuning().min_search_angle_rad, kPi},
       {"max_candidates", &BackendConfig::max_candidates, "",
        "submaps searched per keyframe at most, the most overlapping first", 1, 1000},
       {"min_score", &BackendConfig::min_score, "",
@@ -92,6 +90,8 @@ struct BackendConfig {
        "with more than these, scans of space that others cover as well are pruned; 600 are a minute at 10 Hz",
        1000, 100000000},
   };
+
+  BackendTuning tuning;  ///< no setting: for experiments
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -15,16 +15,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kReachM = 30.0;          // travel over which one is remembered,
-constexpr std::size_t kMaxWaiting = 100;  // until there are so many
-constexpr double kAgreeChiSquare = 7.81;  // three degrees of freedom, 95 %
-constexpr std::size_t kMinMembers = 6;
-constexpr double kMinTravelM = 6.0;  // between the first query and the last: their scans overlap no more
-// Of the position in the worst direction, by all but any one and those found around it: along a corridor many
-// agree with whatever one alone says.
-constexpr double kMaxSigmaM = 1.0;
-constexpr double kAlikeM = 2.0;  // of travel
-
 UncertainMotion inverse(const UncertainMotion& a) {
   const Eigen::Matrix3d J = jacobian_inverse(a.T_from_to);
   return {a.T_from_to.inverse(), J * a.covariance * J.transpose()};
@@ -45,7 +35,8 @@ void ClosureGroups::forget_before(double path_m) {
   const auto first_kept = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) {
     return chain_->path_m(w.closure.to) >= path_m;
   });
-  const std::size_t surplus = waiting_.size() > kMaxWaiting ? waiting_.size() - kMaxWaiting : 0;
+  const std::size_t surplus =
+      waiting_.size() > tuning_.max_waiting ? waiting_.size() - tuning_.max_waiting : 0;
   const std::size_t gone = std::max(static_cast<std::size_t>(first_kept - waiting_.begin()), surplus);
   if (gone == 0) return;
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(gone));
@@ -60,7 +51,8 @@ void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
                           const IdMap<KeyframeId, Eigen::Matrix3d>& covariances_query) {
   Waiting entry{closure, {}};
   const IdMap<KeyframeId, Eigen::Matrix3d> covariances_submap =
-      waiting_.empty() ? IdMap<KeyframeId, Eigen::Matrix3d>() : relative_covariances(graph, closure.from);
+      waiting_.empty() ? IdMap<KeyframeId, Eigen::Matrix3d>()
+                       : relative_covariances(graph, closure.from, covariance_tuning_);
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const LoopClosure& other = waiting_[i].closure;
     const UncertainMotion T_q_other = by_graph(graph, closure.to, other.to, covariances_query[other.to]);
@@ -70,7 +62,7 @@ void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
     Eigen::Vector3d off = T_q_other_matched.T_from_to.vector() - T_q_other.T_from_to.vector();
     off(2) = wrap_angle(off(2));
     const Eigen::Matrix3d covariance = T_q_other_matched.covariance + T_q_other.covariance;
-    if (off.dot(covariance.inverse() * off) > kAgreeChiSquare) continue;
+    if (off.dot(covariance.inverse() * off) > tuning_.max_chi_square) continue;
     entry.agreeing.push_back(i);
     waiting_[i].agreeing.push_back(waiting_.size());
   }
@@ -121,7 +113,7 @@ Eigen::Matrix2d ClosureGroups::information_without(std::size_t left_out, std::sp
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const std::size_t i : set) {
     const LoopClosure& c = waiting_[i].closure;
-    if (std::abs(chain_->path_m(c.to) - left_out_m) < kAlikeM) continue;
+    if (std::abs(chain_->path_m(c.to) - left_out_m) < tuning_.near_m) continue;
     const double turn_rad = graph.T_map_keyframe[c.to].yaw_rad() - c.T_from_to.yaw_rad();
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     const Eigen::Matrix2d position = c.covariance.matrix().topLeftCorner<2, 2>();
@@ -130,24 +122,25 @@ Eigen::Matrix2d ClosureGroups::information_without(std::size_t left_out, std::sp
   return information;
 }
 
-bool ClosureGroups::convinces(std::span<const std::size_t> set, const PoseGraph& graph) const {
-  if (set.size() < kMinMembers) return false;
+bool ClosureGroups::is_conclusive(std::span<const std::size_t> set, const PoseGraph& graph) const {
+  if (set.size() < tuning_.min_members) return false;
   const double first_m = chain_->path_m(waiting_[set.front()].closure.to);
   const double last_m = chain_->path_m(waiting_[set.back()].closure.to);
-  if (last_m - first_m < kMinTravelM) return false;
+  if (last_m - first_m < tuning_.min_travel_m) return false;
   for (const std::size_t i : set) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information_without(i, set, graph));
-    if (solver.eigenvalues()(0) * kMaxSigmaM * kMaxSigmaM < 1.0) return false;
+    if (solver.eigenvalues()(0) * tuning_.max_sigma_m * tuning_.max_sigma_m < 1.0) return false;
   }
-  return 2 * largest_rival(set) <= set.size();
+  return static_cast<double>(largest_rival(set)) <= tuning_.max_rival_share * static_cast<double>(set.size());
 }
 
 std::vector<LoopClosure> ClosureGroups::add(std::span<const LoopClosure> found, const PoseGraph& graph) {
-  std::vector<LoopClosure> believed;
-  if (found.empty()) return believed;
+  std::vector<LoopClosure> accepted;
+  if (found.empty()) return accepted;
   const KeyframeId query = found.front().to;
-  forget_before(chain_->path_m(query) - kReachM);
-  const IdMap<KeyframeId, Eigen::Matrix3d> covariances = relative_covariances(graph, query);
+  forget_before(chain_->path_m(query) - tuning_.reach_m);
+  const IdMap<KeyframeId, Eigen::Matrix3d> covariances =
+      relative_covariances(graph, query, covariance_tuning_);
   const std::size_t first_new = waiting_.size();
   for (const LoopClosure& closure : found) admit(closure, graph, covariances);
   std::vector<std::size_t> largest;
@@ -155,10 +148,10 @@ std::vector<LoopClosure> ClosureGroups::add(std::span<const LoopClosure> found, 
     std::vector<std::size_t> set = agreeing_set(i);
     if (set.size() > largest.size()) largest = std::move(set);
   }
-  if (!convinces(largest, graph)) return believed;
-  for (const std::size_t i : largest) believed.push_back(waiting_[i].closure);
+  if (!is_conclusive(largest, graph)) return accepted;
+  for (const std::size_t i : largest) accepted.push_back(waiting_[i].closure);
   waiting_.clear();
-  return believed;
+  return accepted;
 }
 
 }  // namespace swiftlet

@@ -13,28 +13,9 @@ namespace {
 
 constexpr int kTileLevel = 3;  // blocks of which are tried pose by pose, for they are one tile
 static_assert(1 << kTileLevel == TiledByteGrid::kSide);
-// How much score a match at the edge of the window gives up against one at its centre: less than any real
-// difference, enough to settle ties.
-constexpr double kEdgePenalty = 0.02;
-// How sharply the likelihood of a pose falls with its score (Olson 2009, section IV.D, takes the score's
-// exponential).
-constexpr double kLikelihoodPerScore = 60.0;
-// No match on these grids is better than this, whatever the scores say.
-constexpr double kFloorSigmaM = 0.05;
-constexpr double kFloorSigmaYawRad = 0.015;
-constexpr double kMinSpreadM = 1.0;  // how far around the optimum the scores are looked at: as far as the
-constexpr double kMaxSpreadM = 4.0;  // window reaches, within these bounds
-constexpr int kSpreadStride = 2;     // cells
-constexpr int kYawSpreadSteps = 4;
-// A pose that lays fewer of the points on ground the submap knows is neither a match nor compared with one:
-// one wall of a corridor laid on the other would look better than both in place.
-constexpr double kMinKnownShare = 0.6;
-// A best pose farther out than this share of the window is no optimum: the walls draw it on, as they do along
-// a corridor towards whatever part of it the submap covers.
-constexpr double kEdgeOfWindow = 0.95;
 
-double farthest_m(std::span<const Point2> points) {
-  double farthest = 0.5;
+double farthest_m(std::span<const Point2> points, double at_least_m) {
+  double farthest = at_least_m;
   for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
   return farthest;
 }
@@ -57,13 +38,13 @@ std::vector<std::uint8_t> known_of(std::span<const std::uint8_t> submap_cells) {
   return known;
 }
 
-/// The sums at `side` x `side` positions, kSpreadStride apart from (x, y) on, row by row.
+/// The sums at `side` x `side` positions, `stride` apart from (x, y) on, row by row.
 std::vector<std::uint32_t> sums_of_square(const TiledByteGrid& tiles, std::span<const CellIndex> cells, int x,
-                                          int y, int side) {
+                                          int y, int side, int stride) {
   std::vector<std::uint32_t> square(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   for (int row = 0; row < side; row += TiledByteGrid::kSide) {
     for (int column = 0; column < side; column += TiledByteGrid::kSide) {
-      const TiledByteGrid::Sums sums = tiles.sums(cells, x + kSpreadStride * column, y + kSpreadStride * row);
+      const TiledByteGrid::Sums sums = tiles.sums(cells, x + stride * column, y + stride * row);
       const int count = std::min(TiledByteGrid::kSide, side - column);
       for (int k = 0; k < TiledByteGrid::kSide && row + k < side; ++k) {
         const int from = k * TiledByteGrid::kSide;
@@ -90,17 +71,17 @@ struct Moments {
 };
 
 /// A scan can only match where the submap covers it: along a bare corridor the scores fall off at the
-/// submap's ends for no other reason, and that is no evidence. What the coverage alone would say of the
-/// position is taken out of the information. Where nothing is left, next to nothing is told: many such
-/// matches of one passage must not add up to a place along it.
-void take_out_coverage(const Eigen::Matrix3d& coverage, double cell_m, Eigen::Matrix3d& covariance) {
-  constexpr double kMinInformation = 1e-4;  // 100 m
+/// submap's ends for no other reason, and that is no evidence. The information that the coverage alone would
+/// give is subtracted. Where nothing is left, next to nothing remains: many such matches of one passage must
+/// not add up to a place along it.
+void take_out_coverage(const Eigen::Matrix3d& coverage, double cell_m, double min_information,
+                       Eigen::Matrix3d& covariance) {
   Eigen::Matrix2d covered = coverage.topLeftCorner<2, 2>();
   covered.diagonal().array() += cell_m * cell_m;
   Eigen::Matrix3d information = covariance.inverse();
   information.topLeftCorner<2, 2>() -= covered.inverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information);
-  const Eigen::Vector3d weights = solver.eigenvalues().cwiseMax(kMinInformation);
+  const Eigen::Vector3d weights = solver.eigenvalues().cwiseMax(min_information);
   covariance =
       solver.eigenvectors() * weights.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
 }
@@ -117,15 +98,16 @@ struct CorrelativeMatcher::Block {
 };
 
 CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
-                                       const SearchWindow& window)
+                                       const SearchWindow& window, const CorrelativeMatcherTuning& tuning)
     : grid_(submap.geometry),
       submap_cells_(submap.cells),
       window_(window),
+      tuning_(tuning),
       linear_steps_(static_cast<int>(std::ceil(window.radius_m / grid_.resolution_m))),
       pyramid_(submap.geometry, submap.cells, levels_for(linear_steps_)),
       tiles_(submap.geometry, submap.cells, 1) {
   // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
-  const double ratio = grid_.resolution_m / farthest_m(points_scan);
+  const double ratio = grid_.resolution_m / farthest_m(points_scan, tuning.min_lever_m);
   angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
   yaw_steps_ = static_cast<int>(std::ceil(window.angle_rad / angle_step_rad_));
   cells_by_yaw_.resize(2 * static_cast<std::size_t>(yaw_steps_) + 1);
@@ -148,8 +130,8 @@ Pose2 CorrelativeMatcher::T_submap_scan(const DiscreteMatch& match) const {
 double CorrelativeMatcher::preference(int steps_x, int steps_y, int steps_yaw) const {
   const double linear = std::max(1, linear_steps_);
   const double angular = std::max(1, yaw_steps_);
-  return -kEdgePenalty * ((steps_x * steps_x + steps_y * steps_y) / (linear * linear) +
-                          steps_yaw * steps_yaw / (angular * angular));
+  return -tuning_.edge_penalty * ((steps_x * steps_x + steps_y * steps_y) / (linear * linear) +
+                                  steps_yaw * steps_yaw / (angular * angular));
 }
 
 double CorrelativeMatcher::block_score(const Block& block) const {
@@ -257,39 +239,40 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 }
 
 /// Olson 2009, eq. 6: mean and covariance of the poses around the optimum, weighted by likelihood. The mean
-/// lies between the cells: the refinement below the grid's resolution. Every second cell is enough under a
-/// kernel of three.
+/// lies between the cells: the refinement below the grid's resolution.
 void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_score,
                                        MatchResult& result) const {
   const double cell_m = grid_.resolution_m;
-  const double reach_m = std::clamp(window_.radius_m, kMinSpreadM, kMaxSpreadM);
-  const int reach = kSpreadStride * static_cast<int>(std::lround(reach_m / (kSpreadStride * cell_m)));
-  const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - kYawSpreadSteps);
-  const int yaw_high = std::min(yaw_steps_, best.steps_yaw + kYawSpreadSteps);
-  const int side = 2 * reach / kSpreadStride + 1;  // positions
-  const TiledByteGrid values(grid_, submap_cells_, kSpreadStride);
-  const TiledByteGrid knowns(grid_, known_of(submap_cells_), kSpreadStride);
+  const int stride = tuning_.spread_stride_cells;
+  const double reach_m = std::clamp(window_.radius_m, tuning_.min_spread_m, tuning_.max_spread_m);
+  const int reach = stride * static_cast<int>(std::lround(reach_m / (stride * cell_m)));
+  const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - tuning_.yaw_spread_steps);
+  const int yaw_high = std::min(yaw_steps_, best.steps_yaw + tuning_.yaw_spread_steps);
+  const int side = 2 * reach / stride + 1;  // positions
+  const TiledByteGrid values(grid_, submap_cells_, stride);
+  const TiledByteGrid knowns(grid_, known_of(submap_cells_), stride);
   Moments likely;
   Moments covered;
   for (int yaw = yaw_low; yaw <= yaw_high; ++yaw) {
     const auto& list = cells(yaw);
-    const auto sums = sums_of_square(values, list, best.steps_x - reach, best.steps_y - reach, side);
-    const auto known = sums_of_square(knowns, list, best.steps_x - reach, best.steps_y - reach, side);
+    const auto sums = sums_of_square(values, list, best.steps_x - reach, best.steps_y - reach, side, stride);
+    const auto known = sums_of_square(knowns, list, best.steps_x - reach, best.steps_y - reach, side, stride);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const KnownCells at = known_cells(sums[i], known[i], list.size());
-      if (at.share < kMinKnownShare) continue;
-      const int dx = kSpreadStride * (static_cast<int>(i) % side) - reach;
-      const int dy = kSpreadStride * (static_cast<int>(i) / side) - reach;
+      if (at.share < tuning_.min_known_share) continue;
+      const int dx = stride * (static_cast<int>(i) % side) - reach;
+      const int dy = stride * (static_cast<int>(i) / side) - reach;
       const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
       // Points on unknown ground speak neither for the pose nor against it.
-      likely.add(std::exp(kLikelihoodPerScore * at.share * (at.score - best_score)), d);
+      likely.add(std::exp(tuning_.likelihood_per_score * at.share * (at.score - best_score)), d);
       covered.add(1.0, d);
     }
   }
   result.covariance = likely.covariance();
-  result.covariance.diagonal() += Eigen::Vector3d(kFloorSigmaM * kFloorSigmaM, kFloorSigmaM * kFloorSigmaM,
-                                                  kFloorSigmaYawRad * kFloorSigmaYawRad);
-  take_out_coverage(covered.covariance(), cell_m, result.covariance);
+  const Eigen::Vector3d floor_sigma(tuning_.floor_sigma_m, tuning_.floor_sigma_m,
+                                    tuning_.floor_sigma_yaw_rad);
+  result.covariance.diagonal() += floor_sigma.cwiseAbs2();
+  take_out_coverage(covered.covariance(), cell_m, tuning_.min_information, result.covariance);
   const Pose2 T = T_submap_scan(best);
   const Eigen::Vector3d mean = likely.mean();
   result.T_submap_scan = Pose2(T.x_m() + mean.x(), T.y_m() + mean.y(), T.yaw_rad() + mean.z());
@@ -298,10 +281,10 @@ void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_sc
 std::optional<MatchResult> CorrelativeMatcher::match(double min_score) const {
   const std::optional<DiscreteMatch> best = best_by_branch_and_bound(min_score);
   if (!best) return std::nullopt;
-  if (std::max(std::abs(best->steps_x), std::abs(best->steps_y)) > kEdgeOfWindow * linear_steps_)
+  if (std::max(std::abs(best->steps_x), std::abs(best->steps_y)) > tuning_.edge_of_window * linear_steps_)
     return std::nullopt;
   const KnownCells known = known_cells(*best);
-  if (known.share < kMinKnownShare) return std::nullopt;
+  if (known.share < tuning_.min_known_share) return std::nullopt;
   MatchResult result;
   result.T_submap_scan_best = T_submap_scan(*best);
   result.score = best->score;

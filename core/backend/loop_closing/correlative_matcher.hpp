@@ -45,7 +45,8 @@ struct DiscreteMatch {
 /// which must outlive it.
 class CorrelativeMatcher {
  public:
-  CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan, const SearchWindow& window);
+  CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan, const SearchWindow& window,
+                     const CorrelativeMatcherTuning& tuning = {});
 
   /// The best match with score >= min_score, or nothing. Nothing either where the best lies at the
   /// window's edge, or many of the points on ground the submap does not know.
@@ -86,6 +87,7 @@ class CorrelativeMatcher {
   GridGeometry grid_;
   std::span<const std::uint8_t> submap_cells_;
   SearchWindow window_;
+  CorrelativeMatcherTuning tuning_;
   double angle_step_rad_ = 0.0;
   int linear_steps_ = 0;
   int yaw_steps_ = 0;

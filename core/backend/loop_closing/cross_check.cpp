@@ -10,20 +10,15 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kThinningM = 0.1;
-constexpr std::size_t kMinSeen = 20;  // hits of the submap; fewer verify nothing
-// Right matches seldom have less, false ones in wide windows mostly do.
-constexpr double kMinOnWalls = 0.6;
-constexpr int kKernelCells = 3;  // two visits draw a wall within a cell of each other; more hides free space
-constexpr std::uint8_t kEven = 128;
+constexpr std::uint8_t kEven = 128;  // of occupied and free
 
 }  // namespace
 
 std::vector<Point2> thinned_hits(const ScanStore& scans, const KeyframeChain& chain, const ScanRange& in,
-                                 const KeyframePoses& T_w_keyframe, const Pose2& T_frame_w) {
+                                 const KeyframePoses& T_w_keyframe, const Pose2& T_frame_w, double cell_m) {
   std::vector<Point2> points;
   const std::vector<Pose2> T_w_body = chain.T_w_bodies(in, T_w_keyframe);
-  CellNumbers cells(kThinningM);
+  CellNumbers cells(cell_m);
   cells.reset(scans.return_count(in));
   const std::span<const StoredScan> stored = scans.all().values(in);
   for (std::size_t i = stored.size(); i-- > 0;) {
@@ -43,7 +38,7 @@ Submap CrossCheck::draw_recent() const {
   while (first > keyframes.first_id() && chain_.scan_of(keyframes.previous(first)) >= recent_.first)
     first = keyframes.previous(first);
   BackendConfig config = config_;
-  config.max_kernel_cells = kKernelCells;
+  config.max_kernel_cells = config_.tuning.cross_check.kernel_cells;
   return build_submap(first, query_, scans_, chain_, T_w_keyframe_, config);
 }
 
@@ -55,14 +50,17 @@ bool CrossCheck::holds(const Submap& submap, const Pose2& T_submap_query) {
   std::size_t seen = 0;
   std::size_t on_walls = 0;
   const GridGeometry& grid = drawn_->geometry;
-  for (const Point2& p : thinned_hits(scans_, chain_, submap.scans, T_w_keyframe_, T_drawn_w)) {
+  for (const Point2& p : thinned_hits(scans_, chain_, submap.scans, T_w_keyframe_, T_drawn_w,
+                                      config_.tuning.detector.thinning_cell_m)) {
     const CellIndex cell = grid.cell(p);
     if (!grid.contains(cell)) continue;
     const std::uint8_t occupied = drawn_->cells[grid.offset(cell)];
     seen += occupied != 0 ? 1 : 0;
     on_walls += occupied >= kEven ? 1 : 0;
   }
-  return seen >= kMinSeen && static_cast<double>(on_walls) >= kMinOnWalls * static_cast<double>(seen);
+  const CrossCheckTuning& tuning = config_.tuning.cross_check;
+  return seen >= tuning.min_seen_hits &&
+         static_cast<double>(on_walls) >= tuning.min_share_on_walls * static_cast<double>(seen);
 }
 
 }  // namespace swiftlet

@@ -11,11 +11,11 @@
 
 namespace swiftlet {
 
-/// The hits of scans `in`, newest first, one per 0.1 m cell: hovering in place must not outvote the flight.
+/// The hits of scans `in`, newest first, one per cell: hovering in place must not outvote the flight.
 /// `T_w_keyframe`: the keyframes in one continuous frame; `T_frame_w` leads from it to that of the result.
 /// Allocates.
 std::vector<Point2> thinned_hits(const ScanStore& scans, const KeyframeChain& chain, const ScanRange& in,
-                                 const KeyframePoses& T_w_keyframe, const Pose2& T_frame_w);
+                                 const KeyframePoses& T_w_keyframe, const Pose2& T_frame_w, double cell_m);
 
 /// Holds a match of the recent travel against an earlier submap the other way round: the submap's hits, laid
 /// into a grid of the recent travel. Where a match is false they lie in what was just seen free. Views its

@@ -15,14 +15,18 @@ RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
 }  // namespace
 
 LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
-    : config_(&config), scans_(&scans), chain_(&chain), detector_(config, scans, chain), groups_(chain) {}
+    : config_(&config),
+      scans_(&scans),
+      chain_(&chain),
+      detector_(config, scans, chain),
+      groups_(chain, config.tuning) {}
 
-/// Submaps overlap by half, so that no place lies only on a seam. Each is one stretch of known motion.
+/// Each submap is one stretch of known motion.
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
   if (made.starts_segment) open_submaps_.clear();
   const double here_m = chain_->path_m(made.id);
-  if (open_submaps_.empty() ||
-      here_m - chain_->path_m(open_submaps_.back()) >= 0.5 * config_->submap_length_m)
+  if (open_submaps_.empty() || here_m - chain_->path_m(open_submaps_.back()) >=
+                                   config_->tuning.submap.start_share * config_->submap_length_m)
     open_submaps_.push_back(made.id);
   while (here_m - chain_->path_m(open_submaps_.front()) >= config_->submap_length_m) {
     submaps_.push_back(std::make_shared<const Submap>(

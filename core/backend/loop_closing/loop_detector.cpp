@@ -13,17 +13,13 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kSigmas = 3.0;      // the window reaches this many standard deviations ...
-constexpr double kMinRadiusM = 0.5;  // ... and never less than this: the constraints' covariances are models
-// Of one query. More of the same travel tell little that is new, and where every lap overlaps all those
-// before it they fill the pose graph's factor.
-constexpr std::size_t kMaxClosures = 3;
-
 double lowest_score(const BackendConfig& config) {
   return std::min(config.min_group_score, config.min_score);
 }
 
-double widest_search_m(const BackendConfig& config) { return std::max(kMinRadiusM, config.search_radius_m); }
+double widest_search_m(const BackendConfig& config) {
+  return std::max(config.tuning.detector.min_search_radius_m, config.search_radius_m);
+}
 
 /// Around a box.
 struct Disc {
@@ -96,12 +92,13 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
   const Pose2& T_map_query = graph.T_map_keyframe[query];
   const Pose2 T_query_map = T_map_query.inverse();
   const Disc around_points = disc_around(points_query);
+  const LoopDetectorTuning& tuning = config_->tuning.detector;
   for (const auto& submap : submaps) {
     if (chain_->path_m(query) - submap->end_path_m < config_->min_travel_between_m) continue;
     const Disc around_search = disc_around(*submap, widest_search_m(*config_));
     if (!may_overlap(around_points, T_map_query, around_search, graph.T_map_keyframe[submap->reference]))
       continue;
-    if (!covariances) covariances = relative_covariances(graph, query);
+    if (!covariances) covariances = relative_covariances(graph, query, config_->tuning.covariance);
     const Pose2 T_query_submap = T_query_map * graph.T_map_keyframe[submap->reference];
     // From the covariance of T_query_submap to that of its inverse, which is searched.
     const Eigen::Matrix3d J = jacobian_inverse(T_query_submap);
@@ -110,9 +107,10 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
-    c.window.radius_m = std::clamp(kSigmas * sigma_m, kMinRadiusM, widest_search_m(*config_));
-    c.window.angle_rad =
-        std::clamp(kSigmas * std::sqrt(P(2, 2)), kMinSearchAngleRad, config_->search_angle_rad);
+    c.window.radius_m =
+        std::clamp(tuning.search_sigmas * sigma_m, tuning.min_search_radius_m, widest_search_m(*config_));
+    c.window.angle_rad = std::clamp(tuning.search_sigmas * std::sqrt(P(2, 2)), tuning.min_search_angle_rad,
+                                    config_->search_angle_rad);
     c.overlap = share_within(points_query, c.window, *submap);
     if (c.overlap >= lowest_score(*config_)) found.push_back(c);
   }
@@ -132,13 +130,15 @@ FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<
   if (query == chain_->all().first_id() || chain_->scan_of(chain_->all().previous(query)) < recent.first)
     return loops;
   const std::vector<Point2> points =
-      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse());
+      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse(),
+                   config_->tuning.detector.thinning_cell_m);
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;
   CrossCheck cross_check(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
   for (const Candidate& c : candidates(query, points, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
-        CorrelativeMatcher(*c.submap, points, c.window).match(lowest_score(*config_));
+        CorrelativeMatcher(*c.submap, points, c.window, config_->tuning.matcher)
+            .match(lowest_score(*config_));
     if (!match || !cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
     (match->score < config_->min_score ? loops.tentative : loops.confirmed)
         .push_back({.from = c.submap->reference,
@@ -146,7 +146,7 @@ FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<
                     .T_from_to = match->T_submap_scan,
                     .covariance = Covariance3::from_matrix(match->covariance),
                     .score = match->score});
-    if (loops.confirmed.size() == kMaxClosures) break;
+    if (loops.confirmed.size() == config_->tuning.detector.max_closures) break;
   }
   return loops;
 }

@@ -32,6 +32,7 @@ class EvidenceGrid {
       : geometry_(geometry),
         hit_(static_cast<float>(log_odds(config.hit_probability))),
         miss_(static_cast<float>(log_odds(config.miss_probability))),
+        max_evidence_(static_cast<float>(config.tuning.submap.max_evidence)),
         evidence_(geometry.cell_count(), 0.0F),
         known_(geometry.cell_count(), 0) {}
 
@@ -57,13 +58,13 @@ class EvidenceGrid {
   void mark(CellIndex c, float change) {
     if (!geometry_.contains(c)) return;
     const std::size_t i = geometry_.offset(c);
-    evidence_[i] = std::clamp(evidence_[i] + change, -kMaxEvidence, kMaxEvidence);
+    evidence_[i] = std::clamp(evidence_[i] + change, -max_evidence_, max_evidence_);
     known_[i] = 1;
   }
-  static constexpr float kMaxEvidence = 3.5F;  // p of 0.03 and 0.97: certain, yet open to news
   GridGeometry geometry_;
   float hit_;
   float miss_;
+  float max_evidence_;
   std::vector<float> evidence_;
   std::vector<std::uint8_t> known_;
 };

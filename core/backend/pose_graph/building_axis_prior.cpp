@@ -10,20 +10,15 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kSigmas = 4.0;  // wheels that slip in a turn lose more than their model says
-// That the heading is off by this much, and not the other way round by the rest of a quarter turn: 400 to 1.
-constexpr double kMinLogOdds = 6.0;
-constexpr double kSharedWalls =
-    3.0;  // headings a few metres apart are told by the same walls: they err together
-
 double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
   return graph.T_map_keyframe[keyframe].yaw_rad();
 }
 
-bool is_told(double off_rad, double variance_rad2) {
+/// Whether the heading is off by this much, and not the other way round.
+bool is_unambiguous(double off_rad, double variance_rad2, const BuildingAxisPriorTuning& tuning) {
   const double other_rad = kPi / 2.0 - std::abs(off_rad);
-  return off_rad * off_rad <= kSigmas * kSigmas * variance_rad2 &&
-         other_rad * other_rad - off_rad * off_rad >= 2.0 * kMinLogOdds * variance_rad2;
+  return off_rad * off_rad <= tuning.gate_sigmas * tuning.gate_sigmas * variance_rad2 &&
+         other_rad * other_rad - off_rad * off_rad >= 2.0 * tuning.min_log_odds * variance_rad2;
 }
 
 }  // namespace
@@ -46,10 +41,10 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
                             PoseGraph& graph) {
   if (!axes_.empty()) {
     const double off_rad = wrap_axis(yaw_map_rad(graph, keyframe) + axis.yaw_rad - building_axis_rad(graph));
-    if (!is_told(off_rad, yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad)) return;
+    if (!is_unambiguous(off_rad, yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad, tuning_)) return;
   }
   axes_.push_back(axis);
-  const double variance_rad2 = kSharedWalls * axis.sigma_rad * axis.sigma_rad;
+  const double variance_rad2 = tuning_.variance_factor * axis.sigma_rad * axis.sigma_rad;
   graph.headings.push_back({.pose = keyframe, .information = 1.0 / variance_rad2});
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/sensing/wall_axis.hpp"
 
@@ -17,6 +18,8 @@ namespace swiftlet {
 /// time.
 class BuildingAxisPrior {
  public:
+  explicit BuildingAxisPrior(const BuildingAxisPriorTuning& tuning = {}) : tuning_(tuning) {}
+
   /// The walls around `keyframe` run along `axis`, in its frame; since the last heading in the graph its own
   /// became uncertain by `yaw_variance_rad2`. Adds a heading to the graph, or nothing where the axis is
   /// another one or may be a quarter turn off. Allocates.
@@ -30,6 +33,7 @@ class BuildingAxisPrior {
  private:
   [[nodiscard]] double building_axis_rad(const PoseGraph& graph) const;
 
+  BuildingAxisPriorTuning tuning_;
   std::vector<WallAxis> axes_;  // in the frame of the keyframe of the graph's heading of the same index
 };
 

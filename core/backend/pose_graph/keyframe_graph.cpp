@@ -12,18 +12,6 @@
 namespace swiftlet {
 namespace {
 
-// New factors that the graph had expected wait for others ...
-constexpr double kExpectedChiSquare = 1.0;
-constexpr std::uint32_t kMaxKeyframesWaiting = 8;
-// ... and until the end of the run solutions need not be exact: the next keyframe goes on.
-constexpr double kLiveStep = 1e-3;
-constexpr OptimizeEffort kLiveEffort{kLiveStep, 4};
-constexpr OptimizeEffort kTrialEffort{kLiveStep, 10};
-// Of a group, chi-square a closure: half of the three that a closure's degrees of freedom would allow, for
-// the covariances of matches are wide.
-constexpr double kMaxMisfit = 1.5;
-constexpr double kLostHeadingRad = radians(15);  // more than this, motion alone does not know the heading
-
 /// Of a motion that nobody measured.
 Eigen::Matrix3d unknown_motion_information() { return Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal(); }
 
@@ -37,7 +25,10 @@ double misfit(std::span<const RelativePoseFactor<KeyframeId>> group, const Keyfr
 }  // namespace
 
 KeyframeGraph::KeyframeGraph(const BackendConfig& config, const KeyframeChain& chain)
-    : config_(&config), chain_(&chain), optimizer_(config.dcs_phi, config.optimizer_iterations) {}
+    : config_(&config),
+      chain_(&chain),
+      optimizer_(config.dcs_phi, config.optimizer_iterations),
+      building_axis_prior_(config.tuning.axis) {}
 
 void KeyframeGraph::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
   const auto steps = static_cast<std::uint32_t>(made.T_local_keyframe.size() - 1);
@@ -77,16 +68,20 @@ double KeyframeGraph::yaw_variance_rad2(KeyframeId from, KeyframeId to) const {
     k = motion_factor_.next(k);
     variance_rad2 += motion_to(k).information.inverse()(2, 2);
   }
-  return variance_rad2 < kLostHeadingRad * kLostHeadingRad ? variance_rad2
-                                                           : relative_covariances(graph_, from)[to](2, 2);
+  const double lost_rad = tuning().lost_heading_rad;
+  if (variance_rad2 < lost_rad * lost_rad) return variance_rad2;
+  return relative_covariances(graph_, from, config_->tuning.covariance)[to](2, 2);
 }
 
 void KeyframeGraph::observe_building_axis(const FrontendEstimates& estimates) {
   const KeyframeId newest = graph_.T_map_keyframe.last_id();
   const double here_m = chain_->path_m(newest);
-  if (!config_->align_to_walls || here_m - axis_observed_at_m_ < 0.5 * config_->submap_length_m) return;
+  if (!config_->align_to_walls ||
+      here_m - axis_observed_at_m_ < tuning().axis_every_share * config_->submap_length_m)
+    return;
   axis_observed_at_m_ = here_m;
-  const std::optional<WallAxis> axis = estimates.wall_axis_around_newest(*chain_, config_->submap_length_m);
+  const std::optional<WallAxis> axis =
+      estimates.wall_axis_around_newest(*chain_, config_->submap_length_m, config_->tuning.walls);
   if (!axis) return;
   const std::size_t before = graph_.headings.size();
   const double variance_rad2 = before == 0 ? 0.0 : yaw_variance_rad2(graph_.headings.back().pose, newest);
@@ -99,18 +94,18 @@ FactorId KeyframeGraph::add_closure(const RelativePoseFactor<KeyframeId>& closur
 }
 
 bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> group) {
-  if (misfit(group, graph_.T_map_keyframe) <= kMaxMisfit) return true;
+  if (misfit(group, graph_.T_map_keyframe) <= tuning().max_misfit) return true;
   building_axis_prior_.update(graph_);
   PoseGraph trial = graph_;
   for (RelativePoseFactor<KeyframeId> factor : group) {
     factor.is_closure = false;
     trial.factors.push_back(factor);
   }
-  if (!optimizer_.optimize(trial, kTrialEffort)) {
+  if (!optimizer_.optimize(trial, {tuning().live_step, tuning().trial_iterations})) {
     ++counters_.solver_failures;
     return false;
   }
-  if (misfit(group, trial.T_map_keyframe) > kMaxMisfit) return false;
+  if (misfit(group, trial.T_map_keyframe) > tuning().max_misfit) return false;
   graph_.T_map_keyframe = std::move(trial.T_map_keyframe);
   state_ = GraphState::kMoved;
   return true;
@@ -120,7 +115,7 @@ bool KeyframeGraph::settle() {
   const bool due = is_due();
   new_closures_.clear();
   has_new_heading_ = false;
-  return due && optimize(kLiveEffort);
+  return due && optimize({tuning().live_step, tuning().live_iterations});
 }
 
 /// Whether the last solution is still on its way, what is new disagrees with the graph, or something that
@@ -129,13 +124,13 @@ bool KeyframeGraph::is_due() {
   if (state_ == GraphState::kSettled && (has_new_heading_ || !new_closures_.empty()))
     state_ = GraphState::kPending;
   if (state_ != GraphState::kPending) return state_ != GraphState::kSettled;
-  if (graph_.T_map_keyframe.last_id() - optimized_upto_ >= kMaxKeyframesWaiting) return true;
+  if (graph_.T_map_keyframe.last_id() - optimized_upto_ >= tuning().max_keyframes_waiting) return true;
   if (has_new_heading_) {
     building_axis_prior_.update(graph_);
-    if (chi_square(graph_.headings.back(), graph_.T_map_keyframe) > kExpectedChiSquare) return true;
+    if (chi_square(graph_.headings.back(), graph_.T_map_keyframe) > tuning().expected_chi_square) return true;
   }
   return std::any_of(new_closures_.begin(), new_closures_.end(), [&](FactorId id) {
-    return chi_square(graph_.factors[id], graph_.T_map_keyframe) > kExpectedChiSquare;
+    return chi_square(graph_.factors[id], graph_.T_map_keyframe) > tuning().expected_chi_square;
   });
 }
 

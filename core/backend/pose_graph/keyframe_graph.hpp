@@ -48,7 +48,7 @@ class KeyframeGraph {
   /// Once a keyframe, after everything was added: optimises if that is due. True: poses have moved.
   bool settle();
   /// Optimises until it converges. True: poses have moved.
-  bool optimize() { return optimize({}); }
+  bool optimize() { return optimize({tuning().final_step}); }
   /// The factor no longer counts.
   void disable(FactorId factor) { graph_.factors[factor].information.setZero(); }
   /// Erases keyframes with their factors. The motion across each hole is unknown; `ties` hold its ends.
@@ -69,6 +69,7 @@ class KeyframeGraph {
   [[nodiscard]] bool is_due();
   void join_across_holes();
   bool optimize(const OptimizeEffort& effort);
+  [[nodiscard]] const KeyframeGraphTuning& tuning() const { return config_->tuning.graph; }
 
   const BackendConfig* config_;
   const KeyframeChain* chain_;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/backend/pose_graph/pose_system.hpp"
 #include "core/base/result.hpp"
@@ -19,7 +20,7 @@ struct OptimizeReport {
 /// How far a solution is taken: until no step is larger than this (metres or radians, largest component), in
 /// no more iterations than these and the optimizer's own.
 struct OptimizeEffort {
-  double converged_step = 1e-5;
+  double converged_step = KeyframeGraphTuning().final_step;
   int max_iterations = std::numeric_limits<int>::max();
 };
 

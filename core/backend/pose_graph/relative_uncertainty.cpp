@@ -15,25 +15,25 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kBelieved = 0.5;
-
 struct Step {
   PoseIndex to{};
   std::uint32_t factor = 0;  ///< where it lies among the graph's
   double length = 0.0;       ///< what Dijkstra adds up
 };
 
-double size_of(const Eigen::Matrix3d& covariance) {
-  constexpr double kLeverM2 = 4.0;  // a heading error is felt at about two metres, the reach of the beams
-  return covariance(0, 0) + covariance(1, 1) + kLeverM2 * covariance(2, 2);
+double size_of(const Eigen::Matrix3d& covariance, double lever_m) {
+  return covariance(0, 0) + covariance(1, 1) + lever_m * lever_m * covariance(2, 2);
 }
 
 /// The factors that count, as steps from pose to pose. Those from one pose lie together, in the order of the
 /// factors.
 class Steps {
  public:
-  explicit Steps(const PoseGraph& graph)
-      : graph_(&graph), first_(graph.T_map_keyframe.size() + 2, 0), forward_(graph.factors.size()) {
+  Steps(const PoseGraph& graph, const RelativeCovarianceTuning& tuning)
+      : graph_(&graph),
+        tuning_(tuning),
+        first_(graph.T_map_keyframe.size() + 2, 0),
+        forward_(graph.factors.size()) {
     std::uint32_t count = 0;
     for (const Factor& f : graph.factors.values()) {
       if (!is_used(f)) continue;
@@ -64,7 +64,9 @@ class Steps {
  private:
   using Factor = RelativePoseFactor<KeyframeId>;
 
-  static bool is_used(const Factor& f) { return !f.is_closure || f.dcs_scale >= kBelieved; }
+  [[nodiscard]] bool is_used(const Factor& f) const {
+    return !f.is_closure || f.dcs_scale >= tuning_.min_dcs_scale;
+  }
 
   /// While filling, first_[p + 1] is where the next step from p goes.
   void insert(std::uint32_t i) {
@@ -73,7 +75,7 @@ class Steps {
     const Eigen::Matrix3d in_to = f.information.inverse();
     const Eigen::Matrix3d J = jacobian_compose_second(f.T_from_to);
     forward_[i] = J * in_to * J.transpose();
-    const double length = size_of(forward_[i]);
+    const double length = size_of(forward_[i], tuning_.lever_m);
     const PoseIndex from = graph_->pose_index(f.from);
     const PoseIndex to = graph_->pose_index(f.to);
     steps_[first_[index_of(from) + 1]++] = {to, i, length};
@@ -81,6 +83,7 @@ class Steps {
   }
 
   const PoseGraph* graph_;
+  RelativeCovarianceTuning tuning_;
   std::vector<std::uint32_t> first_;  ///< by pose: of its steps
   std::vector<Step> steps_;
   std::vector<Eigen::Matrix3d> forward_;  ///< by factor: of T_from_to, in the frame of `from`
@@ -93,16 +96,16 @@ struct Arrival {
 };
 
 /// Variance of each keyframe's heading in the map by what the graph's headings say; infinite where nothing.
-std::vector<double> heading_variances(const PoseGraph& graph) {
+std::vector<double> heading_variances(const PoseGraph& graph, double min_dcs_scale) {
   std::vector<double> variances(graph.T_map_keyframe.size(), std::numeric_limits<double>::infinity());
   for (const HeadingFactor<KeyframeId>& c : graph.headings) {
-    if (c.dcs_scale >= kBelieved) variances[index_of(graph.pose_index(c.pose))] = 1.0 / c.information;
+    if (c.dcs_scale >= min_dcs_scale) variances[index_of(graph.pose_index(c.pose))] = 1.0 / c.information;
   }
   return variances;
 }
 
 /// Kalman update of a pose's covariance by its heading.
-void know_heading(double variance_rad2, Eigen::Matrix3d& covariance) {
+void condition_on_heading(double variance_rad2, Eigen::Matrix3d& covariance) {
   if (!std::isfinite(variance_rad2)) return;
   const Eigen::Vector3d column = covariance.col(2);
   covariance -= column * column.transpose() / (covariance(2, 2) + variance_rad2);
@@ -110,9 +113,10 @@ void know_heading(double variance_rad2, Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
-IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from) {
-  const Steps steps(graph);
-  const std::vector<double> headings = heading_variances(graph);
+IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
+                                                        const RelativeCovarianceTuning& tuning) {
+  const Steps steps(graph, tuning);
+  const std::vector<double> headings = heading_variances(graph, tuning.min_dcs_scale);
   const std::span<const Pose2> T_map_pose = graph.T_map_keyframe.values();
   const PoseIndex start = graph.pose_index(from);
   const Pose2 T_from_map = T_map_pose[index_of(start)].inverse();
@@ -125,7 +129,7 @@ IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, 
     const Eigen::Matrix3d J2 = jacobian_compose_second(T_from_here);
     covariance[to] =
         J1 * covariance[here] * J1.transpose() + J2 * steps.covariance(arrival.step) * J2.transpose();
-    know_heading(2.0 * headings[to], covariance[to]);  // that of `from` is known no better
+    condition_on_heading(2.0 * headings[to], covariance[to]);  // that of `from` is known no better
   };
   std::vector<Arrival> arrivals(T_map_pose.size());
   std::vector<double> distance(T_map_pose.size(), std::numeric_limits<double>::infinity());

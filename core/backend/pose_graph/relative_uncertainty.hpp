@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 
 namespace swiftlet {
@@ -13,6 +14,7 @@ namespace swiftlet {
 /// and efficient robotic mapping", section 3.4). On the safe side: other paths only tell more. Closures count
 /// as far as DCS believes them (at least half), and so do headings: a keyframe that has one gets a Kalman
 /// update of its yaw on the way. Allocates; O(m log n).
-IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from);
+IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
+                                                        const RelativeCovarianceTuning& tuning = {});
 
 }  // namespace swiftlet

@@ -16,17 +16,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kTileM = 2.0;
-constexpr std::size_t kReturnsPerTraversal = 64;  // tell where a traversal was
-constexpr double kShareOfReturns = 0.9;           // decides: the rest are glances through doors
-constexpr std::size_t kOldestKept = 3;            // traversals in each tile, and ...
-constexpr std::size_t kNewestKept = 3;            // ... as many again
-constexpr double kPrunedShare = 0.05;             // of the most scans, at a time
-constexpr std::size_t kMinRun = 4;                // traversals: every hole needs ties on both sides
-// Of a tie: looser than what was known of the place.
-constexpr double kTieSigmaM = 0.1;
-constexpr double kTieSigmaRad = 0.05;
-
 using Tile = std::pair<std::int32_t, std::int32_t>;
 
 struct SeenTile {
@@ -48,8 +37,8 @@ struct Traversal {
 class Coverage {
  public:
   Coverage(const ScanStore& scans, const KeyframeChain& chain, const KeyframePoses& T_map_keyframe,
-           std::span<const KeyframeId> anchors)
-      : scans_(scans), chain_(chain), T_map_keyframe_(T_map_keyframe) {
+           std::span<const KeyframeId> anchors, const PruningTuning& tuning)
+      : scans_(scans), chain_(chain), T_map_keyframe_(T_map_keyframe), tuning_(tuning) {
     for (std::size_t k = 0; k + kKeyframesPerTraversal <= chain.size(); k += kKeyframesPerTraversal)
       traversals_.push_back(make_traversal(traversal_of(chain.all().id_at(k))));
     judge();
@@ -72,6 +61,7 @@ class Coverage {
   const ScanStore& scans_;
   const KeyframeChain& chain_;
   const KeyframePoses& T_map_keyframe_;
+  const PruningTuning& tuning_;
   std::vector<Traversal> traversals_;
   std::map<Tile, std::size_t> number_of_;
   std::vector<std::size_t> traversals_in_;  // of each tile
@@ -85,7 +75,7 @@ Traversal Coverage::make_traversal(TraversalId id) {
   traversal.middle_map = T_map_keyframe_[middle].position();
   traversal.path_m = chain_.path_m(middle);
   std::map<Tile, std::size_t> returns_in;
-  const std::size_t every = 1 + scans_.return_count(traversal.scans) / kReturnsPerTraversal;
+  const std::size_t every = 1 + scans_.return_count(traversal.scans) / tuning_.returns_per_traversal;
   std::size_t number_of_return = 0;
   const std::vector<Pose2> T_map_body = chain_.T_w_bodies(traversal.scans, T_map_keyframe_);
   const std::span<const StoredScan> scans = scans_.all().values(traversal.scans);
@@ -93,8 +83,8 @@ Traversal Coverage::make_traversal(TraversalId id) {
     for (const ScanReturn& beam : scans_.returns(scans[i])) {
       if (number_of_return++ % every != 0 || !beam.is_hit) continue;
       const Point2 p = T_map_body[i] * scans_.point_body(beam);
-      ++returns_in[{static_cast<std::int32_t>(std::floor(p.x_m / kTileM)),
-                    static_cast<std::int32_t>(std::floor(p.y_m / kTileM))}];
+      ++returns_in[{static_cast<std::int32_t>(std::floor(p.x_m / tuning_.tile_m)),
+                    static_cast<std::int32_t>(std::floor(p.y_m / tuning_.tile_m))}];
     }
   }
   std::size_t all = 0;
@@ -115,13 +105,13 @@ void Coverage::judge() {
     double new_and_old = 0.0;
     for (const SeenTile& tile : traversal.tiles) {
       const std::size_t after = traversals_in_[tile.number] - before[tile.number] - 1;
-      const bool has_older = before[tile.number] >= kOldestKept;
+      const bool has_older = before[tile.number] >= tuning_.oldest_kept;
       old += has_older ? tile.share : 0.0;
-      new_and_old += has_older && after >= kNewestKept ? tile.share : 0.0;
+      new_and_old += has_older && after >= tuning_.newest_kept ? tile.share : 0.0;
       ++before[tile.number];
     }
-    traversal.stays_for_good = old < kShareOfReturns;
-    traversal.is_redundant = new_and_old >= kShareOfReturns;
+    traversal.stays_for_good = old < tuning_.share_of_returns;
+    traversal.is_redundant = new_and_old >= tuning_.share_of_returns;
   }
 }
 
@@ -151,7 +141,7 @@ void Pruning::add(const PrunedTraversal& traversal, std::size_t scans_in_it) {
 
 Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recent,
                      std::size_t scans_wanted) const {
-  const Coverage coverage(*scans_, *chain_, T_map_keyframe, anchors_);
+  const Coverage coverage(*scans_, *chain_, T_map_keyframe, anchors_, config_->tuning.pruning);
   const std::vector<Traversal>& traversals = coverage.traversals();
   std::vector<std::optional<KeyframeId>> anchor_of(traversals.size());  // of those that can go
   for (std::size_t p = 0; p < traversals.size(); ++p)
@@ -163,7 +153,7 @@ Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recen
     while (end < traversals.size() && anchor_of[end]) ++end;
     const bool widens_a_hole = end > p && ((*scans_)[traversals[p].scans.first].starts_segment ||
                                            (*scans_)[traversals[end - 1].scans.end].starts_segment);
-    if (end - p >= kMinRun || widens_a_hole) {
+    if (end - p >= config_->tuning.pruning.min_run || widens_a_hole) {
       for (std::size_t k = p; k < end && pruning.scan_count < scans_wanted; ++k)
         pruning.add({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]},
                     scans_->all().count(traversals[k].scans));
@@ -175,7 +165,8 @@ Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recen
 
 Pruning Pruner::next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use) {
   if (scans_->size() < due_at_ || chain_->size() == 0) return {};
-  const auto at_a_time = static_cast<std::size_t>(kPrunedShare * config_->max_scans);
+  const auto at_a_time =
+      static_cast<std::size_t>(config_->tuning.pruning.share_at_a_time * config_->max_scans);
   Pruning pruning =
       plan(T_map_keyframe, first_recent(first_in_use), scans_->size() - max_scans() + at_a_time);
   // Where little can be spared, there is nothing to be gained by asking at every step.
@@ -200,7 +191,8 @@ KeyframeId Pruner::first_recent(KeyframeId first_in_use) const {
 }
 
 std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning, const ScanStore& scans,
-                                                        const KeyframePoses& T_map_keyframe) {
+                                                        const KeyframePoses& T_map_keyframe,
+                                                        const PruningTuning& tuning) {
   std::vector<RelativePoseFactor<KeyframeId>> ties;
   const auto is_held_by_motion = [&](ScanId behind) {
     return !scans[behind].starts_segment || scans[behind].odometry_ran_on;
@@ -211,7 +203,7 @@ std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning, 
     c.from = anchor;
     c.to = end;
     c.T_from_to = between(T_map_keyframe[anchor], T_map_keyframe[end]);
-    const Eigen::Vector3d sigma(kTieSigmaM, kTieSigmaM, kTieSigmaRad);
+    const Eigen::Vector3d sigma(tuning.tie_sigma_m, tuning.tie_sigma_m, tuning.tie_sigma_rad);
     c.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
     c.is_closure = true;
     ties.push_back(c);

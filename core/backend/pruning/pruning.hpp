@@ -66,6 +66,7 @@ class Pruner {
 /// before has its tie from an earlier pruning, or needs none. Allocates.
 [[nodiscard]] std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning,
                                                                       const ScanStore& scans,
-                                                                      const KeyframePoses& T_map_keyframe);
+                                                                      const KeyframePoses& T_map_keyframe,
+                                                                      const PruningTuning& tuning = {});
 
 }  // namespace swiftlet

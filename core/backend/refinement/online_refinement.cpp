@@ -11,15 +11,6 @@
 #include "core/geometry/cell_numbers.hpp"
 
 namespace swiftlet {
-namespace {
-
-constexpr double kThinningM = RefinementTuning{}.thinning_cell_m;
-constexpr std::size_t kMaxScansPerTraversal = 100;
-constexpr std::size_t kReturnsPerPlace = 5;      // neighbours lie in the same tile
-constexpr std::size_t kSamePlaceTraversals = 3;  // one window serves closures this close
-
-}  // namespace
-
 void OnlineRefinement::add_scan() {
   const StoredScan& scan = (*scans_)[T_graph_refined_.end_id()];
   const bool is_carried_on = !T_graph_refined_.empty() && (!scan.starts_segment || scan.odometry_ran_on);
@@ -29,10 +20,10 @@ void OnlineRefinement::add_scan() {
 void OnlineRefinement::queue_around(KeyframeId place) {
   const TraversalId traversal = traversal_of(place);
   const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](TraversalId w) {
-    return traversals_between(w, traversal) < kSamePlaceTraversals;
+    return traversals_between(w, traversal) < tuning_.same_place_traversals;
   });
   if (waits) return;
-  if (waiting_.size() == kMaxPlacesWaiting) waiting_.pop_front();
+  if (waiting_.size() == tuning_.max_places_waiting) waiting_.pop_front();
   waiting_.push_back(traversal);
 }
 
@@ -71,20 +62,21 @@ std::size_t OnlineRefinement::traversals_between(TraversalId a, TraversalId b) c
 ScanRange OnlineRefinement::window_around(TraversalId traversal) const {
   const IdMap<ScanId, StoredScan>& scans = scans_->all();
   ScanRange window = scans_of(traversal);
-  if (scans.count(window) > kMaxScans)
-    return {scans.id_at(scans.position(window.end) - kMaxScans), window.end};
+  if (scans.count(window) > tuning_.max_window_scans)
+    return {scans.id_at(scans.position(window.end) - tuning_.max_window_scans), window.end};
   const TraversalId oldest = traversal_of(chain_->all().first_id());
   TraversalId lowest = traversal;
   TraversalId highest = traversal;
   for (bool grows = true; grows;) {
     grows = false;
-    if (lowest > oldest && scans.count({scans_of(before(lowest)).first, window.end}) <= kMaxScans) {
+    if (lowest > oldest &&
+        scans.count({scans_of(before(lowest)).first, window.end}) <= tuning_.max_window_scans) {
       lowest = before(lowest);
       window.first = scans_of(lowest).first;
       grows = true;
     }
     if (highest < newest_traversal() &&
-        scans.count({window.first, scans_of(after(highest)).end}) <= kMaxScans) {
+        scans.count({window.first, scans_of(after(highest)).end}) <= tuning_.max_window_scans) {
       highest = after(highest);
       window.end = scans_of(highest).end;
       grows = true;
@@ -133,7 +125,7 @@ std::vector<TraversalPoint> OnlineRefinement::walls_around(const ScanRange& wind
   const Pose2* T_map_scan = &poses.T_map_body[scans_->all().count({poses.scans.first, window.first})];
   for (const StoredScan& scan : scans) {
     for (const ScanReturn& beam : scans_->returns(scan))
-      if (beam.is_hit && number++ % kReturnsPerPlace == 0)
+      if (beam.is_hit && number++ % tuning_.returns_per_place == 0)
         places_map.push_back(*T_map_scan * scans_->point_body(beam));
     ++T_map_scan;
   }
@@ -185,16 +177,16 @@ void OnlineRefinement::file_traversal(TraversalId traversal, const KeyframePoses
   walls.reference = scans_->all().id_at(first + scans.size() / 2);
   const Pose2 T_map_reference = T_map_body(walls.reference, T_map_keyframe);
   const Pose2 T_reference_map = T_map_reference.inverse();
-  const std::size_t every = 1 + scans.size() / kMaxScansPerTraversal;
+  const std::size_t every = 1 + scans.size() / tuning_.max_traversal_scans;
   const std::vector<Pose2> T_map_graph = chain_->T_w_bodies(range, T_map_keyframe, every);
-  CellNumbers cells(kThinningM);
-  cells.reset(std::min<std::size_t>(scans_->return_count(range), kMaxScansPerTraversal * kMaxBeams));
+  CellNumbers cells(refinement_tuning_.thinning_cell_m);
+  cells.reset(std::min<std::size_t>(scans_->return_count(range), tuning_.max_traversal_scans * kMaxBeams));
   for (std::size_t i = 0; i < scans.size(); i += every) {
     const ScanId id = scans_->all().id_at(first + i);
     const Pose2 T_reference_body = T_reference_map * refined(id, T_map_graph[i / every]);
     const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
     for (std::size_t k = 0; k < beams.size(); ++k) {
-      if (!beams[k].is_hit || is_held_out(id, k)) continue;
+      if (!beams[k].is_hit || is_held_out(id, k, refinement_tuning_)) continue;
       const Point2 p = T_reference_body * scans_->point_body(beams[k]);
       if (cells.is_first(p)) walls.points_reference.push_back(p);
     }

@@ -20,11 +20,14 @@ namespace swiftlet {
 /// Allocates. One thread at a time. Repeatable.
 class OnlineRefinement {
  public:
-  static constexpr std::size_t kMaxScans = 300;  ///< of a window
-  static constexpr std::size_t kMaxPlacesWaiting = 32;
-
-  OnlineRefinement(const ScanStore& scans, const KeyframeChain& chain, const SensorModel& sensor)
-      : scans_(&scans), chain_(&chain), window_refinement_(scans, sensor.odometry) {}
+  OnlineRefinement(const ScanStore& scans, const KeyframeChain& chain, const SensorModel& sensor,
+                   const BackendTuning& tuning = {})
+      : scans_(&scans),
+        chain_(&chain),
+        tuning_(tuning.online),
+        refinement_tuning_(tuning.refinement),
+        window_refinement_(scans, sensor.odometry, tuning.refinement),
+        traversals_(tuning.index) {}
 
   /// The store has a new scan, which starts with its predecessor's offset.
   void add_scan();
@@ -69,6 +72,8 @@ class OnlineRefinement {
 
   const ScanStore* scans_;
   const KeyframeChain* chain_;
+  OnlineRefinementTuning tuning_;
+  RefinementTuning refinement_tuning_;
   WindowRefinement window_refinement_;
   TraversalIndex traversals_;  // all but the newest, which is not complete
   IdMap<ScanId, Pose2> T_graph_refined_;

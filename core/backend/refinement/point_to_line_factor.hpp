@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/backend/refinement/refinement_tuning.hpp"
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/refinement/wall_map.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/geometry/pose2.hpp"

@@ -12,8 +12,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kKeyframesOfCorrection = 4;  // about 2 m
-
 /// As DCS weighted it last.
 template <typename Factor>
 void scale_information(Factor& factor) {
@@ -44,7 +42,11 @@ std::vector<HeadingFactor<ScanId>> headings_of_scans(const PoseGraph& graph, con
 
 RunRefinement::RunRefinement(const BackendConfig& config, const SensorModel& sensor, const ScanStore& scans,
                              const KeyframeChain& chain)
-    : config_(&config), sensor_(sensor), scans_(&scans), chain_(&chain), online_(scans, chain, sensor) {}
+    : config_(&config),
+      sensor_(sensor),
+      scans_(&scans),
+      chain_(&chain),
+      online_(scans, chain, sensor, config.tuning) {}
 
 void RunRefinement::follow(const KeyframePoses& T_map_keyframe) {
   if (is_wanted()) online_.follow(T_map_keyframe);
@@ -65,7 +67,7 @@ bool RunRefinement::refine_all(const PoseGraph& graph) {
   std::vector<Pose2> T_map_body = chain_->T_w_bodies(all, graph.T_map_keyframe);
   const Result<RefinementReport> report =
       refine_scan_poses(*scans_, sensor_, closures_between_scans(graph, *chain_),
-                        headings_of_scans(graph, *chain_), *config_, T_map_body);
+                        headings_of_scans(graph, *chain_), *config_, T_map_body, config_->tuning.refinement);
   if (!report) {
     ++counters_.solver_failures;
     return false;
@@ -94,7 +96,8 @@ Pose2 RunRefinement::T_map_newest(const KeyframePoses& T_map_keyframe,
   const std::span<const Pose2> T_local = T_local_keyframe.values();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of differences from the tip
   std::size_t count = 0;
-  for (std::size_t k = scans.size(); k-- > 0 && count < kKeyframesOfCorrection;) {
+  const std::size_t most = config_->tuning.online.keyframes_of_correction;
+  for (std::size_t k = scans.size(); k-- > 0 && count < most;) {
     const Pose2 T_map_seen = T_map_body(scans[k], T_map_keyframe) * between(T_local[k], T_local.back());
     sum += Eigen::Vector3d(T_map_seen.x_m() - T_map_tip.x_m(), T_map_seen.y_m() - T_map_tip.y_m(),
                            wrap_angle(T_map_seen.yaw_rad() - T_map_tip.yaw_rad()));

@@ -10,13 +10,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kTileM = 2.0;
-constexpr double kMarginM =
-    0.5;  // walls this far off their places are found, less what traversals moved since ...
-constexpr double kRefileM = 0.2;  // ... which is no more than this
-
-std::int32_t tile_of(double m) { return static_cast<std::int32_t>(std::floor(m / kTileM)); }
-
 template <typename T>
 void sort_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
@@ -25,6 +18,11 @@ void sort_unique(std::vector<T>& values) {
 
 }  // namespace
 
+TraversalIndex::Tile TraversalIndex::tile_of(const Point2& p_map) const {
+  return {static_cast<std::int32_t>(std::floor(p_map.x_m / tuning_.tile_m)),
+          static_cast<std::int32_t>(std::floor(p_map.y_m / tuning_.tile_m))};
+}
+
 void TraversalIndex::set(TraversalId traversal, TraversalWalls walls, const Pose2& T_map_reference) {
   SWIFTLET_CHECK(traversal <= traversals_.end_id(), "traversals are filed in order");
   if (traversal == traversals_.end_id()) traversals_.push_back({});
@@ -32,10 +30,10 @@ void TraversalIndex::set(TraversalId traversal, TraversalWalls walls, const Pose
   Filed& filed = traversals_[traversal];
   filed.walls = std::move(walls);
   std::vector<Point2>& points = filed.walls.points_reference;
-  if (const std::size_t count = points.size(); count > kMaxPointsPerTraversal) {
-    for (std::size_t i = 0; i < kMaxPointsPerTraversal; ++i)
-      points[i] = points[i * count / kMaxPointsPerTraversal];
-    points.resize(kMaxPointsPerTraversal);
+  if (const std::size_t count = points.size(); count > tuning_.max_points_per_traversal) {
+    for (std::size_t i = 0; i < tuning_.max_points_per_traversal; ++i)
+      points[i] = points[i * count / tuning_.max_points_per_traversal];
+    points.resize(tuning_.max_points_per_traversal);
   }
   filed.reach_m = 0.0;
   for (const Point2& p : points) filed.reach_m = std::max(filed.reach_m, std::hypot(p.x_m, p.y_m));
@@ -60,7 +58,7 @@ void TraversalIndex::move(TraversalId traversal, const Pose2& T_map_reference) {
   const Filed& filed = traversals_[traversal];
   const Pose2 moved = between(filed.T_map_reference, T_map_reference);
   const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * filed.reach_m;
-  if (farthest_m <= kRefileM) return;
+  if (farthest_m <= tuning_.refile_m) return;
   unfile(traversal);
   file(traversal, T_map_reference);
 }
@@ -70,7 +68,7 @@ void TraversalIndex::file(TraversalId traversal, const Pose2& T_map_reference) {
   filed.T_map_reference = T_map_reference;
   for (const Point2& p_reference : filed.walls.points_reference) {
     const Point2 p_map = T_map_reference * p_reference;
-    filed.tiles.emplace_back(tile_of(p_map.x_m), tile_of(p_map.y_m));
+    filed.tiles.push_back(tile_of(p_map));
   }
   sort_unique(filed.tiles);
   for (const Tile& tile : filed.tiles) {
@@ -92,8 +90,8 @@ std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map
                                               const IdRange<TraversalId>& excluded) const {
   std::vector<Tile> tiles;
   for (const Point2& p : places_map) {
-    const Tile low(tile_of(p.x_m - kMarginM), tile_of(p.y_m - kMarginM));
-    const Tile high(tile_of(p.x_m + kMarginM), tile_of(p.y_m + kMarginM));
+    const Tile low = tile_of({p.x_m - tuning_.margin_m, p.y_m - tuning_.margin_m});
+    const Tile high = tile_of({p.x_m + tuning_.margin_m, p.y_m + tuning_.margin_m});
     for (std::int32_t x = low.first; x <= high.first; ++x)
       for (std::int32_t y = low.second; y <= high.second; ++y)
         if (tiles.empty() || tiles.back() != Tile(x, y)) tiles.emplace_back(x, y);
@@ -110,7 +108,7 @@ std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map
     const auto before = static_cast<std::size_t>(first_out - there.begin());
     const auto gap = static_cast<std::size_t>(first_after - first_out);
     const std::size_t count = there.size() - gap;
-    const std::size_t taken = std::min(count, kMaxTraversalsPerTile);
+    const std::size_t taken = std::min(count, tuning_.max_traversals_per_tile);
     std::vector<TraversalId>& chosen = choices.emplace_back();
     for (std::size_t k = 0; k < taken; ++k) {
       const std::size_t i = taken == 1 ? 0 : k * (count - 1) / (taken - 1);
@@ -118,12 +116,13 @@ std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map
     }
   }
   std::vector<TraversalId> found;
-  for (std::size_t k = 0; k < kMaxTraversalsPerTile && found.size() < kMaxTraversalsNearby; ++k) {
+  for (std::size_t k = 0; k < tuning_.max_traversals_per_tile && found.size() < tuning_.max_traversals_nearby;
+       ++k) {
     for (const std::vector<TraversalId>& chosen : choices)
       if (k < chosen.size()) found.push_back(chosen[k]);
     sort_unique(found);
   }
-  if (found.size() > kMaxTraversalsNearby) found.resize(kMaxTraversalsNearby);
+  if (found.size() > tuning_.max_traversals_nearby) found.resize(tuning_.max_traversals_nearby);
   return found;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/base/id_map.hpp"
 #include "core/base/ids.hpp"
 #include "core/geometry/pose2.hpp"
@@ -25,9 +26,7 @@ struct TraversalWalls {
 /// however long the run; so do the points that come of it. Allocates. One thread at a time.
 class TraversalIndex {
  public:
-  static constexpr std::size_t kMaxPointsPerTraversal = 256;
-  static constexpr std::size_t kMaxTraversalsNearby = 64;
-  static constexpr std::size_t kMaxTraversalsPerTile = 8;
+  explicit TraversalIndex(const TraversalIndexTuning& tuning = {}) : tuning_(tuning) {}
 
   /// Files the next traversal, or an earlier one anew. More than the most points: some are left out, evenly.
   void set(TraversalId traversal, TraversalWalls walls, const Pose2& T_map_reference);
@@ -56,9 +55,11 @@ class TraversalIndex {
     double reach_m = 0.0;   // of its farthest point from the reference
     std::vector<Tile> tiles;
   };
+  [[nodiscard]] Tile tile_of(const Point2& p_map) const;
   void file(TraversalId traversal, const Pose2& T_map_reference);
   void unfile(TraversalId traversal);
 
+  TraversalIndexTuning tuning_;
   IdMap<TraversalId, Filed> traversals_;
   std::map<Tile, std::vector<TraversalId>> tiles_;  // traversals ascending
 };

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/refinement/local_moments.hpp"
-#include "core/backend/refinement/refinement_tuning.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace swiftlet {

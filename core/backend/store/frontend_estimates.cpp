@@ -41,8 +41,8 @@ void FrontendEstimates::erase(const IdRanges<KeyframeId>& pruned) {
   std::erase_if(walls_, [&](const Wall& wall) { return pruned.contains(wall.anchor); });
 }
 
-std::optional<WallAxis> FrontendEstimates::wall_axis_around_newest(const KeyframeChain& chain,
-                                                                   double reach_m) const {
+std::optional<WallAxis> FrontendEstimates::wall_axis_around_newest(const KeyframeChain& chain, double reach_m,
+                                                                   const WallAxisTuning& tuning) const {
   const KeyframeId newest = T_local_keyframe_.last_id();
   const double here_m = chain.path_m(newest);
   std::vector<WallDirection> around;
@@ -53,7 +53,7 @@ std::optional<WallAxis> FrontendEstimates::wall_axis_around_newest(const Keyfram
     const double turned_rad = T_local_keyframe_[wall.anchor].yaw_rad() - T_local_keyframe_[newest].yaw_rad();
     around.push_back({std::atan2(dy_m, dx_m) + turned_rad, std::hypot(dx_m, dy_m)});
   }
-  return wall_axis(around);
+  return wall_axis(around, tuning);
 }
 
 }  // namespace swiftlet

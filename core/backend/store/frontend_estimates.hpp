@@ -32,8 +32,8 @@ class FrontendEstimates {
   [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
   /// The axis of the walls that were seen over the last `reach_m` of travel, in the frame of the newest
   /// keyframe; walls from before an unknown motion are left out.
-  [[nodiscard]] std::optional<WallAxis> wall_axis_around_newest(const KeyframeChain& chain,
-                                                                double reach_m) const;
+  [[nodiscard]] std::optional<WallAxis> wall_axis_around_newest(const KeyframeChain& chain, double reach_m,
+                                                                const WallAxisTuning& tuning) const;
 
  private:
   void take_walls(const Keyframe& made);

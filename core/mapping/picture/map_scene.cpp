@@ -15,12 +15,10 @@ namespace swiftlet {
 
 namespace {
 
-/// What is more likely occupied than not, by several beams.
-constexpr int kOccupiedPercent = 65;
-
 class OccupiedCells {
  public:
-  explicit OccupiedCells(const std::vector<MapTile>& tiles) {
+  OccupiedCells(const std::vector<MapTile>& tiles, int occupied_percent)
+      : occupied_percent_(occupied_percent) {
     for (const MapTile& tile : tiles) tiles_.emplace(tile.index, &tile);
   }
   bool operator()(CellIndex cell) const {
@@ -28,24 +26,25 @@ class OccupiedCells {
     const auto found = tiles_.find(index);
     if (found == tiles_.end()) return false;
     const int i = (cell.y - index.y * kTileCells) * kTileCells + (cell.x - index.x * kTileCells);
-    return found->second->occupancy_percent[static_cast<std::size_t>(i)] >= kOccupiedPercent;
+    return found->second->occupancy_percent[static_cast<std::size_t>(i)] >= occupied_percent_;
   }
 
  private:
   static int floor_divide(int cell) { return cell >= 0 ? cell / kTileCells : (cell + 1) / kTileCells - 1; }
+  int occupied_percent_;
   std::map<TileIndex, const MapTile*> tiles_;
 };
 
-void add_walls(MapScene& scene, const Backend& backend) {
-  const OccupiedCells is_occupied(scene.tiles);
+void add_walls(MapScene& scene, const Backend& backend, const WallSupportTuning& tuning) {
+  const OccupiedCells is_occupied(scene.tiles, tuning.occupied_percent);
   for (const Wall& wall : backend.walls()) {
     const Pose2& T_map_anchor = backend.T_map_keyframe(wall.anchor);
     const MapSegment whole{T_map_anchor * wall.start_keyframe, T_map_anchor * wall.end_keyframe};
-    const MapSegment fitted = fitted_to_grid(whole, scene.resolution_m, std::cref(is_occupied));
-    for (const MapSegment& part : supported_parts(fitted, scene.resolution_m, std::cref(is_occupied)))
+    const MapSegment fitted = fitted_to_grid(whole, scene.resolution_m, std::cref(is_occupied), tuning);
+    for (const MapSegment& part : supported_parts(fitted, scene.resolution_m, std::cref(is_occupied), tuning))
       scene.walls.push_back(part);
   }
-  scene.walls = distinct_walls(std::move(scene.walls));
+  scene.walls = distinct_walls(std::move(scene.walls), tuning);
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
   }
   if (scans.size() > 0)
     scene.duration = scans.all().values().back().stamp - scans.all().values().front().stamp;
-  add_walls(scene, backend);
+  add_walls(scene, backend, map.config().tuning.walls);
   for (const LoopClosure& closure : backend.closures().values()) {
     const MapSegment ends{backend.T_map_keyframe(closure.from).position(),
                           backend.T_map_keyframe(closure.to).position()};

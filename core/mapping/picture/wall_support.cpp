@@ -3,7 +3,6 @@
 #include "core/mapping/picture/wall_support.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -15,20 +14,10 @@ namespace swiftlet {
 
 namespace {
 
-constexpr double kReachM = 0.1;
-constexpr std::array<double, 3> kFitReachesM{0.25, 0.15, 0.1};  // round by round
-constexpr std::size_t kMinCells = 6;
-constexpr double kMaxTurnCos = 0.985;  // 10 degrees: farther, and it found something else
-constexpr double kBridgeM = 0.4;
-constexpr double kMinM = 0.4;
-constexpr double kSameWallM = 0.25;
-const double kSameWallCos = std::cos(0.35);  // 20 degrees
-constexpr double kProbeM = 0.05;
-
-bool occupied_near(const Point2& p_map, double resolution_m,
+bool occupied_near(const Point2& p_map, double resolution_m, double reach_m,
                    const std::function<bool(CellIndex)>& is_occupied) {
   const CellIndex centre = cell_of(p_map, resolution_m);
-  const int reach = static_cast<int>(std::lround(kReachM / resolution_m));
+  const int reach = static_cast<int>(std::lround(reach_m / resolution_m));
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
       if (is_occupied({centre.x + dx, centre.y + dy})) return true;
@@ -82,19 +71,22 @@ double cos_between(const MapSegment& a, const MapSegment& b) {
 }  // namespace
 
 MapSegment fitted_to_grid(const MapSegment& wall, double resolution_m,
-                          const std::function<bool(CellIndex)>& is_occupied) {
+                          const std::function<bool(CellIndex)>& is_occupied,
+                          const WallSupportTuning& tuning) {
   MapSegment fitted = wall;
-  for (const double reach_m : kFitReachesM) {
+  for (const double reach_m :
+       {tuning.first_fit_reach_m, tuning.second_fit_reach_m, tuning.last_fit_reach_m}) {
     const std::vector<Point2> points = cells_around(fitted, reach_m, resolution_m, is_occupied);
-    if (points.size() < kMinCells) return wall;
+    if (points.size() < tuning.min_fit_cells) return wall;
     fitted = onto_line_through(points, fitted);
-    if (!(cos_between(fitted, wall) > kMaxTurnCos)) return wall;
+    if (!(cos_between(fitted, wall) > tuning.min_fit_cosine)) return wall;
   }
   return fitted;
 }
 
 std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolution_m,
-                                        const std::function<bool(CellIndex)>& is_occupied) {
+                                        const std::function<bool(CellIndex)>& is_occupied,
+                                        const WallSupportTuning& tuning) {
   const double dx = wall.end_map.x_m - wall.start_map.x_m;
   const double dy = wall.end_map.y_m - wall.start_map.y_m;
   const double length_m = std::hypot(dx, dy);
@@ -107,13 +99,13 @@ std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolutio
   int first = 0;    // of the part being followed
   int newest = -1;  // its last supported step; -1 while there is none
   const auto finish = [&] {
-    if (newest >= 0 && (newest - first) * length_m >= kMinM * steps)
+    if (newest >= 0 && (newest - first) * length_m >= tuning.min_length_m * steps)
       parts.push_back({point_at(first), point_at(newest)});
     newest = -1;
   };
   for (int step = 0; steps > 0 && step <= steps; ++step) {
-    if (!occupied_near(point_at(step), resolution_m, is_occupied)) continue;
-    if (newest >= 0 && (step - newest) * length_m > kBridgeM * steps) finish();
+    if (!occupied_near(point_at(step), resolution_m, tuning.reach_m, is_occupied)) continue;
+    if (newest >= 0 && (step - newest) * length_m > tuning.bridge_m * steps) finish();
     if (newest < 0) first = step;
     newest = step;
   }
@@ -136,15 +128,17 @@ double distance_m(const Point2& p, const MapSegment& s) {
   return std::hypot(p.x_m - s.start_map.x_m - share * dx, p.y_m - s.start_map.y_m - share * dy);
 }
 
-bool runs_along(const MapSegment& a, const MapSegment& b) {
+bool runs_along(const MapSegment& a, const MapSegment& b, double min_cosine) {
   const double dot = (a.end_map.x_m - a.start_map.x_m) * (b.end_map.x_m - b.start_map.x_m) +
                      (a.end_map.y_m - a.start_map.y_m) * (b.end_map.y_m - b.start_map.y_m);
-  return std::abs(dot) > kSameWallCos * length_of(a) * length_of(b);
+  return std::abs(dot) > min_cosine * length_of(a) * length_of(b);
 }
 
 /// The stretches of `wall` that none of the `drawn` walls covers.
-std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vector<MapSegment>& drawn) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(length_of(wall) / kProbeM)));
+std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vector<MapSegment>& drawn,
+                                        const WallSupportTuning& tuning) {
+  const double min_cosine = std::cos(tuning.same_wall_rad);
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_of(wall) / tuning.probe_m)));
   const auto point_at = [&](int step) {
     const double share = static_cast<double>(step) / steps;
     return Point2{wall.start_map.x_m + share * (wall.end_map.x_m - wall.start_map.x_m),
@@ -152,17 +146,17 @@ std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vecto
   };
   std::vector<MapSegment> alongside;
   std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(alongside),
-               [&](const MapSegment& other) { return runs_along(wall, other); });
+               [&](const MapSegment& other) { return runs_along(wall, other, min_cosine); });
   const auto is_covered = [&](const Point2& p) {
     return std::any_of(alongside.begin(), alongside.end(),
-                       [&](const MapSegment& other) { return distance_m(p, other) < kSameWallM; });
+                       [&](const MapSegment& other) { return distance_m(p, other) < tuning.same_wall_m; });
   };
   std::vector<MapSegment> parts;
   int first = 0;
   for (int step = 0; step <= steps + 1; ++step) {
     if (step <= steps && !is_covered(point_at(step))) continue;
     const MapSegment part{point_at(first), point_at(std::max(first, step - 1))};
-    if (length_of(part) >= kMinM) parts.push_back(part);
+    if (length_of(part) >= tuning.min_length_m) parts.push_back(part);
     first = step + 1;
   }
   return parts;
@@ -170,12 +164,12 @@ std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vecto
 
 }  // namespace
 
-std::vector<MapSegment> distinct_walls(std::vector<MapSegment> walls) {
+std::vector<MapSegment> distinct_walls(std::vector<MapSegment> walls, const WallSupportTuning& tuning) {
   std::stable_sort(walls.begin(), walls.end(),
                    [](const MapSegment& a, const MapSegment& b) { return length_of(a) > length_of(b); });
   std::vector<MapSegment> drawn;
   for (const MapSegment& wall : walls) {
-    const std::vector<MapSegment> parts = uncovered_parts(wall, drawn);
+    const std::vector<MapSegment> parts = uncovered_parts(wall, drawn, tuning);
     drawn.insert(drawn.end(), parts.begin(), parts.end());
   }
   return drawn;

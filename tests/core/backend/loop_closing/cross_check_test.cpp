@@ -87,7 +87,8 @@ TEST_F(CrossCheckTest, ThinnedHitsLieInTheirFrameOnePerCell) {
   const ScanRange range = scans_since(flown_m() - 2.0);
   const Pose2 T_frame_local(1.0, -2.0, 0.5);
   const auto& T_local = run_.T_local_keyframe();
-  const std::vector<Point2> points = thinned_hits(run_.scans(), run_.chain(), range, T_local, T_frame_local);
+  const std::vector<Point2> points =
+      thinned_hits(run_.scans(), run_.chain(), range, T_local, T_frame_local, 0.1);
   std::set<std::pair<int, int>> cells;
   for (const Point2& p : points)
     cells.emplace(static_cast<int>(std::floor(p.x_m / 0.1)), static_cast<int>(std::floor(p.y_m / 0.1)));

@@ -138,10 +138,10 @@ TEST(OnlineRefinement, AStepTakesNoMoreHoweverLongTheRunAndHoweverOftenAPlaceWas
   std::size_t max_points_of_end = 0;
   const std::size_t steps = run->windows.size();
   for (std::size_t i = 0; i < steps; ++i) {
-    EXPECT_LE(run->scans.all().count(run->moved[i]), OnlineRefinement::kMaxScans);
+    EXPECT_LE(run->scans.all().count(run->moved[i]), OnlineRefinementTuning().max_window_scans);
     EXPECT_LE(run->windows[i].returns, RefinementTuning{}.max_window_returns);
     EXPECT_LE(run->windows[i].points,
-              TraversalIndex::kMaxTraversalsNearby * TraversalIndex::kMaxPointsPerTraversal +
+              TraversalIndexTuning().max_traversals_nearby * TraversalIndexTuning().max_points_per_traversal +
                   RefinementTuning{}.max_window_returns);
     if (i > steps / 3 && i <= 2 * steps / 3)
       max_points_of_middle = std::max(max_points_of_middle, run->windows[i].points);
@@ -159,7 +159,7 @@ TEST(OnlineRefinement, ALongHoverIsBoundedToo) {
   run->refine();
   run->refine();
   for (const ScanRange& moved : run->moved)
-    EXPECT_LE(run->scans.all().count(moved), OnlineRefinement::kMaxScans);
+    EXPECT_LE(run->scans.all().count(moved), OnlineRefinementTuning().max_window_scans);
   EXPECT_LE(run->windows.back().returns, RefinementTuning{}.max_window_returns);
 }
 

@@ -48,7 +48,8 @@ TEST(TraversalIndex, FindsThePassesWithWallsNearAPlace) {
   for (int trial = 0; trial < 200; ++trial) {
     const Point2 place{random_in(random, -12.0, 12.0), random_in(random, -12.0, 12.0)};
     const std::vector<std::uint32_t> found = near(index, place);
-    if (found.size() >= TraversalIndex::kMaxTraversalsPerTile) continue;  // some may have been left out
+    if (found.size() >= TraversalIndexTuning().max_traversals_per_tile)
+      continue;  // some may have been left out
     for (std::uint32_t traversal = 0; traversal < drawn.size(); ++traversal) {
       double nearest_m = 1e9;
       for (const Point2& p : drawn[traversal])
@@ -95,7 +96,7 @@ TEST(TraversalIndex, OfManyPassesOverOnePlaceTakesAFewFromFirstToLast) {
   for (std::uint32_t traversal = 0; traversal < 1000; ++traversal)
     index.set(id(traversal), walls({{1.0, 1.0}}), {});
   const std::vector<std::uint32_t> found = near(index, {1.0, 1.0});
-  ASSERT_EQ(found.size(), TraversalIndex::kMaxTraversalsPerTile);
+  ASSERT_EQ(found.size(), TraversalIndexTuning().max_traversals_per_tile);
   EXPECT_EQ(found.front(), 0U);
   EXPECT_EQ(found.back(), 999U);
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_NEAR(found[i] - found[i - 1], 1000.0 / 7.0, 2.0);
@@ -111,10 +112,10 @@ TEST(TraversalIndex, WhatItBringsIsBoundedHoweverManyPassesThereAre) {
     for (Point2& p : points) p = {random_in(random, -9.0, 9.0), random_in(random, -9.0, 9.0)};
     everywhere.push_back(points[0]);
     index.set(id(traversal), walls(std::move(points)), {});
-    EXPECT_EQ(index[id(traversal)].points_reference.size(), TraversalIndex::kMaxPointsPerTraversal);
+    EXPECT_EQ(index[id(traversal)].points_reference.size(), TraversalIndexTuning().max_points_per_traversal);
   }
   const std::vector<std::uint32_t> found = near(index, everywhere);
-  EXPECT_EQ(found.size(), TraversalIndex::kMaxTraversalsNearby);
+  EXPECT_EQ(found.size(), TraversalIndexTuning().max_traversals_nearby);
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
 }
 

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/tuning.hpp"
+#include "core/geometry/angle.hpp"
+#include "core/sensing/wall_axis.hpp"
+
+namespace swiftlet {
+
+struct SubmapTuning {
+  double max_evidence = 3.5;  ///< log-odds of a cell at most: p of 0.03 and 0.97, yet it can still change
+  double start_share = 0.5;   ///< of its length: there the next begins, so that no place lies only on a seam
+
+  static constexpr TuningValue<SubmapTuning> kValues[] = {{"max_evidence", &SubmapTuning::max_evidence},
+                                                          {"start_share", &SubmapTuning::start_share}};
+};
+
+struct LoopDetectorTuning {
+  double search_sigmas = 3.0;         ///< the search reaches so many standard deviations, and at least ...
+  double min_search_radius_m = 0.5;   ///< ... this far to either side ...
+  double min_search_angle_rad = 0.1;  ///< ... and turned by this: covariances of motion are models
+  double thinning_cell_m = 0.1;       ///< of the hits that are matched, one per cell
+  std::size_t max_closures = 3;  ///< of one query: in laps each overlaps all before, which fills the graph
+
+  static constexpr TuningValue<LoopDetectorTuning> kValues[] = {
+      {"search_sigmas", &LoopDetectorTuning::search_sigmas},
+      {"min_search_radius_m", &LoopDetectorTuning::min_search_radius_m},
+      {"min_search_angle_rad", &LoopDetectorTuning::min_search_angle_rad},
+      {"thinning_cell_m", &LoopDetectorTuning::thinning_cell_m},
+      {"max_closures", &LoopDetectorTuning::max_closures}};
+};
+
+struct CorrelativeMatcherTuning {
+  double edge_penalty = 0.02;  ///< of the score at the window's edge: below any real difference, settles ties
+  double likelihood_per_score = 60.0;  ///< log-likelihood of a pose (Olson 2009, section IV.D)
+  double floor_sigma_m = 0.05;         ///< no match on these grids is better, whatever the scores say
+  double floor_sigma_yaw_rad = 0.015;  ///< likewise
+  double min_spread_m = 1.0;           ///< around the optimum the scores are evaluated as far as the window
+  double max_spread_m = 4.0;           ///< reaches, within these bounds
+  int spread_stride_cells = 2;         ///< between positions evaluated: enough under a kernel of three
+  int yaw_spread_steps = 4;            ///< either way
+  double min_known_share = 0.6;  ///< of the points on ground that the submap knows, or there is no match: one
+                                 ///< wall of a corridor on the other would score better than both in place
+  double edge_of_window = 0.95;  ///< share beyond which an optimum is none: walls draw it along a corridor
+  double min_information = 1e-4;  ///< 1/m^2, left of a direction that only the submap's extent decided
+  double min_lever_m = 0.5;       ///< of the farthest point, which sets the angular step
+
+  static constexpr TuningValue<CorrelativeMatcherTuning> kValues[] = {
+      {"edge_penalty", &CorrelativeMatcherTuning::edge_penalty},
+      {"likelihood_per_score", &CorrelativeMatcherTuning::likelihood_per_score},
+      {"floor_sigma_m", &CorrelativeMatcherTuning::floor_sigma_m},
+      {"floor_sigma_yaw_rad", &CorrelativeMatcherTuning::floor_sigma_yaw_rad},
+      {"min_spread_m", &CorrelativeMatcherTuning::min_spread_m},
+      {"max_spread_m", &CorrelativeMatcherTuning::max_spread_m},
+      {"spread_stride_cells", &CorrelativeMatcherTuning::spread_stride_cells},
+      {"yaw_spread_steps", &CorrelativeMatcherTuning::yaw_spread_steps},
+      {"min_known_share", &CorrelativeMatcherTuning::min_known_share},
+      {"edge_of_window", &CorrelativeMatcherTuning::edge_of_window},
+      {"min_information", &CorrelativeMatcherTuning::min_information},
+      {"min_lever_m", &CorrelativeMatcherTuning::min_lever_m}};
+};
+
+struct CrossCheckTuning {
+  std::size_t min_seen_hits = 20;   ///< of the submap; fewer verify nothing
+  double min_share_on_walls = 0.6;  ///< right matches seldom have less, false ones in wide windows mostly do
+  int kernel_cells = 3;  ///< two visits draw a wall within a cell of each other; more hides free space
+
+  static constexpr TuningValue<CrossCheckTuning> kValues[] = {
+      {"min_seen_hits", &CrossCheckTuning::min_seen_hits},
+      {"min_share_on_walls", &CrossCheckTuning::min_share_on_walls},
+      {"kernel_cells", &CrossCheckTuning::kernel_cells}};
+};
+
+struct ClosureGroupTuning {
+  double reach_m = 30.0;          ///< travel over which a tentative match waits ...
+  std::size_t max_waiting = 100;  ///< ... while there are no more than this
+  double max_chi_square = 7.81;   ///< of two that agree: three degrees of freedom, 95 %
+  std::size_t min_members = 6;    ///< of a group that is accepted
+  double min_travel_m = 6.0;      ///< from its first query to its last: their scans do not overlap
+  double max_sigma_m = 1.0;  ///< of its position in the worst direction, without any one and those near it:
+                             ///< along a corridor many agree with whatever one alone states
+  double near_m = 2.0;       ///< travel between queries whose matches count as one
+  double max_rival_share = 0.5;  ///< size of a second group against its own: more is ambiguous
+
+  static constexpr TuningValue<ClosureGroupTuning> kValues[] = {
+      {"reach_m", &ClosureGroupTuning::reach_m},
+      {"max_waiting", &ClosureGroupTuning::max_waiting},
+      {"max_chi_square", &ClosureGroupTuning::max_chi_square},
+      {"min_members", &ClosureGroupTuning::min_members},
+      {"min_travel_m", &ClosureGroupTuning::min_travel_m},
+      {"max_sigma_m", &ClosureGroupTuning::max_sigma_m},
+      {"near_m", &ClosureGroupTuning::near_m},
+      {"max_rival_share", &ClosureGroupTuning::max_rival_share}};
+};
+
+struct RelativeCovarianceTuning {
+  double min_dcs_scale = 0.5;  ///< of closures and headings that count
+  double lever_m = 2.0;        ///< turns an error of heading into one of position: the reach of the beams
+
+  static constexpr TuningValue<RelativeCovarianceTuning> kValues[] = {
+      {"min_dcs_scale", &RelativeCovarianceTuning::min_dcs_scale},
+      {"lever_m", &RelativeCovarianceTuning::lever_m}};
+};
+
+struct BuildingAxisPriorTuning {
+  double gate_sigmas = 4.0;      ///< wheels that slip in a turn lose more than their model has it
+  double min_log_odds = 6.0;     ///< that the heading is not off the other way round by the rest of a quarter
+                                 ///< turn: 400 to 1
+  double variance_factor = 3.0;  ///< headings a few metres apart come from the same walls and err together
+
+  static constexpr TuningValue<BuildingAxisPriorTuning> kValues[] = {
+      {"gate_sigmas", &BuildingAxisPriorTuning::gate_sigmas},
+      {"min_log_odds", &BuildingAxisPriorTuning::min_log_odds},
+      {"variance_factor", &BuildingAxisPriorTuning::variance_factor}};
+};
+
+/// When the graph is optimised while it grows, and how far.
+struct KeyframeGraphTuning {
+  double expected_chi_square = 1.0;       ///< a new factor with no more waits for others ...
+  std::size_t max_keyframes_waiting = 8;  ///< ... so long
+  double live_step = 1e-3;                ///< metres or radians, converged; the next keyframe goes on
+  int live_iterations = 4;                ///< a keyframe
+  int trial_iterations = 10;              ///< of moving the graph to a group of closures
+  double final_step = 1e-5;               ///< metres or radians, converged at the end of the run
+  double max_misfit = 1.5;  ///< chi-square a closure of a group: half of the three that its degrees of
+                            ///< freedom would allow, for the covariances of matches are wide
+  double lost_heading_rad = radians(15);  ///< standard deviation from which on motion alone does not give it
+  double axis_every_share =
+      0.5;  ///< of a submap's length: travel between observations of the building's axis
+
+  static constexpr TuningValue<KeyframeGraphTuning> kValues[] = {
+      {"expected_chi_square", &KeyframeGraphTuning::expected_chi_square},
+      {"max_keyframes_waiting", &KeyframeGraphTuning::max_keyframes_waiting},
+      {"live_step", &KeyframeGraphTuning::live_step},
+      {"live_iterations", &KeyframeGraphTuning::live_iterations},
+      {"trial_iterations", &KeyframeGraphTuning::trial_iterations},
+      {"final_step", &KeyframeGraphTuning::final_step},
+      {"max_misfit", &KeyframeGraphTuning::max_misfit},
+      {"lost_heading_rad", &KeyframeGraphTuning::lost_heading_rad},
+      {"axis_every_share", &KeyframeGraphTuning::axis_every_share}};
+};
+
+/// Joint refinement, batch and online.
+struct RefinementTuning {
+  // Walls
+  double radius_m = 0.3;                  ///< a wall is fitted to points this close to a return
+  double thinning_cell_m = 0.08;          ///< each traversal draws one point per cell
+  std::size_t min_wall_points = 5;        ///< fewer make no wall
+  double min_wall_variance_m2 = 0.004;    ///< along the wall: shorter stretches have no direction
+  double max_wall_variance_ratio = 0.35;  ///< across to along: more is clutter, not a wall
+
+  // Point-to-line factors
+  double wall_sigma_m = 0.05;  ///< of a return from its wall
+  double robust_sigmas = 1.5;  ///< scale of the Geman-McClure kernel
+
+  // Held-out returns
+  std::size_t hold_out_every = 10;  ///< one return in so many
+  double cap_sigmas = 3.0;          ///< of wall_sigma_m: greater distances count as this
+
+  // Batch refinement
+  double wide_radius_m = 0.5;  ///< instead of radius_m in the first iterations: walls may lie this far apart
+  int wide_iterations = 5;
+  double converged_step = 2e-4;  ///< metres or radians
+
+  // Windows of the online refinement
+  std::size_t max_window_returns = 3000;  ///< a window with more is thinned
+  double step_weight = 0.25;              ///< on information: errors of dead reckoning persist, and add up
+  double tie_sigma_m = 0.1;     ///< of each keyframe to its pose in the graph: poses that no wall holds
+  double tie_sigma_rad = 0.05;  ///< return there
+
+  static constexpr TuningValue<RefinementTuning> kValues[] = {
+      {"radius_m", &RefinementTuning::radius_m},
+      {"thinning_cell_m", &RefinementTuning::thinning_cell_m},
+      {"min_wall_points", &RefinementTuning::min_wall_points},
+      {"min_wall_variance_m2", &RefinementTuning::min_wall_variance_m2},
+      {"max_wall_variance_ratio", &RefinementTuning::max_wall_variance_ratio},
+      {"wall_sigma_m", &RefinementTuning::wall_sigma_m},
+      {"robust_sigmas", &RefinementTuning::robust_sigmas},
+      {"hold_out_every", &RefinementTuning::hold_out_every},
+      {"cap_sigmas", &RefinementTuning::cap_sigmas},
+      {"wide_radius_m", &RefinementTuning::wide_radius_m},
+      {"wide_iterations", &RefinementTuning::wide_iterations},
+      {"converged_step", &RefinementTuning::converged_step},
+      {"max_window_returns", &RefinementTuning::max_window_returns},
+      {"step_weight", &RefinementTuning::step_weight},
+      {"tie_sigma_m", &RefinementTuning::tie_sigma_m},
+      {"tie_sigma_rad", &RefinementTuning::tie_sigma_rad}};
+};
+
+/// What a step of the online refinement may cost, and where it takes place.
+struct OnlineRefinementTuning {
+  std::size_t max_window_scans = 300;       ///< scans refined at once
+  std::size_t max_places_waiting = 32;      ///< around closures; the oldest gives way
+  std::size_t same_place_traversals = 3;    ///< one window serves closures this close
+  std::size_t max_traversal_scans = 100;    ///< that draw its walls; of more every n-th
+  std::size_t returns_per_place = 5;        ///< of a window, looked up once: neighbours lie in the same tile
+  std::size_t keyframes_of_correction = 4;  ///< whose mean the correction leads to: about 2 m
+
+  static constexpr TuningValue<OnlineRefinementTuning> kValues[] = {
+      {"max_window_scans", &OnlineRefinementTuning::max_window_scans},
+      {"max_places_waiting", &OnlineRefinementTuning::max_places_waiting},
+      {"same_place_traversals", &OnlineRefinementTuning::same_place_traversals},
+      {"max_traversal_scans", &OnlineRefinementTuning::max_traversal_scans},
+      {"returns_per_place", &OnlineRefinementTuning::returns_per_place},
+      {"keyframes_of_correction", &OnlineRefinementTuning::keyframes_of_correction}};
+};
+
+struct TraversalIndexTuning {
+  double tile_m = 2.0;    ///< side of a tile
+  double margin_m = 0.5;  ///< walls this far off their places are found, less what traversals moved since ...
+  double refile_m = 0.2;  ///< ... which is no more than this
+  std::size_t max_points_per_traversal = 256;  ///< of more, some are left out evenly
+  std::size_t max_traversals_nearby = 64;      ///< found at once
+  std::size_t max_traversals_per_tile = 8;     ///< of more, chosen evenly from the first to the last
+
+  static constexpr TuningValue<TraversalIndexTuning> kValues[] = {
+      {"tile_m", &TraversalIndexTuning::tile_m},
+      {"margin_m", &TraversalIndexTuning::margin_m},
+      {"refile_m", &TraversalIndexTuning::refile_m},
+      {"max_points_per_traversal", &TraversalIndexTuning::max_points_per_traversal},
+      {"max_traversals_nearby", &TraversalIndexTuning::max_traversals_nearby},
+      {"max_traversals_per_tile", &TraversalIndexTuning::max_traversals_per_tile}};
+};
+
+struct PruningTuning {
+  double tile_m = 2.0;                     ///< side of the tiles in which traversals are counted
+  std::size_t returns_per_traversal = 64;  ///< sampled to find where it was
+  double share_of_returns = 0.9;           ///< decides: the rest are glances through doors
+  std::size_t oldest_kept = 3;             ///< traversals in each tile, and ...
+  std::size_t newest_kept = 3;             ///< ... as many again
+  std::size_t min_run = 4;                 ///< traversals: every hole needs ties on both sides
+  double share_at_a_time = 0.05;           ///< of the most scans
+  double tie_sigma_m = 0.1;                ///< looser than what was known of the place
+  double tie_sigma_rad = 0.05;             ///< likewise
+
+  static constexpr TuningValue<PruningTuning> kValues[] = {
+      {"tile_m", &PruningTuning::tile_m},
+      {"returns_per_traversal", &PruningTuning::returns_per_traversal},
+      {"share_of_returns", &PruningTuning::share_of_returns},
+      {"oldest_kept", &PruningTuning::oldest_kept},
+      {"newest_kept", &PruningTuning::newest_kept},
+      {"min_run", &PruningTuning::min_run},
+      {"share_at_a_time", &PruningTuning::share_at_a_time},
+      {"tie_sigma_m", &PruningTuning::tie_sigma_m},
+      {"tie_sigma_rad", &PruningTuning::tie_sigma_rad}};
+};
+
+struct BackendTuning {
+  SubmapTuning submap;
+  LoopDetectorTuning detector;
+  CorrelativeMatcherTuning matcher;
+  CrossCheckTuning cross_check;
+  ClosureGroupTuning groups;
+  RelativeCovarianceTuning covariance;
+  BuildingAxisPriorTuning axis;
+  WallAxisTuning walls;  ///< that the building's axis is estimated from
+  KeyframeGraphTuning graph;
+  RefinementTuning refinement;
+  OnlineRefinementTuning online;
+  TraversalIndexTuning index;
+  PruningTuning pruning;
+};
+
+}  // namespace swiftlet
