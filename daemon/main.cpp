@@ -43,6 +43,7 @@ struct Options {
   std::string log_file;
   RecordingWish record;
   bool print_reference = false;
+  bool print_tuning = false;
   bool verbose = false;
 };
 
@@ -71,6 +72,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("-v,--verbose", options.verbose, "log each status");
   app.add_flag("--print-configuration-reference", options.print_reference,
                "write docs/configuration.md and exit");
+  app.add_flag("--print-tuning", options.print_tuning)->group("");  // for experiments: not in the help
 }
 
 int refuse(const std::string& why) {
@@ -240,6 +242,10 @@ int main_without_exceptions(int argc, char** argv) {
   }
   if (options.print_reference) {
     std::fputs(configuration_reference().c_str(), stdout);
+    return 0;
+  }
+  if (options.print_tuning) {
+    std::fputs(tuning_text({}).c_str(), stdout);
     return 0;
   }
   if (options.input_uri.empty()) return refuse("--input is required; --help lists the options");

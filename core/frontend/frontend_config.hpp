@@ -87,7 +87,7 @@ struct FrontendConfig {
        "confidence of the consistency check (eq. 19)", 0.5, 0.999999},
   };
 
-  FrontendTuning tuning;  ///< not in a configuration file
+  FrontendTuning tuning;  ///< no setting: for experiments
 
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -4,27 +4,35 @@
 
 #include <cstddef>
 
+#include "core/base/tuning.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensing/multiscan.hpp"
 #include "core/sensing/wall_axis.hpp"
 
 namespace swiftlet {
 
-// Constants of the frontend's algorithms that no configuration file sets: results should hardly depend on
-// them.
-
 struct LineExtractorTuning {
   double merge_distance_share =
       0.5;  ///< of the split distance: end points farther off their joint line stay apart
+
+  static constexpr TuningValue<LineExtractorTuning> kValues[] = {
+      {"merge_distance_share", &LineExtractorTuning::merge_distance_share}};
 };
 
 /// Levenberg-Marquardt.
 struct LandmarkGraphSolverTuning {
-  double first_damping = 1e-5;
-  double max_damping = 1e6;
+  double first_damping = 1e-5;          ///< at the first step
+  double max_damping = 1e6;             ///< more ends the search
   double damping_after_failure = 10.0;  ///< factor
   double damping_after_success = 0.1;   ///< factor
   double settled = 1e-4;                ///< relative decrease of F that ends the search
+
+  static constexpr TuningValue<LandmarkGraphSolverTuning> kValues[] = {
+      {"first_damping", &LandmarkGraphSolverTuning::first_damping},
+      {"max_damping", &LandmarkGraphSolverTuning::max_damping},
+      {"damping_after_failure", &LandmarkGraphSolverTuning::damping_after_failure},
+      {"damping_after_success", &LandmarkGraphSolverTuning::damping_after_success},
+      {"settled", &LandmarkGraphSolverTuning::settled}};
 };
 
 struct OdometryDriftTuning {
@@ -33,17 +41,31 @@ struct OdometryDriftTuning {
                                          ///< estimates err together
   std::size_t lag_keyframes =
       3;  ///< estimated from the motion this many keyframes back, which later ones have corrected
+
+  static constexpr TuningValue<OdometryDriftTuning> kValues[] = {
+      {"wander_share", &OdometryDriftTuning::wander_share},
+      {"wall_sigma_rad", &OdometryDriftTuning::wall_sigma_rad},
+      {"lag_keyframes", &OdometryDriftTuning::lag_keyframes}};
 };
 
 struct BuildingAxisTuning {
-  double gate_sigmas = 3.0;
+  double gate_sigmas = 3.0;              ///< between a wall and the axis that it may run along
   double max_gate_rad = radians(20);     ///< nearer to the middle between two axes a wall belongs to either
   double wall_sigma_rad = radians(2.5);  ///< of a wall that does run along the axis
   double robust_sigmas = 2.0;            ///< Geman-McClure: walls farther off lose their weight
   double keyframes_in_window = 10.0;     ///< a wall is estimated again at about so many keyframes
-  double min_sigma_rad = radians(0.3);
-  int other_axis_keyframes = 24;  ///< in a row, until another axis replaces the present one
+  double min_sigma_rad = radians(0.3);   ///< of the axis
+  int other_axis_keyframes = 24;         ///< in a row, until another axis replaces the present one
   WallAxisTuning walls;
+
+  static constexpr TuningValue<BuildingAxisTuning> kValues[] = {
+      {"gate_sigmas", &BuildingAxisTuning::gate_sigmas},
+      {"max_gate_rad", &BuildingAxisTuning::max_gate_rad},
+      {"wall_sigma_rad", &BuildingAxisTuning::wall_sigma_rad},
+      {"robust_sigmas", &BuildingAxisTuning::robust_sigmas},
+      {"keyframes_in_window", &BuildingAxisTuning::keyframes_in_window},
+      {"min_sigma_rad", &BuildingAxisTuning::min_sigma_rad},
+      {"other_axis_keyframes", &BuildingAxisTuning::other_axis_keyframes}};
 };
 
 struct FrontendTuning {

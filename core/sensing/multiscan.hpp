@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/base/tuning.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 #include "core/sensing/range_sample.hpp"
@@ -42,6 +43,9 @@ struct MultiscanView {
 struct MultiscanTuning {
   double min_motion_m = 0.01;          ///< smaller motions since the scan before ...
   double min_turn_rad = radians(1.0);  ///< ... and smaller turns do not make a new scan
+
+  static constexpr TuningValue<MultiscanTuning> kValues[] = {
+      {"min_motion_m", &MultiscanTuning::min_motion_m}, {"min_turn_rad", &MultiscanTuning::min_turn_rad}};
 };
 
 /// The last k scans (eqs. 1-4 of "Efficient 2D Graph SLAM for Sparse Sensing", IROS 2022). The paper gives

@@ -115,11 +115,42 @@ void for_each_section(AnyConfiguration&& config, Visitor visit) {
   visit(config.realtime);
 }
 
+/// Calls visit(part, tuning) for each Tuning struct of `config`.
+template <typename AnyConfiguration, typename Visitor>
+void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
+  auto& frontend = config.frontend.tuning;
+  visit("frontend_multiscan", frontend.multiscan);
+  visit("frontend_lines", frontend.lines);
+  visit("frontend_solver", frontend.solver);
+  visit("frontend_drift", frontend.drift);
+  visit("frontend_axis", frontend.axis);
+  visit("frontend_walls", frontend.axis.walls);
+  auto& backend = config.backend.tuning;
+  visit("backend_submap", backend.submap);
+  visit("backend_detector", backend.detector);
+  visit("backend_matcher", backend.matcher);
+  visit("backend_cross_check", backend.cross_check);
+  visit("backend_groups", backend.groups);
+  visit("backend_covariance", backend.covariance);
+  visit("backend_axis", backend.axis);
+  visit("backend_walls", backend.walls);
+  visit("backend_graph", backend.graph);
+  visit("backend_refinement", backend.refinement);
+  visit("backend_online", backend.online);
+  visit("backend_index", backend.index);
+  visit("backend_pruning", backend.pruning);
+  visit("map_drawing", config.map.tuning.drawing);
+  visit("map_walls", config.map.tuning.walls);
+}
+
 /// Reads a TOML file. Unknown and duplicate keys, wrong types and impossible values are refused with file and
 /// line; kNotFound when there is no such file.
 [[nodiscard]] Result<Configuration> load_configuration(const std::string& path);
 
 /// docs/configuration.md, whole.
 [[nodiscard]] std::string configuration_reference();
+
+/// All tuning of `config` as a configuration file has it: for experiments.
+[[nodiscard]] std::string tuning_text(const Configuration& config);
 
 }  // namespace swiftlet

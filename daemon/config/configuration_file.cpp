@@ -40,8 +40,16 @@ bool assign(const toml::node& node, int& value) {
   return true;
 }
 
+bool assign(const toml::node& node, std::size_t& value) {
+  std::int64_t number = 0;
+  if (!assign_exactly(node, number) || number < 0) return false;
+  value = static_cast<std::size_t>(number);
+  return true;
+}
+
 std::string_view type_of(const bool&) { return "true or false"; }
 std::string_view type_of(const int&) { return "a whole number"; }
+std::string_view type_of(const std::size_t&) { return "a whole number, not negative"; }
 std::string_view type_of(const double&) { return "a number"; }
 std::string_view type_of(const std::optional<double>&) { return "a number"; }
 std::string_view type_of(const std::string&) { return "a text in quotes"; }
@@ -86,6 +94,10 @@ class Loader {
   void read_sections(const toml::table& file) {
     for (const auto& [name, node] : file) {
       const toml::table* table = node.as_table();
+      if (table != nullptr && name == "tuning") {
+        read_tuning(*table);
+        continue;
+      }
       if (table != nullptr && read_section(name.str(), *table)) continue;
       note(name.source(), fmt::format("unknown {} \"{}\"; docs/configuration.md lists them all",
                                       table == nullptr ? "key" : "section", name.str()));
@@ -101,6 +113,32 @@ class Loader {
       for (const auto& [key, node] : table) read_key(section, key, node);
     });
     return is_known;
+  }
+
+  void read_tuning(const toml::table& parts) {
+    for (const auto& [name, node] : parts) {
+      bool is_known = false;
+      for_each_tuning(config_, [&](std::string_view part, auto& tuning) {
+        if (name != part || !node.is_table()) return;
+        is_known = true;
+        for (const auto& [key, value] : *node.as_table()) read_tuning_value(part, tuning, key, value);
+      });
+      if (!is_known) note(name.source(), fmt::format("unknown section \"tuning.{}\"", name.str()));
+    }
+  }
+
+  template <typename Tuning>
+  void read_tuning_value(std::string_view part, Tuning& tuning, const toml::key& key,
+                         const toml::node& node) {
+    const std::string name = fmt::format("tuning.{}.{}", part, key.str());
+    const auto* value = std::ranges::find(Tuning::kValues, key.str(), &TuningValue<Tuning>::name);
+    if (value == std::end(Tuning::kValues))
+      return note(key.source(), fmt::format("unknown key \"{}\"", name));
+    const auto read = [&](auto member) {
+      if (!assign(node, tuning.*member))
+        note(key.source(), fmt::format("{} must be {}", name, type_of(tuning.*member)));
+    };
+    std::visit(read, value->member);
   }
 
   template <typename Section>

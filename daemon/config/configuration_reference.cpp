@@ -64,4 +64,16 @@ std::string configuration_reference() {
   return page;
 }
 
+std::string tuning_text(const Configuration& config) {
+  std::string text;
+  for_each_tuning(config, [&text](std::string_view part, const auto& tuning) {
+    text += fmt::format("[tuning.{}]\n", part);
+    for (const auto& value : tuning.kValues) {
+      const auto number = [&tuning](auto member) { return static_cast<double>(tuning.*member); };
+      text += fmt::format("{} = {}\n", value.name, shortest_text(std::visit(number, value.member)));
+    }
+  });
+  return text;
+}
+
 }  // namespace swiftlet

@@ -85,6 +85,38 @@ TEST(ConfigurationTables, HoldEveryMemberOfEverySection) {
   });
 }
 
+TEST(TuningTables, HoldEveryValueOfEveryStruct) {
+  std::size_t parts = 0;
+  for_each_tuning(Configuration(), [&parts](std::string_view part, const auto& tuning) {
+    using Tuning = std::remove_cvref_t<decltype(tuning)>;
+    constexpr bool kHasPart = requires(Tuning t) { t.walls; };
+    EXPECT_EQ(std::size(Tuning::kValues) + (kHasPart ? 1 : 0), field_count<Tuning>()) << part;
+    parts += 1 - (kHasPart ? 1 : 0);
+  });
+  EXPECT_EQ(parts, field_count<FrontendTuning>() + field_count<BackendTuning>() + field_count<MapTuning>());
+}
+
+TEST(TuningTables, EachValueIsSetByItsName) {
+  Configuration changed;
+  int next = 0;
+  for_each_tuning(changed, [&next](std::string_view, auto& tuning) {
+    using Tuning = std::remove_cvref_t<decltype(tuning)>;
+    for (const TuningValue<Tuning>& value : Tuning::kValues) {
+      ++next;
+      std::visit(
+          [&](auto member) {
+            tuning.*member = static_cast<std::remove_cvref_t<decltype(tuning.*member)>>(next);
+          },
+          value.member);
+    }
+  });
+  const TemporaryFile file(tuning_text(changed));
+  const Result<Configuration> config = load_configuration(file.path());
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(tuning_text(*config), tuning_text(changed));
+  EXPECT_EQ(config->backend.tuning.matcher.edge_penalty, changed.backend.tuning.matcher.edge_penalty);
+}
+
 TEST(ConfigurationTables, NameEachMemberOnce) {
   std::set<std::string> names;
   std::set<const void*> places;
@@ -223,6 +255,15 @@ TEST(LoadConfiguration, RefusesUnknownKeysAndSectionsWithFileAndLine) {
               AllOf(HasSubstr(".toml:3:"), HasSubstr("unknown key \"map.resolution\"")));
   EXPECT_THAT(refusal_of("\n[maps]\n"), AllOf(HasSubstr(".toml:2:"), HasSubstr("unknown section \"maps\"")));
   EXPECT_THAT(refusal_of("rate = 3\n"), AllOf(HasSubstr(".toml:1:"), HasSubstr("unknown key \"rate\"")));
+}
+
+TEST(LoadConfiguration, RefusesUnknownTuningAndItsWrongTypesWithFileAndLine) {
+  EXPECT_THAT(refusal_of("[tuning.matcher]\n"),
+              AllOf(HasSubstr(".toml:1:"), HasSubstr("unknown section \"tuning.matcher\"")));
+  EXPECT_THAT(refusal_of("[tuning]\nmap_drawing.follow = 1\n"),
+              AllOf(HasSubstr(".toml:2:"), HasSubstr("unknown key \"tuning.map_drawing.follow\"")));
+  EXPECT_THAT(refusal_of("[tuning]\nmap_drawing.max_returns_moved = -1\n"),
+              HasSubstr("tuning.map_drawing.max_returns_moved must be a whole number, not negative"));
 }
 
 TEST(LoadConfiguration, RefusesARepeatedKeyWithFileAndLine) {
