@@ -78,11 +78,12 @@ void walk_ray(const Point2& from_cells, const Point2& to_cells, Visit&& visit) {
   const int step_y = last.y >= cell.y ? 1 : -1;
   int left_x = std::abs(last.x - cell.x);
   int left_y = std::abs(last.y - cell.y);
-  // Where along the line (0 to 1) the next border across each axis lies, and how far apart borders are.
-  const double pace_x = left_x > 0 ? 1.0 / std::abs(dx) : 0.0;
-  const double pace_y = left_y > 0 ? 1.0 / std::abs(dy) : 0.0;
-  double next_x = (step_x > 0 ? cell.x + 1.0 - from_cells.x_m : from_cells.x_m - cell.x) * pace_x;
-  double next_y = (step_y > 0 ? cell.y + 1.0 - from_cells.y_m : from_cells.y_m - cell.y) * pace_y;
+  // Where along the line (0 to 1) the next border across each axis lies, and how far apart borders are; of no
+  // use, and maybe no number, across an axis without steps.
+  double next_x = (cell.x + (step_x > 0 ? 1.0 : 0.0) - from_cells.x_m) / dx;
+  double next_y = (cell.y + (step_y > 0 ? 1.0 : 0.0) - from_cells.y_m) / dy;
+  const double pace_x = 1.0 / std::abs(dx);
+  const double pace_y = 1.0 / std::abs(dy);
   while (left_x + left_y > 0) {
     visit(cell);
     if (left_y == 0 || (left_x > 0 && next_x < next_y)) {
@@ -93,38 +94,6 @@ void walk_ray(const Point2& from_cells, const Point2& to_cells, Visit&& visit) {
       cell.y += step_y;
       next_y += pace_y;
       --left_y;
-    }
-  }
-}
-
-/// Calls visit(cell) for each cell a straight line touches, from the cell of `from` up to but not including
-/// the cell of `to` (Amanatides & Woo 1987, "A fast voxel traversal algorithm").
-template <typename Visitor>
-void walk_ray(const GridGeometry& grid, const Point2& from, const Point2& to, Visitor&& visit) {
-  CellIndex at = grid.cell(from);
-  const CellIndex end = grid.cell(to);
-  const double dx = to.x_m - from.x_m;
-  const double dy = to.y_m - from.y_m;
-  const int step_x = dx > 0.0 ? 1 : -1;
-  const int step_y = dy > 0.0 ? 1 : -1;
-  const auto crossing = [&](double start, double delta, double origin, int cell, int step) {
-    if (delta == 0.0) return HUGE_VAL;
-    return (origin + (cell + (step > 0 ? 1 : 0)) * grid.resolution_m - start) / delta;
-  };
-  double next_x = crossing(from.x_m, dx, grid.origin_m.x_m, at.x, step_x);
-  double next_y = crossing(from.y_m, dy, grid.origin_m.y_m, at.y, step_y);
-  const double per_x = dx == 0.0 ? HUGE_VAL : grid.resolution_m / std::abs(dx);
-  const double per_y = dy == 0.0 ? HUGE_VAL : grid.resolution_m / std::abs(dy);
-  // Counting the steps and not comparing cells: rounding at a corner may traversal beside the end cell.
-  const int steps = std::abs(end.x - at.x) + std::abs(end.y - at.y);
-  for (int i = 0; i < steps; ++i) {
-    visit(at);
-    if (next_x < next_y) {
-      next_x += per_x;
-      at.x += step_x;
-    } else {
-      next_y += per_y;
-      at.y += step_y;
     }
   }
 }

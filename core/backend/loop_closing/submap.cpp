@@ -37,11 +37,12 @@ class EvidenceGrid {
         known_(geometry.cell_count(), 0) {}
 
   void add(const ScanStore& scans, const PlacedScan& scan) {
+    const Point2 start = geometry_.in_cells(scan.T_submap_body.position());
     for (const ScanReturn& beam : scans.returns(*scan.stored)) {
       if (!beam.is_hit) continue;
-      const Point2 end = scan.T_submap_body * scans.point_body(beam);
-      walk_ray(geometry_, scan.T_submap_body.position(), end, [&](CellIndex c) { mark(c, miss_); });
-      mark(geometry_.cell(end), hit_);
+      const Point2 end = geometry_.in_cells(scan.T_submap_body * scans.point_body(beam));
+      walk_ray(start, end, [&](CellIndex c) { mark(c, miss_); });
+      mark(cell_of(end), hit_);
     }
   }
   [[nodiscard]] std::vector<std::uint8_t> bytes() const {

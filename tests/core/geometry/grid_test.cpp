@@ -160,6 +160,14 @@ TEST(WalkRay, AxisParallelRaysVisitTheirRowOrColumn) {
   }
 }
 
+TEST(WalkRay, ARayAlongABorderOfAGridStaysInItsRow) {
+  // A hair below the border, which the row's number rounds away.
+  const double below_m = std::nextafter(14.5, 0.0);
+  ASSERT_EQ(kGrid.cell({3.75, below_m}).y, 33);
+  EXPECT_THAT(walked(kGrid.in_cells({2.75, 14.5}), kGrid.in_cells({3.75, below_m})),
+              ElementsAre(CellIndex{7, 33}, CellIndex{8, 33}));
+}
+
 TEST(WalkRay, ARayThatEndsOnTheBorderItComesFromKeepsItsRow) {
   // Downwards, yet both ends lie in row 1: rounding must not step into row 0 at once.
   const double above = std::nextafter(1.0, 2.0);
