@@ -21,7 +21,6 @@ using Wide = Eigen::Matrix<double, Eigen::Dynamic, kSystematicErrors>;  // unkno
 using Small = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
 using MotionByErrors = Eigen::Matrix<double, 3, kSystematicErrors>;
 
-constexpr double kUnknownMotionSigma = 100.0;
 constexpr double kHeldInformation = 1e12;  // of the first pose
 constexpr double kNudge = 1e-4;            // of a difference quotient
 
@@ -198,9 +197,8 @@ MotionRow JointProblem::motion_row(std::size_t i) const {
   }
   row.by_from = by_motion * jacobian_compose_first(T_from_map, T_[i]) * jacobian_inverse(T_[i - 1]);
   row.by_to = by_motion * jacobian_compose_second(T_from_map);
-  row.weight = motion_.is_known(i)
-                   ? odometry_sigma(noise_, moved).information()
-                   : Eigen::Vector3d::Constant(1.0 / (kUnknownMotionSigma * kUnknownMotionSigma));
+  row.weight =
+      motion_.is_known(i) ? odometry_sigma(noise_, moved).information() : kUnknownMotion.information();
   row.weight.head<2>() /= position_noise_scale_ * position_noise_scale_;
   return row;
 }

@@ -7,13 +7,10 @@
 #include <utility>
 
 #include "core/backend/pose_graph/relative_uncertainty.hpp"
-#include "core/geometry/angle.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
 namespace {
-
-/// Of a motion that nobody measured.
-Eigen::Matrix3d unknown_motion_information() { return Eigen::Vector3d(1e-4, 1e-4, 1e-1).asDiagonal(); }
 
 /// Chi-square a factor.
 double misfit(std::span<const RelativePoseFactor<KeyframeId>> group, const KeyframePoses& T_map_keyframe) {
@@ -49,7 +46,7 @@ void KeyframeGraph::add_motion(const Keyframe& made, const KeyframePoses& T_loca
   step.to = made.id;
   step.T_from_to = between(T_local_keyframe[step.from], T_local_keyframe[step.to]);
   step.information = made.starts_segment && !made.odometry_ran_on
-                         ? unknown_motion_information()
+                         ? kUnknownMotion.information().asDiagonal().toDenseMatrix()
                          : residual_information(step.T_from_to, made.motion_covariance.matrix());
   motion_factor_[made.id] = graph_.factors.push_back(step);
 }
@@ -170,7 +167,7 @@ void KeyframeGraph::join_across_holes() {
     unknown.from = T_map.id_at(k - 1);
     unknown.to = T_map.id_at(k);
     unknown.T_from_to = between(T_map[unknown.from], T_map[unknown.to]);
-    unknown.information = unknown_motion_information();
+    unknown.information = kUnknownMotion.information().asDiagonal();
     joined = graph_.factors.push_back(unknown);
   }
 }

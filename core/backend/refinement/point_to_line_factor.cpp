@@ -8,11 +8,6 @@
 #include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
-namespace {
-
-constexpr double kUnknownMotionSigma = 100.0;  // where dead reckoning began anew
-
-}  // namespace
 
 double distance_m(const LocalWall& wall, const Point2& p_map) {
   return (p_map.x_m - wall.center_map.x_m) * wall.normal_map.x_m +
@@ -39,7 +34,7 @@ PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map
 }
 
 Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to, const OdometryNoise& noise) {
-  OdometrySigma sigma{kUnknownMotionSigma, kUnknownMotionSigma};
+  OdometrySigma sigma = kUnknownMotion;
   const Pose2 T_from_to = between(from.T_dead_body, to.T_dead_body);
   if (to.starts_segment && to.odometry_ran_on) {
     const UncertainMotion guess = unwatched_step(noise, T_from_to, to.stamp - from.stamp);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/backend/store/traversal.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 #include "tests/support/random_draws.hpp"
 
 namespace swiftlet {
@@ -78,6 +79,7 @@ TEST(WallFactor, DeadReckoningIsBelievedLessTheMoreItMovedAndTheLessItSaw) {
   const Eigen::Matrix3d unwatched = motion_information(from, to, noise);
   to.odometry_ran_on = false;
   const Eigen::Matrix3d began_anew = motion_information(from, to, noise);
+  EXPECT_EQ(began_anew.diagonal(), kUnknownMotion.information());
   for (const int k : {0, 2}) {
     EXPECT_GT(motion_information(from, from, noise)(k, k), 2.0 * moved(k, k));
     EXPECT_GT(moved(k, k), 2.0 * unwatched(k, k));
