@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/geometry/line2.hpp"
+#include "core/geometry/moments2.hpp"
 
 namespace swiftlet {
 
@@ -15,10 +16,10 @@ namespace swiftlet {
 /// nothing.
 class LineFit {
  public:
-  void add(const Point2& p);
-  void add(const LineFit& other);
+  void add(const Point2& p) { moments_.add(p); }
+  void add(const LineFit& other) { moments_.merge(other.moments_); }
 
-  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t count() const { return moments_.count; }
   /// The fitted line. Precondition: count() >= 2.
   [[nodiscard]] Line2 line() const;
   /// Root mean square of the points' distances from line(). Precondition: count() >= 2.
@@ -28,14 +29,9 @@ class LineFit {
   [[nodiscard]] Eigen::Matrix2d jacobian(const Line2& line, const Point2& p) const;
 
  private:
-  struct Scatter {
-    Point2 mean;
-    double xx = 0.0, xy = 0.0, yy = 0.0;  // sums of products of deviations from the mean
-  };
-  [[nodiscard]] Scatter scatter() const;
+  [[nodiscard]] Scatter2 scatter() const;
 
-  std::size_t count_ = 0;
-  double x_ = 0.0, y_ = 0.0, xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;
+  Moments2 moments_;
 };
 
 }  // namespace swiftlet
