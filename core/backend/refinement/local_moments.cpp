@@ -7,12 +7,11 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::uint32_t kMaxWidth = 4;
+constexpr std::uint32_t kLanes = 4;
 
 /// Vectors of two or four numbers, by extensions of GCC and clang that compile for any machine.
-using Pair = double __attribute__((vector_size(16)));
 struct Twos {
-  using Doubles = Pair;
+  using Doubles = double __attribute__((vector_size(16)));
   using Integers = std::int64_t __attribute__((vector_size(16)));
 };
 struct Fours {
@@ -20,38 +19,39 @@ struct Fours {
   using Integers = std::int64_t __attribute__((vector_size(32)));
 };
 
-/// Two moments in a vector, each summed point by point: the same bits whatever the width of the machine's
-/// vectors.
-[[gnu::always_inline]] inline void add_in_order(Pair& sum, const Pair& a, const Pair& b) {
-  sum += __builtin_shufflevector(a, b, 0, 2);
-  sum += __builtin_shufflevector(a, b, 1, 3);
-}
-[[gnu::always_inline]] inline void add_in_order(Pair& sum, const Fours::Doubles& a, const Fours::Doubles& b) {
-  const Fours::Doubles even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Fours::Doubles odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  sum += __builtin_shufflevector(even, even, 0, 1);
-  sum += __builtin_shufflevector(odd, odd, 0, 1);
-  sum += __builtin_shufflevector(even, even, 2, 3);
-  sum += __builtin_shufflevector(odd, odd, 2, 3);
-}
-
 struct Query {
   double x_m, y_m;
   std::int64_t traversal;
   double radius_m2;
 };
 
+/// Four partial sums, one of every fourth point: the same bits whatever the width of the machine's vectors.
+template <typename Vectors>
+struct Lanes {
+  using Vector = typename Vectors::Doubles;
+  static constexpr std::uint32_t kWidth = sizeof(Vector) / sizeof(double);
+  Vector parts[kLanes / kWidth]{};
+
+  [[nodiscard]] double total() const { return (lane(0) + lane(1)) + (lane(2) + lane(3)); }
+  [[nodiscard]] double lane(std::uint32_t i) const { return parts[i / kWidth][i % kWidth]; }
+};
+
 template <typename Vectors>
 struct Sums {
   using Doubles = typename Vectors::Doubles;
   using Integers = typename Vectors::Integers;
-  static constexpr std::uint32_t kWidth = sizeof(Doubles) / sizeof(double);
+  static constexpr std::uint32_t kWidth = Lanes<Vectors>::kWidth;
   Integers count{};
-  Pair w_x{}, y_xx{}, xy_yy{};
+  Lanes<Vectors> w, x, y, xx, xy, yy;
 
-  /// Adds the `kWidth` points from `first` on; those from `end` on have no weight.
+  /// Adds four points from `first` on; those from `end` on have no weight.
   [[gnu::always_inline]] void add(const PointColumns& points, std::uint32_t first, std::uint32_t end,
                                   const Query& query) {
+    for (std::uint32_t part = 0; part < kLanes / kWidth; ++part)
+      add_part(points, part, first + part * kWidth, end, query);
+  }
+  [[gnu::always_inline]] void add_part(const PointColumns& points, std::uint32_t part, std::uint32_t first,
+                                       std::uint32_t end, const Query& query) {
     Doubles dx, dy;
     Integers traversal;
     std::memcpy(&dx, points.x_m() + first, sizeof dx);
@@ -70,9 +70,12 @@ struct Sums {
     const Doubles weight = reinterpret_cast<Doubles>(reinterpret_cast<Integers>(closeness) & counts);
     const Doubles weight_dx = weight * dx;
     const Doubles weight_dy = weight * dy;
-    add_in_order(w_x, weight, weight_dx);
-    add_in_order(y_xx, weight_dy, weight_dx * dx);
-    add_in_order(xy_yy, weight_dx * dy, weight_dy * dy);
+    w.parts[part] += weight;
+    x.parts[part] += weight_dx;
+    y.parts[part] += weight_dy;
+    xx.parts[part] += weight_dx * dx;
+    xy.parts[part] += weight_dx * dy;
+    yy.parts[part] += weight_dy * dy;
   }
 };
 
@@ -80,19 +83,18 @@ template <typename Vectors>
 [[gnu::always_inline]] inline Moments2 moments(const PointColumns& points, std::span<const PointRange> ranges,
                                                const TraversalPoint& place, double radius_m) {
   const Query query{place.p_map.x_m, place.p_map.y_m, place.traversal, radius_m * radius_m};
-  using S = Sums<Vectors>;
-  S sums;
+  Sums<Vectors> s;
   for (const PointRange& range : ranges)
-    for (std::uint32_t i = range.begin; i < range.end; i += S::kWidth) sums.add(points, i, range.end, query);
+    for (std::uint32_t i = range.begin; i < range.end; i += kLanes) s.add(points, i, range.end, query);
   std::int64_t count = 0;
-  for (std::uint32_t i = 0; i < S::kWidth; ++i) count += sums.count[i];
+  for (std::uint32_t i = 0; i < s.kWidth; ++i) count += s.count[i];
   return {static_cast<std::size_t>(count),
-          sums.w_x[0],
-          sums.w_x[1],
-          sums.y_xx[0],
-          sums.y_xx[1],
-          sums.xy_yy[0],
-          sums.xy_yy[1]};
+          s.w.total(),
+          s.x.total(),
+          s.y.total(),
+          s.xx.total(),
+          s.xy.total(),
+          s.yy.total()};
 }
 
 #if defined(__x86_64__) || defined(__i386__)
@@ -107,9 +109,9 @@ const bool kHasAvx2 = __builtin_cpu_supports("avx2");
 
 PointColumns::PointColumns(std::span<const TraversalPoint> points)
     : size_(points.size()),
-      x_m_(size_ + kMaxWidth - 1),
-      y_m_(size_ + kMaxWidth - 1),
-      traversal_(size_ + kMaxWidth - 1) {
+      x_m_(size_ + kLanes - 1),
+      y_m_(size_ + kLanes - 1),
+      traversal_(size_ + kLanes - 1) {
   for (std::size_t i = 0; i < size_; ++i) {
     x_m_[i] = points[i].p_map.x_m;
     y_m_[i] = points[i].p_map.y_m;
