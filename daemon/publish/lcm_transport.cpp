@@ -60,7 +60,7 @@ void LcmTransport::listen(const std::string& channel, Listener listener) {
   state_->lcm.subscribeFunction(channel, &Channel::take, &kept);
 }
 
-bool LcmTransport::on_frame(Duration timeout) {
+bool LcmTransport::receive(Duration timeout) {
   const auto timeout_ms = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
   return state_->lcm.handleTimeout(static_cast<int>(timeout_ms)) > 0;
 }

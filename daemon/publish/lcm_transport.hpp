@@ -29,10 +29,10 @@ class LcmTransport {
 
   /// False, with errno, when LCM did not take the message.
   [[nodiscard]] bool publish(const std::string& channel, std::span<const std::uint8_t> message);
-  /// `listener` is called from within on_frame(), with each message on that channel.
+  /// `listener` is called from within receive(), with each message on that channel.
   void listen(const std::string& channel, Listener listener);
   /// Waits for messages for so long at most. False when none came.
-  bool on_frame(Duration timeout);
+  bool receive(Duration timeout);
 
  private:
   struct State;

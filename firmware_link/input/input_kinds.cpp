@@ -30,7 +30,7 @@ Status parsed_by(std::string_view text, std::any& address) {
 
 Result<UsbCableAddress> parse_usb_cable(std::string_view text) {
   const std::optional<int> index = whole_number(text, 0, kLastUsbIndex);
-  if (!index) return bad_address("the vehicle " + quoted(text) + " must be a whole number from 0 to 99");
+  if (!index) return bad_address("the vehicle " + in_quotes(text) + " must be a whole number from 0 to 99");
   return UsbCableAddress{*index};
 }
 

@@ -22,7 +22,7 @@ Error no_scheme(const std::string& uri, const std::string& what) {
 Status parse_as(const InputKind& kind, const std::string& uri, std::any& address) {
   if (uri.starts_with(kind.scheme))
     return kind.parse(std::string_view(uri).substr(kind.scheme.size()), address);
-  return bad_address("two slashes follow " + quoted(kind.scheme.substr(0, kind.scheme.find(':') + 1)));
+  return bad_address("two slashes follow " + in_quotes(kind.scheme.substr(0, kind.scheme.find(':') + 1)));
 }
 
 const InputKind& file_kind() {
@@ -53,7 +53,7 @@ Result<InputUri> parse_input_uri(const std::string& uri) {
     return parsed;
   }
   if (uri.find("://") != std::string::npos)
-    return no_scheme(uri, "unknown scheme " + quoted(uri.substr(0, uri.find(':'))));
+    return no_scheme(uri, "unknown scheme " + in_quotes(uri.substr(0, uri.find(':'))));
   return InputUri{.kind = &file_kind(), .address = InputFile{uri}};
 }
 

@@ -21,7 +21,7 @@ Status parse_dongle(std::string_view text, RadioAddress& radio) {
   const bool is_word =
       std::all_of(text.begin(), text.end(), [](char c) { return is_digit(c) || is_letter(c); });
   if (text.empty() || (text != "*" && !is_word))
-    return bad_address("dongle " + quoted(text) + " must be an index from 0, a serial number or *");
+    return bad_address("dongle " + in_quotes(text) + " must be an index from 0, a serial number or *");
   const bool is_index = text.size() <= kMaxDongleIndex && std::all_of(text.begin(), text.end(), is_digit);
   // 00 and 0 are the same dongle.
   radio.dongle = is_index ? std::to_string(*whole_number(text, 0, 999'999'999)) : in_capitals(text);
@@ -30,7 +30,7 @@ Status parse_dongle(std::string_view text, RadioAddress& radio) {
 
 Status parse_channel(std::string_view text, RadioAddress& radio) {
   const std::optional<int> channel = whole_number(text, 0, kLastChannel);
-  if (!channel) return bad_address("channel " + quoted(text) + " must be a whole number from 0 to 125");
+  if (!channel) return bad_address("channel " + in_quotes(text) + " must be a whole number from 0 to 125");
   radio.channel = static_cast<std::uint8_t>(*channel);
   return {};
 }
@@ -41,7 +41,7 @@ Status parse_rate(std::string_view text, RadioAddress& radio) {
   const std::string name = in_capitals(text);
   const auto* rate =
       std::find_if(kRates.begin(), kRates.end(), [&name](const auto& r) { return r.first == name; });
-  if (rate == kRates.end()) return bad_address("data rate " + quoted(text) + " must be 250K, 1M or 2M");
+  if (rate == kRates.end()) return bad_address("data rate " + in_quotes(text) + " must be 250K, 1M or 2M");
   radio.rate = rate->second;
   return {};
 }
@@ -51,7 +51,7 @@ Status parse_address(std::string_view text, RadioAddress& radio) {
       text.size() > 2 * radio.address.size()
           ? std::nullopt
           : whole_number(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(), 16);
-  if (!number) return bad_address("address " + quoted(text) + " must be 1 to 10 hexadecimal digits");
+  if (!number) return bad_address("address " + in_quotes(text) + " must be 1 to 10 hexadecimal digits");
   std::uint64_t left = *number;
   for (std::size_t i = radio.address.size(); i > 0; --i, left >>= 8)
     radio.address[i - 1] = static_cast<std::uint8_t>(left & 0xFF);

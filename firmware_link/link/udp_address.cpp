@@ -32,7 +32,7 @@ Status split_host(std::string_view text, std::string_view& host, std::string_vie
   };
   if (host.empty()) return bad_address("names no host");
   if (!std::all_of(host.begin(), host.end(), may_stand_in_host))
-    return bad_address("host " + quoted(host) + " must be a name or an address");
+    return bad_address("host " + in_quotes(host) + " must be a name or an address");
   return {};
 }
 
@@ -46,7 +46,7 @@ Result<UdpAddress> parse_udp_address(std::string_view text) {
   if (port.empty()) return address;
   const std::optional<int> number = whole_number(port.substr(1), 1, 65535);
   if (!number)
-    return bad_address("port " + quoted(port.substr(1)) + " must be a whole number from 1 to 65535");
+    return bad_address("port " + in_quotes(port.substr(1)) + " must be a whole number from 1 to 65535");
   address.port = static_cast<std::uint16_t>(*number);
   return address;
 }

@@ -9,7 +9,7 @@ namespace swiftlet {
 
 Error bad_address(std::string what) { return {ErrorCode::kInvalidInput, std::move(what)}; }
 
-std::string quoted(std::string_view text) { return std::string(1, '\'').append(text) + '\''; }
+std::string in_quotes(std::string_view text) { return std::string(1, '\'').append(text) + '\''; }
 
 std::string in_capitals(std::string_view text) {
   std::string capitals(text);
@@ -36,14 +36,14 @@ Result<std::vector<UriParameter>> take_parameters(std::string_view& text) {
     const std::string_view key = cut_off(value, '=');
     const auto same_key = [key](const UriParameter& earlier) { return earlier.key == key; };
     if (std::any_of(parameters.begin(), parameters.end(), same_key))
-      return bad_address("parameter " + quoted(key) + " is given twice");
+      return bad_address("parameter " + in_quotes(key) + " is given twice");
     parameters.push_back({key, value});
   } while (!query.empty());
   return parameters;
 }
 
 Error unknown_parameter(std::string_view key, std::string_view known) {
-  return bad_address("unknown parameter " + quoted(key) + ", known: " + std::string(known));
+  return bad_address("unknown parameter " + in_quotes(key) + ", known: " + std::string(known));
 }
 
 }  // namespace swiftlet

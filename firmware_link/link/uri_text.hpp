@@ -15,7 +15,7 @@ namespace swiftlet {
 // What the parsers of addresses in URIs share.
 
 [[nodiscard]] Error bad_address(std::string what);
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }

@@ -46,7 +46,7 @@ void ClosureGroups::forget_before(double path_m) {
   }
 }
 
-/// Whether the travel from one query to the other is the same by way of the graph and by way of both submaps.
+/// Matches agree if the motion from one query to the other is the same through the graph and both submaps.
 void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
                           const IdMap<KeyframeId, Eigen::Matrix3d>& covariances_query) {
   Waiting entry{closure, {}};
@@ -69,7 +69,7 @@ void ClosureGroups::admit(const LoopClosure& closure, const PoseGraph& graph,
   waiting_.push_back(std::move(entry));
 }
 
-/// Greedily the largest set around `seed` in which all agree: next comes who agrees with most of those left.
+/// Greedily the largest set around `seed` in which all agree: the next member agrees with most of those left.
 std::vector<std::size_t> ClosureGroups::agreeing_set(std::size_t seed) const {
   std::vector<std::size_t> set{seed};
   std::vector<std::size_t> left = waiting_[seed].agreeing;
@@ -92,7 +92,7 @@ std::vector<std::size_t> ClosureGroups::agreeing_set(std::size_t seed) const {
   return set;
 }
 
-/// Shares no member with the set.
+/// Size of the largest agreeing set that shares no member with this one.
 std::size_t ClosureGroups::largest_rival(std::span<const std::size_t> set) const {
   std::size_t largest = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
@@ -105,8 +105,7 @@ std::size_t ClosureGroups::largest_rival(std::span<const std::size_t> set) const
   return largest;
 }
 
-/// Of the position, by those of the set whose queries are not around `left_out`'s: in the axes of the map as
-/// the graph has it.
+/// Information on the position, in the axes of the map, from members whose queries are not near `left_out`'s.
 Eigen::Matrix2d ClosureGroups::information_without(std::size_t left_out, std::span<const std::size_t> set,
                                                    const PoseGraph& graph) const {
   const double left_out_m = chain_->path_m(waiting_[left_out].closure.to);

@@ -23,7 +23,7 @@ bool is_unambiguous(double off_rad, double variance_rad2, const BuildingAxisPrio
 
 }  // namespace
 
-/// Mean of a quarter-turn's circle, weighted by how far each is believed.
+/// Circular mean over a quarter turn, weighted by the information that DCS leaves of each heading.
 double BuildingAxisPrior::building_axis_rad(const PoseGraph& graph) const {
   double x = 0.0;
   double y = 0.0;

@@ -95,7 +95,7 @@ struct Arrival {
   Step step;
 };
 
-/// Variance of each keyframe's heading in the map by what the graph's headings say; infinite where nothing.
+/// Variance of each keyframe's heading by the graph's heading factors; infinite without one.
 std::vector<double> heading_variances(const PoseGraph& graph, double min_dcs_scale) {
   std::vector<double> variances(graph.T_map_keyframe.size(), std::numeric_limits<double>::infinity());
   for (const HeadingFactor<KeyframeId>& c : graph.headings) {
@@ -129,7 +129,7 @@ IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, 
     const Eigen::Matrix3d J2 = jacobian_compose_second(T_from_here);
     covariance[to] =
         J1 * covariance[here] * J1.transpose() + J2 * steps.covariance(arrival.step) * J2.transpose();
-    condition_on_heading(2.0 * headings[to], covariance[to]);  // that of `from` is known no better
+    condition_on_heading(2.0 * headings[to], covariance[to]);  // that of `from` is no more certain
   };
   std::vector<Arrival> arrivals(T_map_pose.size());
   std::vector<double> distance(T_map_pose.size(), std::numeric_limits<double>::infinity());

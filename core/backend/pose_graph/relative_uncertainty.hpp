@@ -9,11 +9,10 @@
 
 namespace swiftlet {
 
-/// How well each keyframe is known as seen from `from`: covariance of T_from_k for every k, found by carrying
-/// the factors' covariances along the path of least uncertainty (Dijkstra projection: Olson 2008, "Robust
-/// and efficient robotic mapping", section 3.4). On the safe side: other paths only tell more. Closures count
-/// as far as DCS believes them (at least half), and so do headings: a keyframe that has one gets a Kalman
-/// update of its yaw on the way. Allocates; O(m log n).
+/// Covariance of T_from_k for every keyframe k, propagated along the path of least uncertainty (Dijkstra
+/// projection: Olson 2008, "Robust and efficient robotic mapping", section 3.4). An upper bound: other paths
+/// only add information. Closures and headings that DCS scales down too far do not count; a keyframe with a
+/// heading gets a Kalman update of its yaw on the way. Allocates; O(m log n).
 IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
                                                         const RelativeCovarianceTuning& tuning = {});
 

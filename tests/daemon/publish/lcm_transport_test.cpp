@@ -23,14 +23,14 @@ TEST(LcmTransport, BringsWhatWasPublishedToWhoeverListensOnTheChannel) {
   const std::vector<std::uint8_t> message{1, 2, 3};
   EXPECT_TRUE((*lcm)->publish("THERE", std::vector<std::uint8_t>{9}));
   EXPECT_TRUE((*lcm)->publish("HERE", message));
-  for (int i = 0; i < 100 && received.empty(); ++i) (*lcm)->on_frame(milliseconds(100));
+  for (int i = 0; i < 100 && received.empty(); ++i) (*lcm)->receive(milliseconds(100));
   EXPECT_THAT(received, ElementsAre(1, 2, 3));
 }
 
 TEST(LcmTransport, ComesBackWhenNothingIsToBeHeard) {
   const auto lcm = LcmTransport::open("memq://");
   ASSERT_TRUE(lcm.ok());
-  EXPECT_FALSE((*lcm)->on_frame(milliseconds(10)));
+  EXPECT_FALSE((*lcm)->receive(milliseconds(10)));
 }
 
 TEST(LcmTransport, RefusesAUrlThatLcmDoesNotKnow) {
