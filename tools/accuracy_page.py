@@ -9,6 +9,7 @@ import accuracy_changes as changes
 import accuracy_runs as runs
 import accuracy_sweeps as sweeps
 import benchmark_page as page
+import mapped_runs
 
 # Mean error of translation (m) and rotation (deg) of the paper's code on two such cores, with its own settings for
 # each log; of Killian the paper's figure, because there it depends on rounding (0.16 to 1.43 m measured).
@@ -149,7 +150,7 @@ def offices_table(rows):
         return NONE if judged is None else f"{judged['rmse_m']:.3f}"
 
     return page.table(["simulated flight", "before (odometry):", "live:", "after (final):"],
-                      [[run.log.name, *(rmse(result[which]) for which in runs.TRAJECTORIES)] for run, result in rows])
+                      [[run.log.name, *(rmse(result[which]) for which in mapped_runs.TRAJECTORIES)] for run, result in rows])
 
 
 def tables(rows):

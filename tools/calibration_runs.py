@@ -8,9 +8,10 @@ import subprocess
 import time
 
 import accuracy_runs
+import mapped_runs
 import wheels_by_relations
 import whole_runs
-from accuracy_runs import Log
+from mapped_runs import Log
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Input:
         return self.log.name if self.beams is None else f"{self.log.name}, {self.beams} beams"
 
     def arguments(self):
-        source = self.log.source if self.log.reference is None else str(accuracy_runs.DATASETS / self.log.source)
+        source = self.log.source if self.log.reference is None else str(mapped_runs.DATASETS / self.log.source)
         return [source] if self.beams is None else [source, "--beams", str(self.beams)]
 
 
@@ -57,8 +58,8 @@ def mapped(swiftlet, wanted, config, output):
     arguments = [*wanted.arguments(), *([] if config is None else ["--config", str(config)])]
     whole_runs.run(swiftlet, arguments, output)
     reference = output / "ground_truth.tum" if wanted.log.reference is None else (
-        accuracy_runs.DATASETS / wanted.log.reference)
-    return {which: accuracy_runs.judge(swiftlet, output / accuracy_runs.TRAJECTORIES[which], reference)
+        mapped_runs.DATASETS / wanted.log.reference)
+    return {which: mapped_runs.judge(swiftlet, output / mapped_runs.TRAJECTORIES[which], reference)
             for which in ("live", "final")}
 
 
@@ -74,13 +75,13 @@ def calibrate(wanted, swiftlet, folder):
               "with": mapped(swiftlet, wanted, found, folder / "with"),
               "wheels": None}
     if wanted.log in accuracy_runs.LASER_LOGS:
-        result["wheels"] = wheels_by_relations.estimate(accuracy_runs.DATASETS / wanted.log.reference,
-                                                        folder / "without" / accuracy_runs.TRAJECTORIES["odometry"])
+        result["wheels"] = wheels_by_relations.estimate(mapped_runs.DATASETS / wanted.log.reference,
+                                                        folder / "without" / mapped_runs.TRAJECTORIES["odometry"])
     return result
 
 
 def map_at(age_s, wanted, swiftlet, folder):
     """The map with this age of the ranges. Otherwise as calibrate()."""
     config = folder / "age.toml"
-    config.write_text(accuracy_runs.configuration({"sensor": {"range_age_s": age_s}}), encoding="utf-8")
+    config.write_text(mapped_runs.configuration({"sensor": {"range_age_s": age_s}}), encoding="utf-8")
     return mapped(swiftlet, wanted, config, folder / "out")

@@ -4,6 +4,7 @@
 holds for one log by luck does not hold for all its copies. A trajectory mapped from a copy is transformed back to the
 stamps and the direction of the log, and evaluated by its relations."""
 
+import bisect
 import dataclasses
 import gzip
 import math
@@ -11,6 +12,11 @@ import random
 
 BEHIND_ODOMETRY_S = 0.1  # scans of a log with ODOM lines are that much older than their stamps
 BETWEEN_RANDOM_TURNS_M = 20.0
+BEFORE_FIRST_SCAN_S = 0.5  # of dead reckoning in lines of its own, kept at a cut
+# Standard deviations of noise 1: after 100 m of travel the position is off by about 3 % of the way.
+NOISE_XY_M_PER_SQRT_M = 0.01
+NOISE_YAW_RAD_PER_SQRT_M = math.radians(0.3)
+NOISE_YAW_RAD_PER_SQRT_RAD = math.radians(1.0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,6 +29,10 @@ class Change:
     drift_deg_per_m: float = 0.0  # forward; with the other sign when going back
     random_turns_deg: float = 0.0  # standard deviation of turns that did not happen
     seed: int = 0
+    noise: float = 0.0  # times the random walks of NOISE_*
+    lead_s: float = 0.0  # dead reckoning runs ahead of the ranges by so much more than in the log
+    first: float = 0.0  # share of the scans at which the copy begins, as it is played
+    last: float = 1.0  # ... and ends
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,6 +89,35 @@ def turned_round(recording, change):
                      recording.is_odometry_in_scans)
 
 
+def cut(recording, change):
+    """The scans from `first` to `last`, and the poses that belong to them."""
+    count = len(recording.scans)
+    begin, end = round(change.first * count), round(change.last * count)
+    scans = recording.scans[begin:end]
+    if not scans:
+        raise ValueError(f"{change.name}: leaves no scan")
+    if recording.is_odometry_in_scans:
+        return Recording(recording.poses[begin:end], scans, True)
+    return Recording([pose for pose in recording.poses if begin == 0 or pose[0] >= scans[0][0] - BEFORE_FIRST_SCAN_S
+                      if end == count or pose[0] <= scans[-1][0] + BEFORE_FIRST_SCAN_S], scans, False)
+
+
+def pose_at(stamps, poses, stamp):
+    """Interpolated; the first or last one beyond the ends."""
+    after = min(max(bisect.bisect_left(stamps, stamp), 1), len(poses) - 1)
+    (t0, (x0, y0, yaw0)), (t1, (x1, y1, yaw1)) = poses[after - 1], poses[after]
+    share = min(max((stamp - t0) / (t1 - t0), 0.0), 1.0) if t1 > t0 else 0.0
+    return x0 + share * (x1 - x0), y0 + share * (y1 - y0), wrapped(yaw0 + share * wrapped(yaw1 - yaw0))
+
+
+def ahead(poses, lead_s):
+    """At each stamp the pose of `lead_s` later."""
+    if lead_s == 0.0 or len(poses) < 2:
+        return poses
+    stamps = [stamp for stamp, _ in poses]
+    return [(stamp, pose_at(stamps, poses, stamp + lead_s)) for stamp in stamps]
+
+
 def with_errors(poses, change):
     """Dead reckoning over the same steps, with an error in each."""
     chance = random.Random(change.seed)
@@ -97,6 +136,12 @@ def with_errors(poses, change):
         if path_m > next_turn_m:
             next_turn_m += BETWEEN_RANDOM_TURNS_M
             turn_rad += math.radians(chance.gauss(0.0, change.random_turns_deg))
+        if change.noise:
+            way, turned = math.sqrt(length_m), math.sqrt(abs(wrapped(now[2] - last[2])))
+            turn_rad += change.noise * chance.gauss(0.0, math.hypot(NOISE_YAW_RAD_PER_SQRT_M * way,
+                                                                    NOISE_YAW_RAD_PER_SQRT_RAD * turned))
+            forward_m += change.noise * chance.gauss(0.0, NOISE_XY_M_PER_SQRT_M * way)
+            left_m += change.noise * chance.gauss(0.0, NOISE_XY_M_PER_SQRT_M * way)
         x_m += change.metres * (math.cos(yaw_rad) * forward_m - math.sin(yaw_rad) * left_m)
         y_m += change.metres * (math.sin(yaw_rad) * forward_m + math.cos(yaw_rad) * left_m)
         yaw_rad = wrapped(yaw_rad + turn_rad)
@@ -107,8 +152,9 @@ def with_errors(poses, change):
 
 def write(recording, change, target):
     """Writes the changed copy, plain."""
-    turned = turned_round(recording, change)
-    poses = [(stamp, f"{x:.6f} {y:.6f} {yaw:.6f}") for stamp, (x, y, yaw) in with_errors(turned.poses, change)]
+    turned = cut(turned_round(recording, change), change)
+    measured = with_errors(ahead(turned.poses, change.lead_s), change)
+    poses = [(stamp, f"{x:.6f} {y:.6f} {yaw:.6f}") for stamp, (x, y, yaw) in measured]
     unsaid = "0 0 0"
     if recording.is_odometry_in_scans:
         beside, lines = [pose for _, pose in poses], []

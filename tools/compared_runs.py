@@ -9,9 +9,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-import accuracy_runs
+import mapped_runs
 import benchmark_page as page
-from accuracy_runs import ACES, DATASETS, INTEL, KILLIAN, OLSSON, RICE
+from accuracy_runs import ACES, INTEL, KILLIAN, OLSSON, RICE
+from mapped_runs import DATASETS
 
 DATA = "data/"  # the data sets, seen from a run; relative, so that no output names a folder of this machine
 PLACES = {"swiftlet": ["tools/swiftlet", "swiftlet"], "swiftletd": ["daemon/swiftletd", "swiftletd"]}  # in a build
@@ -102,7 +103,7 @@ def execute(case, program, folder):
     (folder / "data").symlink_to(DATASETS.resolve())
     settings = []
     if case.settings:
-        (folder / "settings.toml").write_text(accuracy_runs.configuration(case.settings), encoding="utf-8")
+        (folder / "settings.toml").write_text(mapped_runs.configuration(case.settings), encoding="utf-8")
         settings = ["--config", "settings.toml"]
     done = subprocess.run([str(program), *case.arguments, *settings], cwd=folder, capture_output=True, check=False)
     if case.stdout is not None:

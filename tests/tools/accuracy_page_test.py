@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
 import accuracy_page as page  # noqa: E402
 import accuracy_runs as runs  # noqa: E402
+import mapped_runs  # noqa: E402
 
 
 def judged(translation_m, rotation_deg):
@@ -68,7 +69,7 @@ class AccuracyPage(unittest.TestCase):
             def get(_):
                 return None
 
-        with mock.patch.object(runs, "DATASETS", Path("/no/such/folder")):
+        with mock.patch.object(mapped_runs, "DATASETS", Path("/no/such/folder")):
             text = page.document(Nothing, {"date": "d", "commit": "c", "machine": "m"})
         self.assertEqual(text.count(page.NOT_MADE), len(runs.PARTS))
         self.assertIn("missing: `radish/aces.clf.gz`", text)

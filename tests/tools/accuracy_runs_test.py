@@ -14,6 +14,7 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
 import accuracy_runs as runs  # noqa: E402
+import mapped_runs as mapped  # noqa: E402
 
 OFFICE = runs.OFFICES[0]
 # Stands in for swiftlet: writes down how it was called, and what the real one writes but for live.tum.
@@ -43,7 +44,7 @@ class AccuracyRuns(unittest.TestCase):
         self.swiftlet.chmod(0o755)
 
     def results(self):
-        return runs.Results(Path(self.folder.name, "kept"), self.swiftlet)
+        return mapped.Results(Path(self.folder.name, "kept"), self.swiftlet)
 
     def test_each_run_is_made_once_though_several_parts_want_it(self):
         together = runs.runs_of(["table", "beams", "kernel", "times"])
@@ -61,9 +62,9 @@ class AccuracyRuns(unittest.TestCase):
         data.mkdir()
         with gzip.open(data / "log.gz", "wt") as file:
             file.write("FLASER 2 1.0 2.0 0 0 0 0 0 0 5.0 host 5.0\nFLASER 2 1.0 2.0 0 0 0 1 0 0 6.0 host 6.0\n")
-        log = runs.Log("a log", "log.gz", "log.gz")
+        log = mapped.Log("a log", "log.gz", "log.gz")
         run = runs.Run(log, beams=2, change=runs.Change("mirrored", mirrored=True))
-        with mock.patch.object(runs, "DATASETS", data):
+        with mock.patch.object(mapped, "DATASETS", data):
             self.results().make(run, at_once=1)
             self.assertIsNotNone(self.results().get(run))
             self.assertIsNone(self.results().get(runs.Run(log, beams=2)))
@@ -74,9 +75,9 @@ class AccuracyRuns(unittest.TestCase):
 
     def test_settings_become_a_configuration(self):
         run = runs.Run(runs.INTEL, beams=4, refine=False, kernel=5, multiscan=92)
-        self.assertEqual(tomllib.loads(runs.configuration(run.settings())),
+        self.assertEqual(tomllib.loads(mapped.configuration(run.settings())),
                          {"frontend": {"multiscan_points": 92}, "backend": {"refine": False, "max_kernel_cells": 5}})
-        self.assertEqual(runs.configuration(runs.Run(runs.INTEL, beams=4).settings()), "")
+        self.assertEqual(mapped.configuration(runs.Run(runs.INTEL, beams=4).settings()), "")
 
     def test_a_run_is_mapped_with_its_settings_and_each_trajectory_judged(self):
         self.results().make(runs.Run(OFFICE, beams=6, refine=False), at_once=2)
@@ -101,8 +102,8 @@ class AccuracyRuns(unittest.TestCase):
     def test_results_of_other_data_or_of_another_change_are_not_taken(self):
         data = Path(self.folder.name, "log.clf")
         data.write_text("one")
-        log = runs.Log("a log", "log.clf", "log.clf")
-        with mock.patch.object(runs, "DATASETS", Path(self.folder.name)):
+        log = mapped.Log("a log", "log.clf", "log.clf")
+        with mock.patch.object(mapped, "DATASETS", Path(self.folder.name)):
             files = {self.results().file(runs.Run(log, change=change))
                      for change in (None, runs.Change("worse", metres=1.1), runs.Change("worse", metres=1.2))}
             before = self.results().file(runs.Run(log))
@@ -112,7 +113,7 @@ class AccuracyRuns(unittest.TestCase):
 
     def test_a_simulation_needs_no_data_and_a_log_names_what_is_not_there(self):
         self.assertEqual(OFFICE.missing(), [])
-        elsewhere = runs.Log("nowhere", "no/such.clf", "no/such.relations")
+        elsewhere = mapped.Log("nowhere", "no/such.clf", "no/such.relations")
         self.assertEqual(elsewhere.missing(), ["no/such.clf", "no/such.relations"])
 
 

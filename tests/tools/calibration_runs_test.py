@@ -13,6 +13,7 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
 import accuracy_runs  # noqa: E402
+import mapped_runs  # noqa: E402
 import calibration_runs as runs  # noqa: E402
 
 # Stands in for swiftlet and for calibration_flights: writes down how it was called, and what the real ones write.
@@ -79,8 +80,8 @@ class CalibrationRuns(unittest.TestCase):
 
     def test_a_laser_log_keeps_its_beams_and_its_wheels_are_held_against_the_relations(self):
         (self.folder / "log.relations").write_text("5.0 6.0 1 0 0 0 0 0\n")
-        log = accuracy_runs.Log("a log", "log.clf", "log.relations")
-        with mock.patch.object(accuracy_runs, "DATASETS", self.folder), \
+        log = mapped_runs.Log("a log", "log.clf", "log.relations")
+        with mock.patch.object(mapped_runs, "DATASETS", self.folder), \
                 mock.patch.object(accuracy_runs, "LASER_LOGS", [log]), \
                 mock.patch.object(runs.wheels_by_relations, "estimate", lambda *files: [file.name for file in files]):
             result = runs.calibrate(runs.Input(log, 11), self.program, self.folder)

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""Runs of `swiftlet map` evaluated by `swiftlet eval`, and their results, kept for each build."""
+
+import concurrent.futures
+import dataclasses
+import hashlib
+import json
+import os
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+import benchmark_page as page
+import changed_capture
+import changed_log
+import log_sharpness
+import whole_runs
+
+DATASETS = Path(os.environ.get("SWIFTLET_DATASETS", page.ROOT.parent / "shared/datasets"))
+TRAJECTORIES = {"odometry": "odometry.tum", "live": "live.tum", "final": "trajectory.tum"}
+BAR_WIDTH = 30
+
+
+@dataclasses.dataclass(frozen=True)
+class Log:
+    name: str
+    source: str  # file of the data sets, or URI
+    reference: str | None  # file of the data sets; None: the true path that the run itself writes
+    lines_ahead: int = 0  # by which the poses in its scans precede the ranges
+
+    def files(self):
+        """Of the data sets."""
+        return [] if self.reference is None else sorted({self.source, self.reference})
+
+    def missing(self):
+        """Those that do not exist."""
+        return [file for file in self.files() if not (DATASETS / file).exists()]
+
+    def stand(self):
+        """Changes if its files change."""
+        stats = [(DATASETS / file).stat() for file in self.files() if (DATASETS / file).exists()]
+        return " ".join(f"{stat.st_size} {stat.st_mtime_ns}" for stat in stats)
+
+
+def configuration(settings):
+    """TOML."""
+    return "".join(f"[{section}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+                   for section, keys in settings.items())
+
+
+def is_laser_log(file):
+    return str(file).endswith((".clf", ".clf.gz"))
+
+
+def judge(swiftlet, trajectory, reference):
+    """The JSON figures of `swiftlet eval`, or those of log_sharpness where the reference is the laser log itself; None
+    where the run wrote no such trajectory."""
+    if not trajectory.exists():
+        return None
+    if is_laser_log(reference):
+        return log_sharpness.evaluate(trajectory, reference)
+    said = page.run(str(swiftlet), "eval", str(trajectory), str(reference), "--json", "-")
+    [figures] = json.loads(said)["references"]
+    return figures
+
+
+def changed_copy(run, folder):
+    """Writes it. Returns its path, and a function that transforms a trajectory mapped from it back to that of the log,
+    in place. Raises OSError, EOFError or ValueError where the log cannot be read or changed so."""
+    source = DATASETS / run.log.source
+    if source.suffix == ".pcap":
+        target = folder / "changed.pcap"
+        changed_capture.write(source, run.change, target)
+        return target, lambda trajectory: changed_capture.lead_back(trajectory, run.change, trajectory)
+    target = folder / "changed.clf"
+    recording = changed_log.read(source, run.log.lines_ahead)
+    changed_log.write(recording, run.change, target)
+    return target, lambda trajectory: changed_log.lead_back(trajectory, recording, run.change, trajectory)
+
+
+def execute(run, swiftlet, picture=None):
+    """Maps and evaluates. `picture`: where the map's is kept. Raises OSError, EOFError, ValueError or
+    subprocess.CalledProcessError."""
+    with tempfile.TemporaryDirectory() as name:
+        output = Path(name, "out")
+        config = Path(name, "settings.toml")
+        config.write_text(run.configuration(), encoding="utf-8")
+        source = run.log.source if run.log.reference is None else DATASETS / run.log.source
+        if run.change is not None:
+            source, lead_back = changed_copy(run, Path(name))
+        beams = [] if run.beams is None else ["--beams", str(run.beams)]
+        report = whole_runs.run(swiftlet, [str(source), *beams, "--config", str(config)], output)
+        if run.change is not None:
+            for trajectory in output.glob("*.tum"):
+                lead_back(trajectory)
+        reference = output / "ground_truth.tum" if run.log.reference is None else DATASETS / run.log.reference
+        judged = {which: judge(swiftlet, output / file, reference) for which, file in TRAJECTORIES.items()}
+        if picture is not None:
+            picture.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(output / "map.png", picture)
+    return {"report": report, **judged}
+
+
+class Results:
+    """The results of the runs of one build of the program, one file for each."""
+
+    def __init__(self, folder, swiftlet):
+        self.folder = folder
+        self.swiftlet = swiftlet
+        self.program = hashlib.sha256(Path(swiftlet).read_bytes()).hexdigest()[:12]
+
+    def file(self, run):
+        """Its name depends on everything that decides the result: the program, the run, its data and, for a changed
+        log, the code that changes it."""
+        changer = "" if run.change is None else "".join(
+            Path(module.__file__).read_text(encoding="utf-8") for module in (changed_log, changed_capture))
+        made_of = "\n".join([self.program, repr(run), run.log.stand(), changer])
+        name = re.sub("[^A-Za-z0-9]+", "-", run.title())
+        return self.folder / f"{name}_{hashlib.sha256(made_of.encode()).hexdigest()[:12]}.json"
+
+    def get(self, run):
+        """None where there is no result."""
+        try:
+            return json.loads(self.file(run).read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return None
+
+    def executed(self, run):
+        """Raises as execute() does."""
+        return execute(run, self.swiftlet)
+
+    def make(self, run, at_once):
+        """`at_once`: how many runs share the machine. Raises as executed() does."""
+        result = {"run": run.title(), "program": self.program, "at_once": at_once, **self.executed(run)}
+        self.folder.mkdir(parents=True, exist_ok=True)
+        begun = self.file(run).with_suffix(".part")
+        begun.write_text(json.dumps(result, indent=1), encoding="utf-8")
+        begun.replace(self.file(run))  # whole or not at all, however this ends
+
+
+def show_progress(name, done, total, what):
+    if sys.stderr.isatty():
+        full = BAR_WIDTH * done // total
+        end = "\n" if done == total else ""
+        print(f"\r\x1b[K[{'#' * full}{'.' * (BAR_WIDTH - full)}] {done} of {total}: {what}", end=end, file=sys.stderr,
+              flush=True)
+    else:
+        print(f"{name}: {done} of {total}: {what}", file=sys.stderr, flush=True)
+
+
+def make_missing(name, runs, results, jobs):
+    """`name`: of the program. Raises as Results.make() does; the results so far are kept."""
+    to_make = [run for run in runs if results.get(run) is None]
+    if to_make:
+        show_progress(name, len(runs) - len(to_make), len(runs), "exist already")
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        begun = {pool.submit(results.make, run, jobs): run for run in to_make}
+        try:
+            for done, future in enumerate(concurrent.futures.as_completed(begun), len(runs) - len(to_make) + 1):
+                future.result()
+                show_progress(name, done, len(runs), begun[future].title())
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise

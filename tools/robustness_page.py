@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""Break-outs of the ensembles: runs whose error exceeds that of their like by far, or that of dead reckoning. Tables and
+docs/results/robustness.md."""
+
+import dataclasses
+import math
+import statistics
+
+import benchmark_page as page
+import robustness_runs as runs
+
+OVER_QUARTER = 1.5  # times the error below which the best quarter of a group lies
+OVER_QUARTER_CELLS = 1.25  # the same of cells over those of dead reckoning
+OVER_ODOMETRY = 1.02
+CONFIDENCE_Z = 1.96  # 95 %
+PICTURES = 12
+NONE = "–"
+
+
+@dataclasses.dataclass(frozen=True)
+class Outcome:
+    """Of one run. No error: it failed."""
+    run: runs.Run
+    error: float | None  # m; of cells the ratio
+    ratio: float | None  # to dead reckoning
+    is_in_cells: bool
+    failed: str = ""
+    figures: dict = dataclasses.field(default_factory=dict)
+
+    def is_worse_than_odometry(self):
+        return self.ratio is not None and self.ratio > OVER_ODOMETRY
+
+    def exceeds(self, quarter):
+        factor = OVER_QUARTER_CELLS if self.is_in_cells else OVER_QUARTER
+        return self.error is not None and quarter is not None and self.error > factor * quarter
+
+
+def outcome(run, result):
+    if "failed" in result:
+        return Outcome(run, None, None, False, result["failed"])
+    error, odometry = runs.error_of(result["final"]), runs.error_of(result["odometry"])
+    ratio = error / odometry if odometry else math.inf
+    in_cells = runs.is_in_cells(result["final"])
+    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=result["report"])
+
+
+def outcomes(wanted, get):
+    """Of the runs that exist."""
+    return [outcome(run, result) for run in wanted if (result := get(run)) is not None]
+
+
+def grouped(all_outcomes, key):
+    """{key of the run: outcomes}, in order of the keys' first runs in the list of ensembles."""
+    groups = {}
+    for one in all_outcomes:
+        groups.setdefault(key(one.run), []).append(one)
+    order = [ensemble.log.name for ensemble in runs.ENSEMBLES]
+    return dict(sorted(groups.items(), key=lambda item: (order.index(item[1][0].run.log.name), item[0])))
+
+
+def quarters(all_outcomes):
+    """{group: error below which its best quarter lies}."""
+    found = {}
+    for name, group in grouped(all_outcomes, runs.Run.group).items():
+        errors = sorted(one.error for one in group if one.error is not None)
+        if errors:
+            found[name] = errors[(len(errors) - 1) // 4]
+    return found
+
+
+def breaks_out(one, limits):
+    """`limits`: quarters()."""
+    return bool(one.failed) or one.is_worse_than_odometry() or one.exceeds(limits.get(one.run.group()))
+
+
+def interval(count, of):
+    """Wilson's, of the rate."""
+    if of == 0:
+        return 0.0, 1.0
+    rate, z2 = count / of, CONFIDENCE_Z**2
+    middle = (rate + z2 / (2 * of)) / (1 + z2 / of)
+    half = CONFIDENCE_Z / (1 + z2 / of) * math.sqrt(rate * (1 - rate) / of + z2 / (4 * of**2))
+    return max(middle - half, 0.0), min(middle + half, 1.0)
+
+
+def percent(share):
+    return f"{100 * share:.1f}"
+
+
+def rate_cells(count, of):
+    low, high = interval(count, of)
+    return [str(of), str(count), percent(count / of), f"{percent(low)} to {percent(high)}"]
+
+
+def rates_row(name, group, limits):
+    out = sum(breaks_out(one, limits) for one in group)
+    ratios = [one.ratio for one in group if one.ratio is not None]
+    return [name, *rate_cells(out, len(group)), str(sum(one.exceeds(limits.get(one.run.group())) for one in group)),
+            str(sum(one.is_worse_than_odometry() for one in group)), str(sum(bool(one.failed) for one in group)),
+            f"{statistics.median(ratios):.3f}" if ratios else NONE, f"{max(ratios):.2f}" if ratios else NONE]
+
+
+def rates_table(all_outcomes, limits):
+    rows = [rates_row(name, group, limits) for name, group in grouped(all_outcomes, lambda run: run.log.name).items()]
+    rows.append(rates_row("**all**", all_outcomes, limits))
+    return page.table(["log", "runs:", "break-outs:", "%:", "95 %:", "over quarter:", "over odometry:", "failed:",
+                       "median ratio:", "worst ratio:"], rows)
+
+
+
+def kind_of(one):
+    return "as recorded" if one.run.change is None else one.run.change.name
+
+
+def kinds_table(all_outcomes, limits):
+    """By change."""
+    kinds = {}
+    for one in all_outcomes:
+        kinds.setdefault(kind_of(one), []).append(one)
+    return page.table(["change", "runs:", "break-outs:", "%:", "95 %:"],
+                      [[name, *rate_cells(sum(breaks_out(one, limits) for one in group), len(group))]
+                       for name, group in sorted(kinds.items())])
+
+
+def groups_table(all_outcomes, limits):
+    def cells(name, group):
+        errors = sorted(one.error for one in group if one.error is not None)
+        unit = "" if group[0].is_in_cells else " m"
+        return [name, str(len(group)), f"{limits[name]:.4f}{unit}" if name in limits else NONE,
+                *(f"{value:.4f}{unit}" for value in ((statistics.median(errors), errors[-1]) if errors else ()))]
+
+    return page.table(["log, beams", "runs:", "best quarter:", "median:", "worst:"],
+                      [cells(name, group) for name, group in grouped(all_outcomes, runs.Run.group).items()])
+
+
+def worst_first(broken, limits):
+    def by_how_much(one):
+        if one.failed:
+            return math.inf
+        return max(one.ratio / OVER_ODOMETRY, one.error / limits[one.run.group()] / OVER_QUARTER)
+
+    return sorted(broken, key=by_how_much, reverse=True)
+
+
+def broken_lines(all_outcomes, limits):
+    """A row for each break-out."""
+    def cells(one):
+        if one.failed:
+            return [one.run.title(), one.failed, "", ""]
+        quarter = limits[one.run.group()]
+        return [one.run.title(), f"{one.error:.3f}", f"{one.error / quarter:.2f}", f"{one.ratio:.2f}"]
+
+    broken = worst_first([one for one in all_outcomes if breaks_out(one, limits)], limits)
+    return page.table(["run", "error:", "over quarter:", "over odometry:"], [cells(one) for one in broken])
+
+
+def pictured(all_outcomes, limits):
+    """The worst break-out of each log, at most PICTURES."""
+    chosen = {}
+    for one in worst_first([one for one in all_outcomes if breaks_out(one, limits) and not one.failed], limits):
+        chosen.setdefault(one.run.log.name, one)
+    return list(chosen.values())[:PICTURES]
+
+
+def tables(all_outcomes):
+    limits = quarters(all_outcomes)
+    return f"{rates_table(all_outcomes, limits)}\n\n{groups_table(all_outcomes, limits)}\n\n" \
+           f"{broken_lines(all_outcomes, limits)}"
+
+
+def both_limits(before, after):
+    """The lower quarter of two sets of outcomes, so that both are held against the same."""
+    first, second = quarters(before), quarters(after)
+    return {name: min(found[name] for found in (first, second) if name in found) for name in {**first, **second}}
+
+
+def comparison(before, after):
+    """Which runs break out in one set and not in the other."""
+    earlier = {unset(one.run): one for one in before}
+    pairs = [(earlier[unset(one.run)], one) for one in after if unset(one.run) in earlier]
+    limits = both_limits([one for one, _ in pairs], [one for _, one in pairs])
+    rows = []
+    for name, group in grouped_pairs(pairs).items():
+        out = [(breaks_out(a, limits), breaks_out(b, limits)) for a, b in group]
+        ratios = [b.error / a.error for a, b in group if a.error and b.error]
+        rows.append([name, str(len(group)), str(sum(a for a, _ in out)), str(sum(b for _, b in out)),
+                     str(out.count((True, False))), str(out.count((False, True))),
+                     f"{statistics.median(ratios):.3f}" if ratios else NONE])
+    summary = page.table(["log", "runs:", "before:", "after:", "mended:", "broken:", "median error, after / before:"],
+                         rows)
+    return f"{summary}\n\n{changed_pairs(pairs, limits)}"
+
+
+def unset(run):
+    """The run whatever its settings."""
+    return runs.with_settings(run, "")
+
+
+def grouped_pairs(pairs):
+    groups = {}
+    for pair in pairs:
+        groups.setdefault(pair[0].run.log.name, []).append(pair)
+    return {**groups, "**all**": pairs}
+
+
+def changed_pairs(pairs, limits):
+    def text(one):
+        return one.failed or f"{one.error:.3f} ({one.ratio:.2f})"
+
+    changed = [(a, b) for a, b in pairs if breaks_out(a, limits) != breaks_out(b, limits)]
+    return page.table(["run", "", "before, error (ratio):", "after:"],
+                      [[b.run.title(), "mended" if breaks_out(a, limits) else "**broken**", text(a), text(b)]
+                       for a, b in sorted(changed, key=lambda pair: (pair[1].run.log.name, pair[1].run.title()))])
+
+
+def percentile(values, share):
+    ordered = sorted(values)
+    return ordered[min(round(share * (len(ordered) - 1)), len(ordered) - 1)]
+
+
+def buildings_text(all_outcomes):
+    """Figures of the simulated buildings."""
+    done = [one for one in all_outcomes if not one.failed]
+    if not done:
+        return "No run."
+    worse = [one for one in done if one.is_worse_than_odometry()]
+    bad = len(worse) + len(all_outcomes) - len(done)
+    low, high = interval(bad, len(all_outcomes))
+    ratios = [one.ratio for one in done]
+    rows = [["buildings", str(len(all_outcomes))], ["failed", str(len(all_outcomes) - len(done))],
+            ["final error worse than dead reckoning, %",
+             f"{percent(bad / len(all_outcomes))} ({percent(low)} to {percent(high)})"],
+            ["median ratio to dead reckoning", f"{statistics.median(ratios):.3f}"],
+            ["p95 of the ratio", f"{percentile(ratios, 0.95):.3f}"],
+            ["mean time per sample, ms", f"{statistics.mean(one.figures['mean_per_scan_ms'] for one in done):.3f}"],
+            ["longest call of the backend, ms", f"{max(one.figures['backend_max_ms'] for one in done):.1f}"]]
+    named = ", ".join(f"{one.run.log.name.removeprefix('building ')} ({one.ratio:.2f})"
+                      for one in sorted(worse, key=lambda one: one.ratio, reverse=True))
+    return page.table(["", ":"], rows) + (f"\n\nWorse than dead reckoning, seed (ratio): {named}." if named else "")
+
+
+def pictures_text(shown):
+    return "\n\n".join(f"{one.run.title()}: error {one.error:.3f}, {one.ratio:.2f} of dead reckoning.\n\n"
+                       f"![map](robustness/{name})" for name, one in shown) or "None."
+
+
+def document(real, buildings, shown, circumstances):
+    """`shown`: [(file name, outcome)] of the pictures."""
+    limits = quarters(real)
+    simulated = f"\n## Simulated buildings\n\n{buildings_text(buildings)}\n" if buildings else ""
+    return f"""{page.head("Robustness", "benchmark-robustness", circumstances)}
+Each log and flight is mapped many times, each time changed otherwise: with 4 to 6 or 9 to 13 beams (some with
+{runs.DENSE_BEAMS}), dead reckoning moved against the ranges by up to {runs.LEAD_MAX_S * 1e3:g} ms, the start cut off by
+up to {runs.CUT_MAX:.0%}, mirrored, played backwards, with noise or systematic errors added to the dead reckoning. The
+choices are drawn once, by a fixed seed. All runs have the default settings.
+
+A run **breaks out** if its error exceeds {OVER_QUARTER:g} times the error that a quarter of the runs of its log and
+numbers of beams stay below, or if it is worse than dead reckoning by more than {OVER_ODOMETRY - 1:.0%}. Errors are those
+of [evaluation](../evaluation.md): the mean translational error of relations, the RMSE against a true path; where there
+is no truth, the number of distinct cells with returns over that of dead reckoning (limit: {OVER_QUARTER_CELLS:g} times
+the best quarter). "Ratio" is the error over that of dead reckoning in the same run. The interval is Wilson's.
+
+## Break-outs
+
+{rates_table(real, limits)}
+
+### By change
+
+{kinds_table(real, limits)}
+
+### Errors
+
+{groups_table(real, limits)}
+
+### Each break-out
+
+{broken_lines(real, limits)}
+{simulated}
+## Pictures
+
+The map of the worst break-out of each log.
+
+{pictures_text(shown)}
+"""
