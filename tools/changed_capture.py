@@ -86,7 +86,10 @@ class Capture:
         """Of the packet's record, with its values."""
         old = self.records[packet.record][2]
         layout = self.layouts[packet.block]
-        values = struct.pack("<" + "".join(kind for _, kind in layout), *(packet.values[name] for name, _ in layout))
+        try:
+            values = struct.pack("<" + "".join(kind for _, kind in layout), *(packet.values[name] for name, _ in layout))
+        except struct.error as error:
+            raise ValueError(f"a changed value is beyond what the capture can hold: {error}") from error
         return old[:14] + values + old[14 + len(values):]
 
 
@@ -143,17 +146,10 @@ def drive_otherwise(packets, change):
     after = changed_log.with_errors(changed_log.ahead(before, change.lead_s), change)
     turns = [(stamp, (0.0, 0.0, changed_log.wrapped(new[2] - old[2]))) for (stamp, old), (_, new) in zip(before, after)]
     for packet, (_, (x_m, y_m, _)) in zip(places, after):
-        packet.values.update(zip(POSITION, (in_mm(x_m), in_mm(y_m))))
+        packet.values.update(zip(POSITION, (round(x_m * 1e3), round(y_m * 1e3))))
     at = [stamp for stamp, _ in turns]
     for packet in packets:
         turn(packet.values, changed_log.pose_at(at, turns, packet.at_ms * 1e-3)[2])
-
-
-def in_mm(metres):
-    millimetres = round(metres * 1e3)
-    if not -32768 <= millimetres <= 32767:
-        raise ValueError(f"position {metres:.1f} m: beyond what the capture can hold")
-    return millimetres
 
 
 def write(source, change, target):

@@ -12,7 +12,7 @@ import random
 
 BEHIND_ODOMETRY_S = 0.1  # scans of a log with ODOM lines are that much older than their stamps
 BETWEEN_RANDOM_TURNS_M = 20.0
-BEFORE_FIRST_SCAN_S = 0.5  # of dead reckoning in lines of its own, kept at a cut
+AROUND_SCANS_S = 0.5  # of dead reckoning in lines of its own that stays at a cut
 # Standard deviations of noise 1: after 100 m of travel the position is off by about 3 % of the way.
 NOISE_XY_M_PER_SQRT_M = 0.01
 NOISE_YAW_RAD_PER_SQRT_M = math.radians(0.3)
@@ -98,8 +98,8 @@ def cut(recording, change):
         raise ValueError(f"{change.name}: leaves no scan")
     if recording.is_odometry_in_scans:
         return Recording(recording.poses[begin:end], scans, True)
-    return Recording([pose for pose in recording.poses if begin == 0 or pose[0] >= scans[0][0] - BEFORE_FIRST_SCAN_S
-                      if end == count or pose[0] <= scans[-1][0] + BEFORE_FIRST_SCAN_S], scans, False)
+    return Recording([pose for pose in recording.poses if begin == 0 or pose[0] >= scans[0][0] - AROUND_SCANS_S
+                      if end == count or pose[0] <= scans[-1][0] + AROUND_SCANS_S], scans, False)
 
 
 def pose_at(stamps, poses, stamp):

@@ -60,13 +60,14 @@ def grouped(all_outcomes, key):
 
 
 def quarters(all_outcomes):
-    """{group: error below which its best quarter lies}."""
+    """{group: error below which its best quarter lies}. With many beams none is higher than with few."""
     found = {}
     for name, group in grouped(all_outcomes, runs.Run.group).items():
         errors = sorted(one.error for one in group if one.error is not None)
         if errors:
             found[name] = errors[(len(errors) - 1) // 4]
-    return found
+    return {name: min(quarter, found.get(name.replace(runs.MANY, runs.FEW), quarter))
+            for name, quarter in found.items()}
 
 
 def breaks_out(one, limits):

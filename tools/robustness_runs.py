@@ -17,6 +17,7 @@ SEED = 1
 FEW_BEAMS, MANY_BEAMS = [4, 5, 6], [9, 10, 11, 12, 13]
 DENSE_BEAMS = 61  # one in so many of the many:
 DENSE_EVERY = 6
+FEW, MANY = ", 4 to 6 beams", ", 9 beams and more"
 LEAD_MAX_S = 0.02
 CUT_MAX = 0.3  # of the start
 
@@ -58,7 +59,7 @@ def vicon(name):
 
 
 ENSEMBLES = [
-    Ensemble(accuracy_runs.ACES, LOOPS, 36, 4, (0.0, 0.5)),
+    Ensemble(accuracy_runs.ACES, LOOPS, 36, 4),
     Ensemble(accuracy_runs.INTEL, LOOPS, 36, 4, (0.0, 0.3)),
     Ensemble(accuracy_runs.KILLIAN, LOOPS, 36, 4, (0.0, 0.25)),
     laser("FR079", "radish/fr079.clf.gz", "radish/fr079_dense.tum", LOOPS, 36, 4, (0.0, 0.4)),
@@ -98,8 +99,7 @@ class Run:
 
     def group(self):
         """Runs that are compared: those of one log with like numbers of beams."""
-        beams = "" if self.beams is None else ", 4 to 6 beams" if self.beams <= max(FEW_BEAMS) else ", 9 and more"
-        return self.log.name + beams
+        return self.log.name + ("" if self.beams is None else FEW if self.beams <= max(FEW_BEAMS) else MANY)
 
 
 def shuffled_rounds(values, count, chance):
