@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Changed copies of captures of the radio (see docs/recording.md), as changed_log.py makes them of laser logs: the start
-cut off, left and right exchanged, larger errors of dead reckoning. The handshake and all other variables stay."""
+"""Changed copies of captures of the radio (see docs/recording.md), as changed_log.py makes them of laser logs: cut
+off, left and right exchanged, larger errors of dead reckoning. The handshake and all other variables stay."""
 
 import dataclasses
 import math
@@ -47,7 +47,7 @@ def records_of(data):
 
 
 class Capture:
-    """Raises OSError, or ValueError where the file is no capture of a radio that logs positions, attitude and ranges."""
+    """Raises OSError, or ValueError where it is no capture of a radio that logs positions, attitude and ranges."""
 
     def __init__(self, path):
         data = Path(path).read_bytes()
@@ -86,8 +86,9 @@ class Capture:
         """Of the packet's record, with its values."""
         old = self.records[packet.record][2]
         layout = self.layouts[packet.block]
+        kinds = "<" + "".join(kind for _, kind in layout)
         try:
-            values = struct.pack("<" + "".join(kind for _, kind in layout), *(packet.values[name] for name, _ in layout))
+            values = struct.pack(kinds, *(packet.values[name] for name, _ in layout))
         except struct.error as error:
             raise ValueError(f"a changed value is beyond what the capture can hold: {error}") from error
         return old[:14] + values + old[14 + len(values):]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""Break-outs of the ensembles: runs whose error exceeds that of their like by far, or that of dead reckoning. Tables and
-docs/results/robustness.md."""
+"""Break-outs of the ensembles: runs whose error exceeds that of their like by far, or that of dead reckoning. Tables
+and docs/results/robustness.md."""
 
 import dataclasses
 import math
@@ -257,10 +257,10 @@ up to {runs.CUT_MAX:.0%}, mirrored, played backwards, with noise or systematic e
 choices are drawn once, by a fixed seed. All runs have the default settings.
 
 A run **breaks out** if its error exceeds {OVER_QUARTER:g} times the error that a quarter of the runs of its log and
-numbers of beams stay below, or if it is worse than dead reckoning by more than {OVER_ODOMETRY - 1:.0%}. Errors are those
-of [evaluation](../evaluation.md): the mean translational error of relations, the RMSE against a true path; where there
-is no truth, the number of distinct cells with returns over that of dead reckoning (limit: {OVER_QUARTER_CELLS:g} times
-the best quarter). "Ratio" is the error over that of dead reckoning in the same run. The interval is Wilson's.
+numbers of beams stay below (with many beams: or with few), or if it is worse than dead reckoning by more than
+{OVER_ODOMETRY - 1:.0%}. Errors are those of [evaluation](../evaluation.md): the mean translational error of relations,
+the RMSE against a true path; where there is no truth, the number of distinct cells with returns over that of dead
+reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). "Ratio" is the error over that of dead reckoning in the same run. The interval is Wilson's.
 
 ## Break-outs
 

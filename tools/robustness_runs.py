@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""The ensembles of `tools/benchmark-robustness`: each log and flight many times, changed otherwise in each run. They are
-drawn once, by a fixed seed, and so the same for each build."""
+"""The ensembles of `tools/benchmark-robustness`: each log and flight many times, changed otherwise in each run. They
+are drawn once, by a fixed seed, and so the same for each build."""
 
 import dataclasses
 import random

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""tools/robustness_page.py counts break-outs, with their interval, and compares two sets of runs."""
+
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+sys.dont_write_bytecode = True
+import robustness_page as rates  # noqa: E402
+import robustness_runs as runs  # noqa: E402
+from changed_log import Change  # noqa: E402
+
+LOG = runs.ENSEMBLES[0].log
+REPORT = {"mean_per_scan_ms": 0.2, "backend_max_ms": 30.0}
+
+
+def run(number, beams=4):
+    return runs.Run(LOG, beams, Change("noise 1", noise=1.0, seed=number))
+
+
+def result(error, odometry):
+    return {"final": {"rmse_m": error}, "odometry": {"rmse_m": odometry}, "report": REPORT}
+
+
+def made(errors, beams=4, odometry=10.0):
+    return [rates.outcome(run(number, beams), result(error, odometry)) for number, error in enumerate(errors)]
+
+
+class RobustnessPage(unittest.TestCase):
+    def test_a_run_far_over_the_best_quarter_breaks_out(self):
+        group = made([0.1, 0.1, 0.1, 0.14, 0.16])
+        limits = rates.quarters(group)
+        self.assertEqual([rates.breaks_out(one, limits) for one in group], [False, False, False, False, True])
+
+    def test_many_beams_are_held_against_few_where_those_are_better(self):
+        few, many = made([0.1] * 4), made([0.3] * 4, beams=11)
+        limits = rates.quarters(few + many)
+        self.assertTrue(rates.breaks_out(many[0], limits))
+        self.assertFalse(rates.breaks_out(few[0], limits))
+        self.assertFalse(rates.breaks_out(many[0], rates.quarters(many)))
+
+    def test_a_run_worse_than_dead_reckoning_breaks_out(self):
+        limits = {run(0).group(): 1.0}
+        for odometry, expected in ((1.0, False), (0.99, False), (0.97, True)):
+            [one] = made([1.0], odometry=odometry)
+            self.assertEqual(rates.breaks_out(one, limits), expected)
+
+    def test_a_run_that_failed_breaks_out(self):
+        one = rates.outcome(run(0), {"failed": "exit code 2: no sample"})
+        self.assertTrue(rates.breaks_out(one, {}))
+        self.assertIn("exit code 2: no sample", rates.tables([one]))
+
+    def test_cells_are_held_against_those_of_dead_reckoning(self):
+        one = rates.outcome(run(0), {"final": {"cells_10_cm": 80}, "odometry": {"cells_10_cm": 100}, "report": REPORT})
+        self.assertEqual((one.error, one.ratio), (0.8, 0.8))
+        self.assertFalse(one.exceeds(0.65))
+        self.assertTrue(one.exceeds(0.63))
+
+    def test_the_interval_is_wilson_s(self):
+        low, high = rates.interval(2, 100)
+        self.assertAlmostEqual(low, 0.0055, places=4)
+        self.assertAlmostEqual(high, 0.0700, places=4)
+        self.assertEqual(rates.interval(0, 50)[0], 0.0)
+        self.assertEqual(rates.interval(0, 0), (0.0, 1.0))
+
+    def test_a_comparison_lists_what_was_mended_and_what_broke(self):
+        before, after = made([0.1, 0.1, 0.1, 0.5]), made([0.1, 0.1, 0.4, 0.1])
+        text = rates.comparison(before, after)
+        self.assertIn("| **all** | 4 | 1 | 1 | 1 | 1 |", text)
+        self.assertIn("seed 3, +0 ms | mended | 0.500 (0.05) | 0.100 (0.01) |", text)
+        self.assertIn("seed 2, +0 ms | **broken** | 0.100 (0.01) | 0.400 (0.04) |", text)
+
+    def test_both_sets_are_held_against_the_better_one(self):
+        text = rates.comparison(made([0.5] * 4), made([0.1] * 4))
+        self.assertIn("| **all** | 4 | 4 | 0 | 4 | 0 | 0.200 |", text)
+
+    def test_runs_are_compared_though_their_settings_differ(self):
+        other = [rates.outcome(runs.with_settings(one.run, "[map]\n"), result(0.1, 1.0)) for one in made([0.1])]
+        self.assertIn("| **all** | 1 | 0 | 0 |", rates.comparison(made([0.1]), other))
+
+    def test_buildings_are_summed_up(self):
+        built = [rates.outcome(one, result(0.1 if one.log.name != "building 7" else 2.0, 1.0))
+                 for one in runs.building_runs(1, 20)]
+        text = rates.buildings_text(built)
+        self.assertIn("| final error worse than dead reckoning, % | 5.0 (0.9 to 23.6) |", text)
+        self.assertIn("| median ratio to dead reckoning | 0.100 |", text)
+        self.assertIn("seed (ratio): 7 (2.00).", text)
+        self.assertIn("No run", rates.buildings_text([]))
+
+    def test_the_page_has_all_parts_and_the_worst_picture_of_a_log(self):
+        group = made([0.1, 0.1, 0.1, 0.2, 0.9])
+        shown = [("aces.png", one) for one in rates.pictured(group, rates.quarters(group))]
+        self.assertEqual([one.error for _, one in shown], [0.9])
+        text = rates.document(group, [], shown, {"date": "2026-11-22", "commit": "abc", "machine": "some"})
+        self.assertIn("commit abc", text)
+        self.assertIn("![map](robustness/aces.png)", text)
+        self.assertNotIn("## Simulated buildings", text)
+        self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

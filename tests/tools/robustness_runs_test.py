@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""tools/robustness_runs.py draws the same ensembles each time, and keeps what comes of a run, also where it fails."""
+
+import collections
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+sys.dont_write_bytecode = True
+import robustness_runs as runs  # noqa: E402
+
+
+class RobustnessRuns(unittest.TestCase):
+    def test_the_ensemble_is_large_enough_and_the_same_each_time(self):
+        drawn = runs.ensemble_runs()
+        self.assertGreaterEqual(len(set(drawn)), 300)
+        self.assertEqual(drawn, runs.ensemble_runs())
+        self.assertEqual(len(runs.screen_runs()), sum(ensemble.screened for ensemble in runs.ENSEMBLES))
+        self.assertEqual({run.log.name for run in runs.screen_runs()}, {run.log.name for run in drawn})
+
+    def test_each_log_has_few_beams_as_often_as_many_and_a_flight_its_own(self):
+        groups = collections.Counter(run.group() for run in runs.ensemble_runs())
+        for ensemble in runs.ENSEMBLES:
+            if ensemble.is_laser:
+                self.assertEqual(groups[ensemble.log.name + runs.FEW], ensemble.runs // 2)
+                self.assertEqual(groups[ensemble.log.name + runs.MANY], ensemble.runs // 2)
+            else:
+                self.assertEqual(groups[ensemble.log.name], ensemble.runs)
+
+    def test_starts_are_cut_and_poses_moved_within_the_limits(self):
+        changes = [run.change for run in runs.ensemble_runs()]
+        self.assertTrue(all(0.0 <= change.first <= runs.CUT_MAX and change.last == 1.0 for change in changes))
+        self.assertTrue(all(abs(change.lead_s) <= runs.LEAD_MAX_S for change in changes))
+        self.assertGreater(max(change.first for change in changes), 0.8 * runs.CUT_MAX)
+        self.assertGreater(sum(change.first == 0.0 for change in changes), 0.2 * len(changes))
+
+    def test_flights_are_not_played_backwards(self):
+        for ensemble in runs.ENSEMBLES:
+            self.assertTrue(ensemble.is_laser or not any(change.backwards for change in ensemble.changes))
+
+    def test_each_run_has_a_title_of_its_own(self):
+        for drawn in (runs.ensemble_runs(), runs.screen_runs(), runs.building_runs(1000, 1010)):
+            self.assertEqual(len({run.title() for run in drawn}), len(drawn))
+
+    def test_a_run_that_fails_is_a_result(self):
+        with tempfile.TemporaryDirectory() as folder:
+            swiftlet = Path(folder, "swiftlet")
+            swiftlet.write_text("#!/bin/sh\necho 'it broke' >&2\nexit 3\n")
+            swiftlet.chmod(0o755)
+            results = runs.Results(Path(folder, "kept"), swiftlet)
+            [run] = runs.building_runs(7, 7)
+            results.make(run, at_once=1)
+            self.assertEqual(results.get(run)["failed"], "exit code 3: it broke")
+            self.assertIsNone(results.get(runs.with_settings(run, "[map]\n")))
+
+    def test_errors_are_metres_where_there_is_a_truth_else_cells(self):
+        self.assertEqual(runs.error_of({"all": {"translation_m": {"mean": 0.5}}}), 0.5)
+        self.assertEqual(runs.error_of({"rmse_m": 0.25}), 0.25)
+        self.assertEqual(runs.error_of({"cells_10_cm": 900, "cells_20_cm": 400}), 400)
+        self.assertEqual(runs.error_of({"cells_10_cm": 900}), 900)
+        self.assertIsNone(runs.error_of(None))
+
+
+if __name__ == "__main__":
+    unittest.main()
