@@ -260,7 +260,8 @@ A run **breaks out** if its error exceeds {OVER_QUARTER:g} times the error that 
 numbers of beams stay below (with many beams: or with few), or if it is worse than dead reckoning by more than
 {OVER_ODOMETRY - 1:.0%}. Errors are those of [evaluation](../evaluation.md): the mean translational error of relations,
 the RMSE against a true path; where there is no truth, the number of distinct cells with returns over that of dead
-reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). "Ratio" is the error over that of dead reckoning in the same run. The interval is Wilson's.
+reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). "Ratio" is the error over that of dead reckoning in
+the same run. The interval is Wilson's.
 
 ## Break-outs
 

@@ -120,14 +120,21 @@ def beams_of(ensemble, count, chance):
     return [beams for both in zip(few, many) for beams in both][:count]
 
 
+def part_played(change, chance, window):
+    """(first, last) share. `window`: that of the log, None: the start is cut by chance."""
+    if window is None:
+        return round(chance.choice([0.0, 1.0, 1.0]) * chance.uniform(0.0, CUT_MAX), 3), 1.0
+    return (1.0 - window[1], 1.0 - window[0]) if change.backwards else window
+
+
 def drawn(ensemble, count, chance, window):
-    """`window`: (first, last) share of the log, None: the starts are cut by chance."""
+    """`window`: as in part_played()."""
     runs = []
     changes = shuffled_rounds(ensemble.changes, count, chance)
     for number, (beams, change) in enumerate(zip(beams_of(ensemble, count, chance), changes), 1):
-        first, last = (chance.choice([0.0, 1.0, 1.0]) * chance.uniform(0.0, CUT_MAX), 1.0) if window is None else window
+        first, last = part_played(change, chance, window)
         is_random = change.noise or change.random_turns_deg
-        change = dataclasses.replace(change, first=round(first, 3), last=last, seed=number if is_random else 0,
+        change = dataclasses.replace(change, first=first, last=last, seed=number if is_random else 0,
                                      lead_s=round(chance.uniform(-LEAD_MAX_S, LEAD_MAX_S), 3))
         # Played forwards, the poses lead the ranges as they do in the log.
         log = ensemble.log if change.backwards else dataclasses.replace(ensemble.log, lines_ahead=0)

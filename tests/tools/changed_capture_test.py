@@ -41,7 +41,8 @@ def flight():
     for i in range(COUNT):
         stamp = struct.pack("<I", (FIRST_MS + 100 * i) % (1 << 24))[:3]
         file += record(1001.0 + 0.1 * i, 0x52, b"\x01" + stamp + struct.pack("<hhhhH", 0, 100 * i, 0, 1000, 3900))
-        file += record(1001.01 + 0.1 * i, 0x52, b"\x02" + stamp + struct.pack("<ffffHHH", half, 0, 0, half, 500 + i, 7, 8))
+        said = struct.pack("<ffffHHH", half, 0, 0, half, 500 + i, 7, 8)
+        file += record(1001.01 + 0.1 * i, 0x52, b"\x02" + stamp + said)
     return file
 
 
