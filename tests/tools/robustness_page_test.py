@@ -13,20 +13,21 @@ import robustness_page as rates  # noqa: E402
 import robustness_runs as runs  # noqa: E402
 from changed_log import Change  # noqa: E402
 
-LOG = runs.ENSEMBLES[0].log
+LOG, FR079 = (next(ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name == name)
+              for name in ("Robot 4", "FR079"))
 REPORT = {"mean_per_scan_ms": 0.2, "backend_max_ms": 30.0}
 
 
-def run(number, beams=4):
-    return runs.Run(LOG, beams, Change("noise 1", noise=1.0, seed=number))
+def run(number, beams=4, log=LOG):
+    return runs.Run(log, beams, Change("noise 1", noise=1.0, seed=number))
 
 
 def result(error, odometry):
     return {"final": {"rmse_m": error}, "odometry": {"rmse_m": odometry}, "report": REPORT}
 
 
-def made(errors, beams=4, odometry=10.0):
-    return [rates.outcome(run(number, beams), result(error, odometry)) for number, error in enumerate(errors)]
+def made(errors, beams=4, odometry=10.0, log=LOG):
+    return [rates.outcome(run(number, beams, log), result(error, odometry)) for number, error in enumerate(errors)]
 
 
 class RobustnessPage(unittest.TestCase):
@@ -41,6 +42,10 @@ class RobustnessPage(unittest.TestCase):
         self.assertTrue(rates.breaks_out(many[0], limits))
         self.assertFalse(rates.breaks_out(few[0], limits))
         self.assertFalse(rates.breaks_out(many[0], rates.quarters(many)))
+
+    def test_a_log_on_which_every_run_is_bad_has_break_outs(self):
+        group = made([5.0, 5.0], log=FR079)
+        self.assertTrue(all(rates.breaks_out(one, rates.quarters(group)) for one in group))
 
     def test_a_run_worse_than_dead_reckoning_breaks_out(self):
         limits = {run(0).group(): 1.0}
@@ -92,11 +97,11 @@ class RobustnessPage(unittest.TestCase):
 
     def test_the_page_has_all_parts_and_the_worst_picture_of_a_log(self):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
-        shown = [("aces.png", one) for one in rates.pictured(group, rates.quarters(group))]
+        shown = [("robot_4.png", one) for one in rates.pictured(group, rates.quarters(group))]
         self.assertEqual([one.error for _, one in shown], [0.9])
         text = rates.document(group, [], shown, {"date": "2026-11-22", "commit": "abc", "machine": "some"})
         self.assertIn("commit abc", text)
-        self.assertIn("![map](robustness/aces.png)", text)
+        self.assertIn("![map](robustness/robot_4.png)", text)
         self.assertNotIn("## Simulated buildings", text)
         self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
 
