@@ -44,7 +44,8 @@ def outcome(run, result):
     error, odometry = runs.error_of(result["final"]), runs.error_of(result["odometry"])
     ratio = error / odometry if odometry else math.inf
     in_cells = runs.is_in_cells(result["final"])
-    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=result["report"])
+    figures = {**result["report"], "at_once": result["at_once"]}
+    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures)
 
 
 def outcomes(wanted, get):
@@ -53,12 +54,12 @@ def outcomes(wanted, get):
 
 
 def grouped(all_outcomes, key):
-    """{key of the run: outcomes}, in order of the keys' first runs in the list of ensembles."""
+    """{key of the run: outcomes}, in the order of the list of ensembles, other logs last."""
     groups = {}
     for one in all_outcomes:
         groups.setdefault(key(one.run), []).append(one)
-    order = [ensemble.log.name for ensemble in runs.ENSEMBLES]
-    return dict(sorted(groups.items(), key=lambda item: (order.index(item[1][0].run.log.name), item[0])))
+    order = {ensemble.log.name: place for place, ensemble in enumerate(runs.ENSEMBLES)}
+    return dict(sorted(groups.items(), key=lambda item: (order.get(item[1][0].run.log.name, len(order)), item[0])))
 
 
 def attainable_m(log, group):
@@ -243,6 +244,7 @@ def buildings_text(all_outcomes):
             ["median ratio to dead reckoning", f"{statistics.median(ratios):.3f}"],
             ["p95 of the ratio", f"{percentile(ratios, 0.95):.3f}"],
             ["mean time per sample, ms", f"{statistics.mean(one.figures['mean_per_scan_ms'] for one in done):.3f}"],
+            ["runs at once", ", ".join(map(str, sorted({one.figures["at_once"] for one in done})))],
             ["longest call of the backend, ms", f"{max(one.figures['backend_max_ms'] for one in done):.1f}"]]
     named = ", ".join(f"{one.run.log.name.removeprefix('building ')} ({one.ratio:.2f})"
                       for one in sorted(worse, key=lambda one: one.ratio, reverse=True))

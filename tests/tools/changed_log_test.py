@@ -122,6 +122,35 @@ class ChangedLog(unittest.TestCase):
         self.assertNotEqual(end(1), end(2))
         self.assertNotAlmostEqual(end(1)[1][2], self.recording.poses[-1][1][2], places=2)
 
+    def test_noise_is_a_random_walk_that_depends_on_the_seed_only(self):
+        def end(**choices):
+            return self.copy(**choices).poses[-1][1]
+
+        self.assertEqual(end(noise=1.0, seed=1), end(noise=1.0, seed=1))
+        self.assertNotEqual(end(noise=1.0, seed=1), end(noise=1.0, seed=2))
+        off_m = math.dist(end(noise=1.0, seed=1)[:2], self.recording.poses[-1][1][:2])
+        self.assertTrue(0.05 < off_m < 15.0, off_m)
+
+    def test_dead_reckoning_leads_by_the_time_asked_for(self):
+        straight = int(SIDE_M / STEP_M) // 2
+        for self.recording in (self.recording, self.only_scans(0)):
+            copy = self.copy(lead_s=0.5)
+            self.assertEqual([stamp for stamp, _ in copy.poses], [stamp for stamp, _ in self.recording.poses])
+            self.assertAlmostEqual(copy.poses[straight][1][0], (straight + 0.5) * STEP_M, places=4)
+            self.assert_same_pose(copy.poses[-1][1], self.recording.poses[-1][1])
+
+    def test_a_cut_copy_has_the_scans_of_its_part_and_the_poses_around_them(self):
+        scans = len(self.recording.scans)
+        for self.recording in (self.recording, self.only_scans(0)):
+            copy = self.copy(first=0.25, last=0.75)
+            self.assertEqual([ranges[0] for _, ranges in copy.scans],
+                             [str(i) for i in range(scans // 4, scans * 3 // 4)])
+            self.assertLessEqual(abs(copy.poses[0][0] - copy.scans[0][0]), changed.AROUND_SCANS_S)
+            self.assertLessEqual(abs(copy.poses[-1][0] - copy.scans[-1][0]), changed.AROUND_SCANS_S)
+        self.assertEqual(self.copy(first=0.25, backwards=True).scans[0][1][0], str(scans * 3 // 4 - 1))
+        with self.assertRaisesRegex(ValueError, "leaves no scan"):
+            self.copy(first=1.0)
+
     def test_what_was_mapped_from_a_copy_is_led_back_to_the_log_s_stamps_and_sense(self):
         for choices in ({}, {"backwards": True}, {"mirrored": True}, {"backwards": True, "mirrored": True}):
             change = changed.Change("some", **choices)

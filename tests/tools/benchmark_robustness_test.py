@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""tools/benchmark-robustness, with a program that answers at once: what it runs, keeps, repeats and compares."""
+
+import json
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+TOOL = Path(__file__).parents[2] / "tools/benchmark-robustness"
+STAGES = {name: {"count": 10, "mean_ms": 0.1, "p50_ms": 0.1, "p99_ms": 0.2, "max_ms": 0.3}
+          for name in ("frontend", "backend", "pruning", "final_pass", "map")}
+REPORT = {"stage_times": STAGES, "backend": {"scans": 10, "keyframes": 2, "closures": {"accepted": 1}},
+          "map": {"tiles": 1}, "run_peak_memory_mb": 20.0, "peak_memory_mb": 25.0}
+# Stands in for swiftlet. Its error is that of the second seed's odometry where the first argument says seed=2.
+PRETENDS = """#!/bin/sh
+echo "$@" >> "{calls}"
+if [ "$1" = map ]; then
+  source=$2
+  while [ "$1" != -o ]; do shift; done
+  mkdir "$2"
+  for file in trajectory odometry live ground_truth; do echo "$source" > "$2/$file.tum"; done
+  echo picture > "$2/map.png"
+  echo '{report}' > "$2/report.json"
+else
+  case "$(cat "$2") $2" in
+    *seed=2*trajectory.tum) error={error};;
+    *odometry.tum) error=1.0;;
+    *) error=0.1;;
+  esac
+  echo "{{\\"references\\": [{{\\"rmse_m\\": $error}}]}}"
+fi
+"""
+
+
+class BenchmarkRobustness(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.good, self.bad = self.program("good", 0.1), self.program("bad", 2.0)
+
+    def program(self, name, error):
+        file = self.folder / name
+        file.write_text(PRETENDS.format(error=error, report=json.dumps(REPORT), calls=self.folder / f"{name}.calls"))
+        file.chmod(0o755)
+        return file
+
+    def runs_of(self, name):
+        calls = self.folder / f"{name}.calls"
+        return sum(line.startswith("map ") for line in calls.read_text().splitlines()) if calls.exists() else 0
+
+    def measure(self, *arguments, expected=0):
+        done = subprocess.run([str(TOOL), "-o", str(self.folder / "kept"), "--buildings", "1:3", *map(str, arguments)],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, expected, done.stderr)
+        return done
+
+    def test_each_building_is_flown_once_and_its_picture_kept(self):
+        said = self.measure("--swiftlet", self.bad, "--jobs", 2).stdout
+        self.assertIn("| final error worse than dead reckoning, % | 33.3", said)
+        self.assertIn("seed (ratio): 2 (2.00).", said)
+        self.assertEqual(len(list((self.folder / "kept").glob("building*.png"))), 3)
+        self.measure("--swiftlet", self.bad)
+        self.assertEqual(self.runs_of("bad"), 3)
+
+    def test_other_settings_are_other_runs(self):
+        settings = self.folder / "settings.toml"
+        settings.write_text("[backend]\nrefine = false\n")
+        self.measure("--swiftlet", self.good)
+        self.measure("--swiftlet", self.good, "--config", settings)
+        self.assertEqual(self.runs_of("good"), 6)
+
+    def test_only_what_matches_is_run(self):
+        self.measure("--swiftlet", self.good, "--only", "building 2")
+        self.assertEqual(self.runs_of("good"), 1)
+        self.assertIn("no run", self.measure("--swiftlet", self.good, "--only", "nothing", expected=2).stderr)
+
+    def test_two_programs_are_compared_also_after_the_first_was_built_anew(self):
+        said = self.measure("--swiftlet", self.bad)
+        kept_as = said.stderr.splitlines()[0].split()[-1]
+        self.program("bad", 0.1).write_text("#!/bin/sh\nexit 1\n")
+        said = self.measure("--swiftlet", self.good, "--compare", kept_as).stdout
+        self.assertIn("| **all** | 3 | 1 | 0 | 1 | 0 |", said)
+        self.assertIn("| building 2 | mended | 2.000 (2.00) | 0.100 (0.10) |", said)
+
+    def test_kept_runs_are_reported_and_none_made(self):
+        self.measure("--swiftlet", self.good, "--only", "building 1")
+        said = self.measure("--swiftlet", self.good, "--kept").stdout
+        self.assertIn("| buildings | 1 |", said)
+        self.assertEqual(self.runs_of("good"), 1)
+
+    def test_a_program_that_is_missing_is_named(self):
+        self.assertIn("no such", self.measure("--swiftlet", "/no such/program", expected=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
