@@ -179,6 +179,29 @@ def tables(all_outcomes):
            f"{broken_lines(all_outcomes, limits)}"
 
 
+def plain_table(all_outcomes):
+    """Errors and ratios of the logs as they are, and the mean of the flights with motion capture."""
+    logs = {}
+    for one in all_outcomes:
+        logs.setdefault(one.run.log.name, {})[one.run.beams] = one
+
+    def cell(one):
+        if one is None or one.failed:
+            return "" if one is None else one.failed
+        text = f"{one.ratio:.2f}" if one.is_in_cells else f"{one.error:.3f} m, {one.ratio:.2f}"
+        return f"**{text}**" if one.is_worse_than_odometry() else text
+
+    rows = [[name, *(cell(by_beams.get(beams)) for beams in runs.PLAIN_BEAMS), cell(by_beams.get(None))]
+            for name, by_beams in logs.items()]
+    captured = [one for one in all_outcomes if one.run.log.name.startswith("Vicon") and not one.failed]
+    if captured:
+        mean_m = statistics.mean(one.error for one in captured)
+        odometry_m = statistics.mean(one.error / one.ratio for one in captured)
+        rows.append([f"Vicon, mean of {len(captured)}", *[""] * len(runs.PLAIN_BEAMS),
+                     f"{mean_m:.3f} m (odometry {odometry_m:.3f})"])
+    return page.table(["log", *(f"{beams} beams:" for beams in runs.PLAIN_BEAMS), "flight:"], rows)
+
+
 def both_limits(before, after):
     """The lower quarter of two sets of outcomes, so that both are held against the same."""
     first, second = quarters(before), quarters(after)
@@ -256,7 +279,7 @@ def pictures_text(shown):
                        f"![map](robustness/{name})" for name, one in shown) or "None."
 
 
-def document(real, buildings, shown, circumstances):
+def document(real, plain, buildings, shown, circumstances):
     """`shown`: [(file name, outcome)] of the pictures."""
     limits = quarters(real)
     simulated = f"\n## Simulated buildings\n\n{buildings_text(buildings)}\n" if buildings else ""
@@ -288,6 +311,13 @@ over that of dead reckoning in the same run. The interval is Wilson's.
 ### Each break-out
 
 {broken_lines(real, limits)}
+
+## Logs as they are
+
+Error, and its ratio to that of dead reckoning; the ratio alone where there is no truth. **Bold**: worse than dead
+reckoning.
+
+{plain_table(plain)}
 {simulated}
 ## Pictures
 

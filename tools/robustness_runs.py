@@ -19,6 +19,7 @@ DENSE_BEAMS = 61  # one in so many of the many:
 DENSE_EVERY = 6
 FEW, MANY = ", 4 to 6 beams", ", 9 beams and more"
 LEAD_MAX_S = 0.02
+PLAIN_BEAMS = [4, 11, DENSE_BEAMS]
 CUT_MAX = 0.3  # of the start
 
 PLAIN = [Change("as recorded")]
@@ -155,6 +156,12 @@ def screen_runs():
     return [run for ensemble in ENSEMBLES
             for run in drawn(ensemble, ensemble.screened, random.Random(f"screen {SEED} {ensemble.log.name}"),
                              ensemble.window)]
+
+
+def plain_runs():
+    """Each log once with each of PLAIN_BEAMS, each flight once."""
+    return [Run(ensemble.log, beams, None) for ensemble in ENSEMBLES
+            for beams in (PLAIN_BEAMS if ensemble.is_laser else [None])]
 
 
 def building_runs(first, last):

@@ -95,11 +95,17 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("seed (ratio): 7 (2.00).", text)
         self.assertIn("No run", rates.buildings_text([]))
 
+    def test_logs_as_they_are_have_a_column_for_each_number_of_beams(self):
+        plain = [rates.outcome(one, result(1.0, 2.0 if one.beams == 4 else 0.5)) for one in runs.plain_runs()]
+        text = rates.plain_table(plain)
+        self.assertIn("| Robot 4 | 1.000 m, 0.50 | **1.000 m, 2.00** | **1.000 m, 2.00** |  |", text)
+        self.assertIn("| Vicon, mean of 10 |  |  |  | 1.000 m (odometry 0.500) |", text)
+
     def test_the_page_has_all_parts_and_the_worst_picture_of_a_log(self):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
         shown = [("robot_4.png", one) for one in rates.pictured(group, rates.quarters(group))]
         self.assertEqual([one.error for _, one in shown], [0.9])
-        text = rates.document(group, [], shown, {"date": "2026-11-22", "commit": "abc", "machine": "some"})
+        text = rates.document(group, [], [], shown, {"date": "2026-11-22", "commit": "abc", "machine": "some"})
         self.assertIn("commit abc", text)
         self.assertIn("![map](robustness/robot_4.png)", text)
         self.assertNotIn("## Simulated buildings", text)

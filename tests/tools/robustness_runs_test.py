@@ -43,7 +43,7 @@ class RobustnessRuns(unittest.TestCase):
             self.assertTrue(ensemble.is_laser or not any(change.backwards for change in ensemble.changes))
 
     def test_each_run_has_a_title_of_its_own(self):
-        for drawn in (runs.ensemble_runs(), runs.screen_runs(), runs.building_runs(1000, 1010)):
+        for drawn in (runs.ensemble_runs(), runs.screen_runs(), runs.plain_runs(), runs.building_runs(1000, 1010)):
             self.assertEqual(len({run.title() for run in drawn}), len(drawn))
 
     def test_a_run_that_fails_is_a_result(self):
