@@ -91,7 +91,7 @@ class Run:
     def title(self):
         words = [self.log.name, *([] if self.beams is None else [f"{self.beams} beams"])]
         if self.change is None:
-            return words[0]
+            return ", ".join(words)
         words.append(self.change.name + (f", seed {self.change.seed}" if self.change.seed else ""))
         words.append(f"{self.change.lead_s * 1e3:+.0f} ms")
         if (self.change.first, self.change.last) != (0.0, 1.0):
