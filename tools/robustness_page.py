@@ -118,7 +118,6 @@ def rates_table(all_outcomes, limits):
                        "median ratio:", "worst ratio:"], rows)
 
 
-
 def kind_of(one):
     return "as recorded" if one.run.change is None else one.run.change.name
 
@@ -175,8 +174,8 @@ def pictured(all_outcomes, limits):
 
 def tables(all_outcomes):
     limits = quarters(all_outcomes)
-    return f"{rates_table(all_outcomes, limits)}\n\n{groups_table(all_outcomes, limits)}\n\n" \
-           f"{broken_lines(all_outcomes, limits)}"
+    return "\n\n".join(table(all_outcomes, limits)
+                       for table in (rates_table, kinds_table, groups_table, broken_lines))
 
 
 def plain_table(all_outcomes):
