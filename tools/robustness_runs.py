@@ -5,6 +5,7 @@ are drawn once, by a fixed seed, and so the same for each build."""
 
 import dataclasses
 import random
+import signal
 import subprocess
 
 import accuracy_runs
@@ -18,6 +19,7 @@ FEW_BEAMS, MANY_BEAMS = [4, 5, 6], [9, 10, 11, 12, 13]
 DENSE_BEAMS = 61  # one in so many of the many:
 DENSE_EVERY = 6
 FEW, MANY = ", 4 to 6 beams", ", 9 beams and more"
+STOPPED = [-signal.SIGINT, -signal.SIGTERM, -signal.SIGKILL]  # exit codes of a run that was ended from outside
 LEAD_MAX_S = 0.02
 PLAIN_BEAMS = [4, 11, DENSE_BEAMS]
 CUT_MAX = 0.3  # of the start
@@ -174,7 +176,7 @@ def with_settings(run, settings):
 
 
 class Results(mapped_runs.Results):
-    """With the pictures of the maps. A run that fails is a result, too."""
+    """With the pictures of the maps. A run that fails is a result, too, but not one that was ended from outside."""
 
     def picture(self, run):
         return self.file(run).with_suffix(".png")
@@ -183,6 +185,8 @@ class Results(mapped_runs.Results):
         try:
             result = mapped_runs.execute(run, self.swiftlet, self.picture(run))
         except subprocess.CalledProcessError as error:
+            if error.returncode in STOPPED:
+                raise
             said = (error.stderr or "").strip().splitlines()
             return {"failed": f"exit code {error.returncode}" + (f": {said[-1]}" if said else "")}
         return {**result, "report": figures_of(result["report"])}

@@ -4,6 +4,7 @@
 """tools/robustness_runs.py draws the same ensembles each time, and keeps what comes of a run, also where it fails."""
 
 import collections
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -56,6 +57,17 @@ class RobustnessRuns(unittest.TestCase):
             results.make(run, at_once=1)
             self.assertEqual(results.get(run)["failed"], "exit code 3: it broke")
             self.assertIsNone(results.get(runs.with_settings(run, "[map]\n")))
+
+    def test_a_run_that_is_ended_from_outside_is_none(self):
+        with tempfile.TemporaryDirectory() as folder:
+            swiftlet = Path(folder, "swiftlet")
+            swiftlet.write_text("#!/bin/sh\nkill -TERM $$\n")
+            swiftlet.chmod(0o755)
+            results = runs.Results(Path(folder, "kept"), swiftlet)
+            [run] = runs.building_runs(7, 7)
+            with self.assertRaises(subprocess.CalledProcessError):
+                results.make(run, at_once=1)
+            self.assertIsNone(results.get(run))
 
     def test_errors_are_metres_where_there_is_a_truth_else_cells(self):
         self.assertEqual(runs.error_of({"all": {"translation_m": {"mean": 0.5}}}), 0.5)
