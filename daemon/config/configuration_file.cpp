@@ -117,14 +117,21 @@ class Loader {
 
   void read_tuning(const toml::table& parts) {
     for (const auto& [name, node] : parts) {
-      bool is_known = false;
-      for_each_tuning(config_, [&](std::string_view part, auto& tuning) {
-        if (name != part || !node.is_table()) return;
-        is_known = true;
-        for (const auto& [key, value] : *node.as_table()) read_tuning_value(part, tuning, key, value);
-      });
-      if (!is_known) note(name.source(), fmt::format("unknown section \"tuning.{}\"", name.str()));
+      const toml::table* table = node.as_table();
+      if (table == nullptr || !read_tuning_part(name.str(), *table))
+        note(name.source(), fmt::format("unknown section \"tuning.{}\"", name.str()));
     }
+  }
+
+  /// False where there is no such part.
+  bool read_tuning_part(std::string_view name, const toml::table& table) {
+    bool is_known = false;
+    for_each_tuning(config_, [&](std::string_view part, auto& tuning) {
+      if (part != name) return;
+      is_known = true;
+      for (const auto& [key, node] : table) read_tuning_value(part, tuning, key, node);
+    });
+    return is_known;
   }
 
   template <typename Tuning>
