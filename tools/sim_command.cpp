@@ -13,6 +13,7 @@
 
 #include "daemon/system/signal_watcher.hpp"
 #include "firmware_link/link/link_clock.hpp"
+#include "firmware_link/simulation/sensor_errors.hpp"
 #include "firmware_link/simulation/udp_server.hpp"
 #include "tools/sim_instruction.hpp"
 
@@ -40,8 +41,8 @@ Result<ListenAddress> parse_listen_address(const std::string& text) {
   return Error{ErrorCode::kInvalidInput, "'" + text + "' is no address to listen on; write 127.0.0.1:19850"};
 }
 
-Result<VehicleModel> model_for(const SimCommand& command) {
-  VehicleModel model;
+Result<VehicleModel> model_for(const SimCommand& command, const SimulatedWorld& world) {
+  VehicleModel model = vehicle_model_in(world, command.seed);
   model.pilot.laps = command.laps;
   model.clock_start = from_seconds(command.clock_start_s);
   model.battery_endurance = from_seconds(60.0 * command.battery_minutes.value_or(kLapMinutes * command.laps));
@@ -187,9 +188,9 @@ void run_until_quit(SimulatedVehicle& vehicle, SimulatedUdpServer& server, const
 
 Status run_sim_command(const SimCommand& command) {
   const SignalWatcher signals;
-  Result<SimulatedWorld> world = make_simulated_world(command.world);
+  Result<SimulatedWorld> world = make_simulated_world(command.world, command.seed);
   if (!world) return world.error();
-  const Result<VehicleModel> model = model_for(command);
+  const Result<VehicleModel> model = model_for(command, *world);
   if (!model) return model.error();
   const Result<ListenAddress> address = parse_listen_address(command.udp);
   if (!address) return address.error();

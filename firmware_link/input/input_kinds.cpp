@@ -82,6 +82,8 @@ Result<LinkInput> open_simulation(const std::any& address) {
   if (!truth) return truth.error();
   LinkInput input;
   SimulatedLink& simulated = **link;
+  if (const std::string_view kind = simulated.world().kind; !kind.empty())
+    input.notes.push_back("kind of building: " + std::string(kind));
   input.progress = [&simulated] { return std::optional<double>(simulated.progress()); };
   input.truth = KnownTruth{[&simulated](DeviceTime at) { return simulated.T_world_body(at); },
                            std::move(truth).value()};

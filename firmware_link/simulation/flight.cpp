@@ -78,6 +78,7 @@ void SimulatedFlight::follow_script() {
   if (spin_left_rad_ != 0.0) {
     look_around();
   } else {
+    hover_left_s_ = std::max(0.0, hover_left_s_ - kStepS);
     steer(wander_yaw_.step(noise_));
   }
 }
@@ -91,7 +92,8 @@ void SimulatedFlight::hover(double height_m) {
 /// Keeps the aim kLookAheadM ahead on the scripted lines; at a spin it waits for the vehicle.
 void SimulatedFlight::move_aim() {
   const Point2 here = state_.T_world_body.position();
-  while (!arrived() && spin_left_rad_ == 0.0 && distance_m(here, aim_) < kLookAheadM) {
+  while (!arrived() && spin_left_rad_ == 0.0 && hover_left_s_ == 0.0 &&
+         distance_m(here, aim_) < kLookAheadM) {
     const Waypoint target = script_[next_];
     const double left_m = distance_m(aim_, target.position);
     if (left_m > 1e-9) {
@@ -102,9 +104,10 @@ void SimulatedFlight::move_aim() {
         nose_rad_ = bearing(script_[next_ - 1].position, target.position);
       continue;
     }
-    const bool stops_here = target.spin_rad != 0.0 || next_ + 1 == script_.size();
+    const bool stops_here = target.spin_rad != 0.0 || target.hover_s != 0.0 || next_ + 1 == script_.size();
     if (stops_here && distance_m(here, aim_) > kArrivedM) return;
     spin_left_rad_ = target.spin_rad;
+    hover_left_s_ = target.hover_s;
     ++next_;
   }
 }

@@ -110,6 +110,7 @@ class SimulatedFlight {
   std::size_t next_ = 1;  // the waypoint that the aim moves towards
   double nose_rad_;       // where the nose should point
   double spin_left_rad_ = 0.0;
+  double hover_left_s_ = 0.0;
   double vx_m_s_ = 0.0;  // in the world frame
   double vy_m_s_ = 0.0;
 };

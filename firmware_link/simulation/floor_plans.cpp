@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "firmware_link/simulation/building_generator.hpp"
 #include "firmware_link/simulation/world.hpp"
 
 // The worlds of world.hpp, a row each in the table at the end. Coordinates are metres, x to the right, y up
@@ -272,13 +273,23 @@ std::vector<Waypoint> patrol_flight() {
   return {{{1.2, 1.2}}, {{6.8, 1.2}}, {{6.8, 4.8}, kTravel, 2.0 * kPi}, {{1.2, 4.8}}, {{1.2, 1.2}}};
 }
 
+template <std::vector<WallSegment> (*walls)(), std::vector<Waypoint> (*flight)()>
+SimulatedWorld by_hand(std::uint64_t /*seed*/) {
+  return {walls(), flight()};
+}
+
 constexpr std::array kWorlds{
-    WorldPlan{"office", "20 m x 15 m, a corridor ring with rooms on both sides", office_walls, office_flight},
-    WorldPlan{"maze", "14 m x 10 m of cells of 2 m", maze_walls, maze_flight},
-    WorldPlan{"loop", "25 m x 15 m, one corridor around a block", loop_walls, loop_flight},
-    WorldPlan{"corridors", "24 m x 14 m, three corridors across three", corridors_walls, corridors_flight},
-    WorldPlan{"wings", "the corridors, those of one half 20 degrees askew", wings_walls, wings_flight},
-    WorldPlan{"patrol", "one room of 8 m x 6 m, flown round in 46 s", patrol_walls, patrol_flight},
+    WorldPlan{"office", "20 m x 15 m, a corridor ring with rooms on both sides",
+              by_hand<office_walls, office_flight>},
+    WorldPlan{"maze", "14 m x 10 m of cells of 2 m", by_hand<maze_walls, maze_flight>},
+    WorldPlan{"loop", "25 m x 15 m, one corridor around a block", by_hand<loop_walls, loop_flight>},
+    WorldPlan{"corridors", "24 m x 14 m, three corridors across three",
+              by_hand<corridors_walls, corridors_flight>},
+    WorldPlan{"wings", "the corridors, those of one half 20 degrees askew",
+              by_hand<wings_walls, wings_flight>},
+    WorldPlan{"patrol", "one room of 8 m x 6 m, flown round in 46 s", by_hand<patrol_walls, patrol_flight>},
+    WorldPlan{"building", "drawn at random, like the flight and the sensors' errors: another for each seed",
+              draw_building},
 };
 
 }  // namespace
@@ -291,9 +302,9 @@ std::string simulated_world_names() {
   return names;
 }
 
-Result<SimulatedWorld> make_simulated_world(std::string_view name) {
+Result<SimulatedWorld> make_simulated_world(std::string_view name, std::uint64_t seed) {
   for (const WorldPlan& world : kWorlds)
-    if (world.name == name) return SimulatedWorld{world.walls(), world.flight()};
+    if (world.name == name) return world.make(seed);
   return Error{ErrorCode::kNotFound, "no simulated world is called \"" + std::string(name) +
                                          "\"; choose one of: " + simulated_world_names()};
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware_link/link/link_packet.hpp"
+#include "firmware_link/simulation/sensor_errors.hpp"
 
 namespace swiftlet {
 namespace {
@@ -24,9 +25,9 @@ VehicleModel on_air(VehicleModel model) {
 
 Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view world, std::uint64_t seed,
                                                            int laps) {
-  Result<SimulatedWorld> made = make_simulated_world(world);
+  Result<SimulatedWorld> made = make_simulated_world(world, seed);
   if (!made) return made.error();
-  VehicleModel model;
+  VehicleModel model = vehicle_model_in(*made, seed);
   model.pilot.laps = laps;
   model.battery_endurance *= RepeatedScript(made->flight, laps).passes();
   return std::make_unique<SimulatedLink>(std::move(*made), model, kPacketLoss, seed);

@@ -39,6 +39,7 @@ class SimulatedLink final : public Link {
 
   /// The truth at any time of the vehicle's clock in the last minute.
   [[nodiscard]] Pose2 T_world_body(DeviceTime at) { return vehicle_.T_world_body(at); }
+  [[nodiscard]] const SimulatedWorld& world() const { return vehicle_.world(); }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return vehicle_.progress(); }
 

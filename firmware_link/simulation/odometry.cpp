@@ -17,6 +17,7 @@ FlowOdometry::FlowOdometry(const FlowOdometryModel& model, std::uint64_t seed)
       flow_noise_(seed, "flow"),
       gyro_noise_(seed, "gyro"),
       slip_noise_(seed, "slip"),
+      jump_noise_(seed, "yaw_jump"),
       scale_(1.0 + flow_noise_.uniform(-model.scale_spread, model.scale_spread)),
       yaw_bias_rad_s_(
           gyro_noise_.either_sign(gyro_noise_.uniform(model.yaw_bias_min_rad_s, model.yaw_bias_max_rad_s))),
@@ -32,6 +33,19 @@ double FlowOdometry::seen_share() {
   return slip_share_;
 }
 
+/// Of the patches that lie on each other, the first counts.
+double FlowOdometry::floor_share(const Point2& at) const {
+  for (const FloorPatch& patch : model_.floor_patches)
+    if (std::hypot(at.x_m - patch.centre.x_m, at.y_m - patch.centre.y_m) < patch.radius_m)
+      return patch.seen_share;
+  return 1.0;
+}
+
+double FlowOdometry::yaw_jump_rad() {
+  if (model_.yaw_jumps_per_s == 0.0 || !jump_noise_.chance(model_.yaw_jumps_per_s * kStepS)) return 0.0;
+  return jump_noise_.either_sign(jump_noise_.uniform(model_.yaw_jump_min_rad, model_.yaw_jump_max_rad));
+}
+
 void FlowOdometry::step(const FlightState& truth, bool has_flow) {
   if (truth.height_m <= 0.0) {
     vx_body_m_s_ = vy_body_m_s_ = yaw_rate_rad_s_ = 0.0;
@@ -40,13 +54,15 @@ void FlowOdometry::step(const FlightState& truth, bool has_flow) {
   const double keep = std::exp(-kStepS / model_.scale_wander_time_s);
   scale_error_ =
       keep * scale_error_ + flow_noise_.gaussian(model_.scale_wander * std::sqrt(1.0 - keep * keep));
-  const double share = seen_share() * (scale_ + scale_error_);
-  vx_body_m_s_ = share * truth.vx_body_m_s + flow_noise_.gaussian(model_.velocity_noise_m_s);
+  const double share = seen_share() * (scale_ + scale_error_) * floor_share(truth.T_world_body.position());
+  const double forward_m_s = model_.loses_reverse_sign ? std::abs(truth.vx_body_m_s) : truth.vx_body_m_s;
+  vx_body_m_s_ = share * forward_m_s + flow_noise_.gaussian(model_.velocity_noise_m_s);
   vy_body_m_s_ = share * truth.vy_body_m_s + flow_noise_.gaussian(model_.velocity_noise_m_s);
   if (!has_flow) vx_body_m_s_ = vy_body_m_s_ = 0.0;
   yaw_rate_rad_s_ = turn_scale_ * truth.yaw_rate_rad_s + yaw_bias_rad_s_;
-  const double turned_rad =
-      yaw_rate_rad_s_ * kStepS + gyro_noise_.gaussian(model_.yaw_walk_rad_sqrt_s * std::sqrt(kStepS));
+  const double turned_rad = yaw_rate_rad_s_ * kStepS +
+                            gyro_noise_.gaussian(model_.yaw_walk_rad_sqrt_s * std::sqrt(kStepS)) +
+                            yaw_jump_rad();
   T_odom_body_ = T_odom_body_ * Pose2(vx_body_m_s_ * kStepS, vy_body_m_s_ * kStepS, turned_rad);
   const double step_sigma_m = model_.velocity_noise_m_s * kStepS;
   position_variance_m2_ += step_sigma_m * step_sigma_m;

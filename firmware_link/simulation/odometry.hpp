@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/geometry/pose2.hpp"
 #include "firmware_link/simulation/flight.hpp"
@@ -32,10 +33,15 @@ struct FlowOdometryModel {
   double slip_max_s = 1.0;
   double slip_seen_min_share = 0.3;  ///< of the motion, during a slip
   double slip_seen_max_share = 0.8;
+  double yaw_jumps_per_s = 0.0;     ///< the heading jumps, unseen by the filter...
+  double yaw_jump_min_rad = 0.0;    ///< ...by this, of either sign, ...
+  double yaw_jump_max_rad = 0.0;    ///< ...to this, evenly between
+  bool loses_reverse_sign = false;  ///< reverse motion is reported as forward
+  std::vector<FloorPatch> floor_patches;
 };
 
 /// The vehicle's dead reckoning: integrates the true motion as measured by flow sensor and gyro. Noise
-/// sources: "flow", "gyro", "slip", independent of each other.
+/// sources: "flow", "gyro", "slip", "yaw_jump", independent of each other.
 class FlowOdometry {
  public:
   FlowOdometry(const FlowOdometryModel& model, std::uint64_t seed);
@@ -60,11 +66,14 @@ class FlowOdometry {
 
  private:
   [[nodiscard]] double seen_share();
+  [[nodiscard]] double floor_share(const Point2& at) const;
+  [[nodiscard]] double yaw_jump_rad();
 
   FlowOdometryModel model_;
   NoiseSource flow_noise_;
   NoiseSource gyro_noise_;
   NoiseSource slip_noise_;
+  NoiseSource jump_noise_;
   double scale_;
   double yaw_bias_rad_s_;
   double turn_scale_;

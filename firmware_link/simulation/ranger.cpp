@@ -14,6 +14,8 @@ constexpr std::size_t kRaysEachSide = 4;
 constexpr std::size_t kRays = 2 * kRaysEachSide + 1;
 constexpr double kMergedBehindM = 0.4;  // closer together than that, two returns are one pulse
 constexpr std::int32_t kNotValidMm = 32767;
+constexpr double kPhantomsToM = 4.0;
+constexpr double kWildest = 20.0;
 
 /// Rays evenly across the cone, each with the share of the round field of view that stands above and below it
 /// (walls are upright, so a plane of rays is enough).
@@ -48,6 +50,22 @@ Calibration calibrate(const RangerModel& model) {
   return {moment / light, light};
 }
 
+double sigma_at_m(std::span<const NoiseAtRange> noise, double distance_m) {
+  for (std::size_t i = 1; i < noise.size(); ++i) {
+    const auto& [from_m, from_sigma_m] = noise[i - 1];
+    const auto& [to_m, to_sigma_m] = noise[i];
+    if (distance_m >= to_m) continue;
+    const double share = std::max(0.0, (distance_m - from_m) / (to_m - from_m));
+    return from_sigma_m + share * (to_sigma_m - from_sigma_m);
+  }
+  return noise.back().sigma_m;
+}
+
+/// Three standard deviations and more: half of these errors exceed four, a ninth nine.
+double wild_error(NoiseSource& noise) {
+  return noise.either_sign(std::min(kWildest, 3.0 / std::sqrt(noise.uniform(0.02, 1.0))));
+}
+
 }  // namespace
 
 std::optional<ConeReturn> look_through_cone(std::span<const WallSegment> walls, const Point2& origin,
@@ -65,7 +83,8 @@ std::optional<ConeReturn> look_through_cone(std::span<const WallSegment> walls, 
   for (std::size_t i = 0; i < kRays; ++i) {
     if (!hits[i] || hits[i]->distance_m > nearest_m + kMergedBehindM) continue;
     const double d = std::max(hits[i]->distance_m, 1e-3);
-    const double weight = rays[i].gain * hits[i]->cos_incidence / (d * d);
+    const double sent_back = hits[i]->surface == WallSurface::kDark ? model.dark_share : 1.0;
+    const double weight = sent_back * rays[i].gain * hits[i]->cos_incidence / (d * d);
     light += weight;
     moment += weight * d;
   }
@@ -84,8 +103,14 @@ std::optional<double> measure_range(std::span<const WallSegment> walls, const Po
   const double lost = model.lost_anyway +
                       1.0 / (1.0 + std::exp((model.half_lost_at_m - seen->dimness_m) / model.lost_within_m));
   if (fate < lost) return std::nullopt;
-  const double sigma_m = model.noise_floor_m + model.noise_share * seen->distance_m;
-  return std::max(0.0, seen->distance_m + sigma_m * unit_error);
+  if (model.noise_by_range.empty()) {
+    const double sigma_m = model.noise_floor_m + model.noise_share * seen->distance_m;
+    return std::max(0.0, seen->distance_m + sigma_m * unit_error);
+  }
+  if (seen->distance_m > kPhantomsFromM && noise.chance(model.phantom_share))
+    return noise.uniform(kPhantomsFromM, kPhantomsToM);
+  const double error = noise.chance(model.wild_share) ? wild_error(noise) : unit_error;
+  return std::max(0.0, seen->distance_m + sigma_at_m(model.noise_by_range, seen->distance_m) * error);
 }
 
 double logged_range_mm(std::optional<double> range_m) {

@@ -4,12 +4,19 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/geometry/pose2.hpp"
 #include "firmware_link/simulation/random.hpp"
 #include "firmware_link/simulation/world.hpp"
 
 namespace swiftlet {
+
+/// The standard deviation of readings at a distance; in between, linear.
+struct NoiseAtRange {
+  double distance_m = 0.0;
+  double sigma_m = 0.0;
+};
 
 /// A VL53L1x indoors: ST datasheet DocID031281 (cone, limits) and what the reference flights show (noise).
 struct RangerModel {
@@ -20,7 +27,12 @@ struct RangerModel {
   double half_lost_at_m = 3.0;  ///< squarely met walls at this distance are missed every other time...
   double lost_within_m = 0.2;   ///< ...and the share lost rises from 12 to 88 % within 2 of these around it
   double lost_anyway = 0.003;   ///< share of readings that fail for no visible reason
+  double dark_share = 0.3;      ///< of the light of a plain wall that a dark one sends back
+  std::vector<NoiseAtRange> noise_by_range;  ///< ascending; where given, instead of floor and share
+  double wild_share = 0.0;     ///< of the readings that err by more than three standard deviations
+  double phantom_share = 0.0;  ///< of the readings beyond kPhantomsFromM that show nothing that is there
 };
+inline constexpr double kPhantomsFromM = 3.0;
 
 /// The return of the whole cone, before noise.
 struct ConeReturn {

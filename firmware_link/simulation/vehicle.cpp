@@ -54,6 +54,10 @@ std::chrono::milliseconds whole_milliseconds(Duration duration) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(duration);
 }
 
+Tilt tilt_by(const FlightState& motion) {
+  return {std::atan(-motion.ay_body_m_s2 / kGravity), std::atan(motion.ax_body_m_s2 / kGravity)};
+}
+
 }  // namespace
 
 SimulatedVehicle::SimulatedVehicle(SimulatedWorld world, const VehicleModel& model, std::uint64_t seed)
@@ -61,6 +65,7 @@ SimulatedVehicle::SimulatedVehicle(SimulatedWorld world, const VehicleModel& mod
       model_(model),
       flight_({world_, model.pilot, seed}),
       odometry_(model.odometry, seed),
+      tilt_(model.tilt, seed),
       rangers_{{{0.0, &VehicleState::front_mm, NoiseSource(seed, "range_front")},
                 {kPi, &VehicleState::back_mm, NoiseSource(seed, "range_back")},
                 {kPi / 2.0, &VehicleState::left_mm, NoiseSource(seed, "range_left")},
@@ -241,6 +246,7 @@ void SimulatedVehicle::unplug(SimulatedDeck deck) {
 /// One kFlightStep of flight or standing.
 void SimulatedVehicle::move() {
   const FlightState truth = flight_.state(now_);
+  tilt_.step(truth.height_m > 0.0 ? tilt_by(truth) : Tilt());
   odometry_.step(truth, model_.has_flow_deck && params_.number(ids().disable_flow) == 0.0);
   if (truth.height_m <= 0.0) odometry_.pull_yaw(bounded(ids().initial_yaw));
   show(truth);
@@ -257,8 +263,9 @@ void SimulatedVehicle::show(const FlightState& truth) {
   state_.yaw_rate_rad_s = odometry_.yaw_rate_rad_s();
   state_.ax_body_m_s2 = truth.ax_body_m_s2;
   state_.ay_body_m_s2 = truth.ay_body_m_s2;
-  state_.roll_rad = std::atan(-truth.ay_body_m_s2 / kGravity);
-  state_.pitch_rad = std::atan(truth.ax_body_m_s2 / kGravity);
+  const Tilt tilt = tilt_.is_level() ? tilt_by(truth) : tilt_.now();
+  state_.roll_rad = tilt.roll_rad;
+  state_.pitch_rad = tilt.pitch_rad;
   state_.position_variance_m2 = odometry_.position_variance_m2();
   state_.yaw_variance_rad2 = odometry_.yaw_variance_rad2();
   state_.is_flying = truth.height_m > 0.0;
@@ -275,10 +282,15 @@ void SimulatedVehicle::read_sensors() {
 void SimulatedVehicle::read_rangers() {
   if (model_.has_multiranger) {
     const Pose2 T_world_body_then = T_world_body(now() - model_.range_age);
+    const std::vector<WallSegment> walls =
+        walls_near(world_.walls, T_world_body_then.position(), model_.ranger.max_range_m);
     for (Ranger& ranger : rangers_) {
       const double direction_rad = T_world_body_then.yaw_rad() + ranger.bearing_rad;
-      state_.*ranger.shown_mm = filtered_range_mm(measure_range(world_.walls, T_world_body_then.position(),
-                                                                direction_rad, model_.ranger, ranger.noise));
+      std::optional<double> range_m =
+          measure_range(walls, T_world_body_then.position(), direction_rad, model_.ranger, ranger.noise);
+      if (!tilt_.is_level())
+        range_m = tilted_range_m(range_m, ranger.bearing_rad, tilt_.before(model_.range_age), state_.z_m);
+      state_.*ranger.shown_mm = filtered_range_mm(range_m);
     }
     const double up_m = kCeilingM - state_.z_m;
     const double up_sigma_m = model_.ranger.noise_floor_m + model_.ranger.noise_share * up_m;

@@ -19,6 +19,7 @@
 #include "firmware_link/simulation/odometry.hpp"
 #include "firmware_link/simulation/params.hpp"
 #include "firmware_link/simulation/ranger.hpp"
+#include "firmware_link/simulation/tilt.hpp"
 #include "firmware_link/simulation/world.hpp"
 
 namespace swiftlet {
@@ -33,6 +34,7 @@ struct VehicleModel {
   PilotModel pilot;
   FlowOdometryModel odometry;
   RangerModel ranger;
+  TiltModel tilt;
   /// The Multiranger task reads all sensors once in a period and restarts each; a reading's light was
   /// gathered that long before it is published.
   Duration range_period = std::chrono::milliseconds(100);
@@ -57,12 +59,13 @@ struct SentPacket {
 /// script and lands. The same seed and calls give the same bytes. One thread at a time; allocates.
 class SimulatedVehicle {
  public:
-  /// Noise sources: "pilot", "flow", "gyro", "slip", "range_phase", "range_front" .. "range_up",
-  /// "range_down", "range_alias", "battery", "rssi", "boot", "log_jitter/<block>".
+  /// Noise sources: "pilot", "flow", "gyro", "slip", "yaw_jump", "tilt", "range_phase", "range_front" ..
+  /// "range_up", "range_down", "range_alias", "battery", "rssi", "boot", "log_jitter/<block>".
   SimulatedVehicle(SimulatedWorld world, const VehicleModel& model, std::uint64_t seed);
 
   /// The time of the simulation, which never goes back; the vehicle's clock shows the same until it reboots.
   [[nodiscard]] DeviceTime now() const { return DeviceTime(now_); }
+  [[nodiscard]] const SimulatedWorld& world() const { return world_; }
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return flight_.progress(now_); }
   /// Whether it has landed again.
@@ -136,6 +139,7 @@ class SimulatedVehicle {
   VehicleModel model_;
   FlightSchedule flight_;
   FlowOdometry odometry_;
+  SimulatedTilt tilt_;
   std::array<Ranger, 4> rangers_;
   NoiseSource up_noise_;
   NoiseSource down_noise_;

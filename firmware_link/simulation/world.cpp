@@ -7,6 +7,8 @@
 namespace swiftlet {
 namespace {
 
+const double kMirrorCos = std::cos(radians(8.0));  // glass that is met more squarely sends the pulse back
+
 /// Solves origin + t ray = start + u (end - start) for t >= 0 and u in [0, 1] by Cramer's rule.
 std::optional<RayHit> intersect(const WallSegment& wall, const Point2& origin, const Point2& ray) {
   const Point2 along{wall.end.x_m - wall.start.x_m, wall.end.y_m - wall.start.y_m};
@@ -17,7 +19,9 @@ std::optional<RayHit> intersect(const WallSegment& wall, const Point2& origin, c
   const double t = (to_start.x_m * along.y_m - to_start.y_m * along.x_m) / determinant;
   const double u = (to_start.x_m * ray.y_m - to_start.y_m * ray.x_m) / determinant;
   if (t < 0.0 || u < 0.0 || u > 1.0) return std::nullopt;
-  return RayHit{t, std::abs(determinant) / length_m};
+  const double cos_incidence = std::abs(determinant) / length_m;
+  if (wall.surface == WallSurface::kGlass && cos_incidence < kMirrorCos) return std::nullopt;
+  return RayHit{t, cos_incidence, wall.surface};
 }
 
 }  // namespace
@@ -32,6 +36,18 @@ std::optional<RayHit> cast_ray(std::span<const WallSegment> walls, const Point2&
     if (!nearest || hit->distance_m < nearest->distance_m) nearest = hit;
   }
   return nearest;
+}
+
+std::vector<WallSegment> walls_near(std::span<const WallSegment> walls, const Point2& origin,
+                                    double distance_m) {
+  std::vector<WallSegment> near;
+  for (const WallSegment& wall : walls) {
+    const double to_middle_m = std::hypot((wall.start.x_m + wall.end.x_m) / 2.0 - origin.x_m,
+                                          (wall.start.y_m + wall.end.y_m) / 2.0 - origin.y_m);
+    const double half_m = std::hypot(wall.end.x_m - wall.start.x_m, wall.end.y_m - wall.start.y_m) / 2.0;
+    if (to_middle_m <= half_m + 1.001 * distance_m) near.push_back(wall);
+  }
+  return near;
 }
 
 }  // namespace swiftlet
