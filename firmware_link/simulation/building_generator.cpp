@@ -84,10 +84,8 @@ SimulatedWorld draw_building(std::uint64_t seed) {
   FreeSpaceGrid grid(plan);
   NoiseSource flight_noise(seed, "building_flight");
   NoiseSource surface_noise(seed, "building_surfaces");
-  SimulatedWorld world{.walls = plan.walls(),
-                       .flight = draw_flight(grid, pilot, duration_s, flight_noise),
-                       .floor_patches = {},
-                       .kind = kind.name};
+  SimulatedWorld world{
+      .walls = plan.walls(), .flight = draw_flight(grid, pilot, duration_s, flight_noise), .kind = kind.name};
   draw_surfaces(world.walls, surface_noise);
   world.floor_patches = draw_floor(world.flight, surface_noise);
   return world;

@@ -58,8 +58,8 @@ VehicleModel vehicle_model_in(const SimulatedWorld& world, std::uint64_t seed) {
   model.odometry.floor_patches = world.floor_patches;
   model.ranger = draw_ranger(noise);
   model.range_age += std::chrono::microseconds(std::llround(noise.uniform(-1e5, 2e5)));
-  model.tilt.calm_rad = radians(noise.uniform(1.1, 1.4));
-  model.tilt.gust_rad = radians(noise.uniform(3.5, 6.0));
+  model.tilt.calm_rad = radians(noise.uniform(1.0, 1.25));
+  model.tilt.gust_rad = radians(noise.uniform(4.2, 6.5));
   return model;
 }
 

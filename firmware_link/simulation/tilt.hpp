@@ -16,7 +16,7 @@ namespace swiftlet {
 struct TiltModel {
   double calm_rad = 0.0;
   double gust_rad = 0.0;
-  double gust_share = 0.15;  ///< of the time
+  double gust_share = 0.13;  ///< of the time
 };
 
 struct Tilt {

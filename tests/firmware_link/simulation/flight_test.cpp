@@ -70,6 +70,19 @@ TEST(Fly, LooksAroundOnTheSpot) {
   EXPECT_NEAR(turned_rad, 2.0 * kPi, 0.05);
 }
 
+TEST(Fly, HoversWhereTheScriptSaysSo) {
+  const std::size_t without = fly({{}, {{{0.0, 0.0}}, {{2.0, 0.0}}, {{4.0, 0.0}}}}, steady_pilot(), 1).size();
+  const SimulatedWorld world{{},
+                             {{{0.0, 0.0}}, {{2.0, 0.0}, PilotHeading::kIntoTravel, 0.0, 5.0}, {{4.0, 0.0}}}};
+  const std::vector<FlightState> flight = fly(world, steady_pilot(), 1);
+  EXPECT_GT(flight.size(), without + 500);
+  const auto at_rest = std::ranges::count_if(flight, [](const FlightState& state) {
+    return state.T_world_body.x_m() > 1.8 && state.T_world_body.x_m() < 2.1 &&
+           std::abs(state.vx_body_m_s) < 0.1;
+  });
+  EXPECT_GT(at_rest, 450);
+}
+
 TEST(Fly, IsSmoothAndWithinThePilotsLimits) {
   const SimulatedWorld world = make_simulated_world("office").value();
   const std::vector<FlightState> flight = fly(world, PilotModel{}, 3);

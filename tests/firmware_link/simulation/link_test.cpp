@@ -148,12 +148,13 @@ TEST(SimulatedLink, HasBatteryForTheWaysBackOfAnOpenScript) {
 }
 
 TEST(SimulatedLink, RepeatsItselfByteForByteForTheSameSeed) {
-  for (const char* world : {"office", "maze", "loop", "corridors"})
+  for (const char* world : {"office", "maze", "loop", "corridors", "building"})
     EXPECT_TRUE(same(frames_of(world, 5), frames_of(world, 5))) << world;
 }
 
 TEST(SimulatedLink, DiffersForAnotherSeed) {
   EXPECT_FALSE(same(frames_of("office", 5), frames_of("office", 6)));
+  EXPECT_FALSE(same(frames_of("building", 5), frames_of("building", 6)));
 }
 
 TEST(SimulatedLink, LosesAboutOnePacketInAHundred) {

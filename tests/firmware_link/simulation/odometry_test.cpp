@@ -130,6 +130,41 @@ TEST(FlowOdometry, WalksInHeadingWithTheRootOfTime) {
   EXPECT_NEAR(sigma_over_seeds(straight_flight(16.0), model), radians(2.4), radians(0.3));
 }
 
+TEST(FlowOdometry, MeasuresAShareOfTheMotionOnAFloorPatch) {
+  FlowOdometryModel model = perfect();
+  model.floor_patches = {{{1.0, 0.0}, 0.5, 0.6}};
+  const std::vector<FlightState> flight = fly({{}, {{{0.0, 0.0}}, {{3.0, 0.0}}}}, PilotModel{}, 1);
+  const double missed_m = estimate_after(flight, perfect(), 1).x_m() - estimate_after(flight, model, 1).x_m();
+  EXPECT_NEAR(missed_m, 0.4, 0.05);
+}
+
+TEST(FlowOdometry, JumpsInHeadingAsOftenAndAsFarAsTheModelSays) {
+  FlowOdometryModel model = perfect();
+  model.yaw_jumps_per_s = 1.0 / 20.0;
+  model.yaw_jump_min_rad = model.yaw_jump_max_rad = radians(5.0);
+  FlowOdometry odometry(model, 1);
+  int jumps = 0;
+  double before_rad = 0.0;
+  for (const FlightState& state : straight_flight(1000.0)) {
+    odometry.step(state);
+    const double turned_rad = wrap_angle(odometry.T_odom_body().yaw_rad() - before_rad);
+    before_rad = odometry.T_odom_body().yaw_rad();
+    if (std::abs(turned_rad) < 1e-9) continue;
+    ++jumps;
+    EXPECT_NEAR(std::abs(turned_rad), radians(5.0), 1e-9);
+  }
+  EXPECT_NEAR(jumps, 50, 25);
+}
+
+TEST(FlowOdometry, ReportsReverseMotionAsForwardWhereItLosesTheSign) {
+  FlowOdometryModel model = perfect();
+  model.loses_reverse_sign = true;
+  std::vector<FlightState> flight = straight_flight(10.0);
+  for (std::size_t i = flight.size() / 2; i < flight.size(); ++i) flight[i].vx_body_m_s = -0.5;
+  EXPECT_NEAR(estimate_after(flight, perfect(), 1).x_m(), 0.0, 1e-9);
+  EXPECT_NEAR(estimate_after(flight, model, 1).x_m(), 5.0, 1e-9);
+}
+
 TEST(FlowOdometry, UnderestimatesTheMotionDuringASlip) {
   FlowOdometryModel model = perfect();
   model.slips_per_s = 1.0 / 20.0;

@@ -102,6 +102,13 @@ TEST(MeasureRange, DrawsTheSameNoiseWhetherReadingsWereLostOrNot) {
             measure_range(near, {0.0, 0.0}, 0.0, RangerModel{}, after_nothing));
 }
 
+TEST(MeasureRange, LosesDarkWallsAtShorterDistance) {
+  WallSegment dark = wall_across(2.0);
+  dark.surface = WallSurface::kDark;
+  EXPECT_GT(lost_share({dark}), 0.5);
+  EXPECT_LT(lost_share({wall_across(2.0)}), 0.05);
+}
+
 TEST(LoggedRange, IsTheMillimetresThatTheFirmwareShows) {
   EXPECT_EQ(logged_range_mm(1.234), 1234.0);
   EXPECT_EQ(logged_range_mm(0.0), 0.0);

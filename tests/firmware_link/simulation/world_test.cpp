@@ -47,5 +47,22 @@ TEST(CastRay, TakesTheNearestWallInWhateverOrder) {
   EXPECT_NEAR(hit->distance_m, 1.0, 1e-12);
 }
 
+TEST(CastRay, SeesGlassOnlyWhenItMeetsItSquarely) {
+  const WallSegment walls[] = {{{2.0, -9.0}, {2.0, 9.0}, WallSurface::kGlass}, {{3.0, -9.0}, {3.0, 9.0}}};
+  EXPECT_NEAR(cast_ray(walls, {0.0, 0.0}, radians(5.0), 10.0)->distance_m, 2.0, 0.02);
+  const auto behind = cast_ray(walls, {0.0, 0.0}, radians(20.0), 10.0);
+  ASSERT_TRUE(behind);
+  EXPECT_NEAR(behind->distance_m, 3.0 / std::cos(radians(20.0)), 1e-9);
+}
+
+TEST(WallsNear, KeepsAllOfWhichAPartIsWithinReach) {
+  const WallSegment walls[] = {
+      {{1.0, -50.0}, {1.0, 50.0}}, {{4.0, 0.0}, {5.0, 0.0}}, {{0.0, 2.0}, {0.0, 2.5}}};
+  const std::vector<WallSegment> near = walls_near(walls, {0.0, 0.0}, 3.0);
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0].start.x_m, 1.0);
+  EXPECT_EQ(near[1].start.y_m, 2.0);
+}
+
 }  // namespace
 }  // namespace swiftlet
