@@ -24,7 +24,7 @@ class Maze {
   };
 
   Maze(int columns, int rows, double loop_share, NoiseSource& noise)
-      : columns_(columns), rows_(rows), is_known_(static_cast<std::size_t>(columns * rows), false) {
+      : columns_(columns), rows_(rows), is_known_(index(0, rows), false) {
     dig(0, 0, noise);
     for (int column = 0; column + 1 < columns; ++column)
       for (int row = 0; row + 1 < rows; ++row)
@@ -33,8 +33,12 @@ class Maze {
   [[nodiscard]] const std::vector<Passage>& passages() const { return passages_; }
 
  private:
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   void dig(int column, int row, NoiseSource& noise) {
-    is_known_[static_cast<std::size_t>(row * columns_ + column)] = true;
+    is_known_[index(column, row)] = true;
     const int first = whole_between(noise, 0, 3);
     const int step = noise.chance(0.5) ? 1 : 3;
     for (int i = 0; i < 4; ++i) {
@@ -42,7 +46,7 @@ class Maze {
       const int to_column = column + (side == 0 ? 1 : side == 2 ? -1 : 0);
       const int to_row = row + (side == 1 ? 1 : side == 3 ? -1 : 0);
       if (to_column < 0 || to_row < 0 || to_column >= columns_ || to_row >= rows_) continue;
-      if (is_known_[static_cast<std::size_t>(to_row * columns_ + to_column)]) continue;
+      if (is_known_[index(to_column, to_row)]) continue;
       passages_.push_back({std::min(column, to_column), std::min(row, to_row), side % 2 == 1});
       dig(to_column, to_row, noise);
     }

@@ -109,7 +109,9 @@ std::optional<FreeSpaceGrid::Cell> FreeSpaceGrid::cell_at(const Point2& point) c
 }
 
 Point2 FreeSpaceGrid::centre(Cell cell) const {
-  return {origin_.x_m + kCellM * (cell % columns_ + 0.5), origin_.y_m + kCellM * (cell / columns_ + 0.5)};
+  const Cell column = cell % columns_;
+  const Cell row = cell / columns_;
+  return {origin_.x_m + kCellM * (column + 0.5), origin_.y_m + kCellM * (row + 0.5)};
 }
 
 double FreeSpaceGrid::clearance_m(const Point2& point) const {
