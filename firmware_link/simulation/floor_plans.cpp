@@ -273,9 +273,9 @@ std::vector<Waypoint> patrol_flight() {
   return {{{1.2, 1.2}}, {{6.8, 1.2}}, {{6.8, 4.8}, kTravel, 2.0 * kPi}, {{1.2, 4.8}}, {{1.2, 1.2}}};
 }
 
-template <std::vector<WallSegment> (*walls)(), std::vector<Waypoint> (*flight)()>
+template <std::vector<WallSegment> (*kWalls)(), std::vector<Waypoint> (*kFlight)()>
 SimulatedWorld by_hand(std::uint64_t /*seed*/) {
-  return {walls(), flight()};
+  return {kWalls(), kFlight()};
 }
 
 constexpr std::array kWorlds{

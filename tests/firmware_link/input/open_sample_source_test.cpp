@@ -155,6 +155,12 @@ TEST(OpenSampleSource, RefusesAnInvalidInputWithOneLine) {
   }
 }
 
+TEST(OpenSampleSource, NamesTheKindOfABuildingDrawnAtRandom) {
+  const auto source = open_sample_source("sim://building?seed=3", {});
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_THAT((*source)->report().notes, testing::Contains(testing::StartsWith("kind of building: ")));
+}
+
 TEST(OpenSampleSource, FliesASimulatedVehicleWithItsTruth) {
   const auto source = open_sample_source("sim://office?seed=1", {});
   ASSERT_TRUE(source.ok()) << source.error().message;

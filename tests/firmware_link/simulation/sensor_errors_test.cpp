@@ -105,11 +105,13 @@ double central_sigma_m(double distance_m, const RangerModel& model) {
 }
 
 TEST(SensorErrors, ScatterRangesAsTheRealFlightsDo) {
-  const struct {
+  struct Measured {
     double distance_m;
     double least_m;
     double most_m;
-  } kMeasured[] = {{1.0, 0.003, 0.005}, {1.75, 0.007, 0.008}, {2.25, 0.011, 0.043}, {2.75, 0.021, 0.043}};
+  };
+  constexpr Measured kMeasured[] = {
+      {1.0, 0.003, 0.005}, {1.75, 0.007, 0.008}, {2.25, 0.011, 0.043}, {2.75, 0.021, 0.043}};
   const std::vector<VehicleModel> models = vehicles();
   for (std::size_t i = 0; i < 10; ++i) {
     for (const auto& [distance_m, least_m, most_m] : kMeasured) {
