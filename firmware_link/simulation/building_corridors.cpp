@@ -83,7 +83,7 @@ std::vector<Point2> ring(WallDirections directions, double perimeter_m, NoiseSou
 BuildingPlan draw_offices(const BuildingWish& wish, NoiseSource& noise) {
   BuildingPlan plan;
   const double width_m = corridor_width_m(noise);
-  const double length_m = std::max(9.0, side_m(wish, noise) * noise.uniform(1.0, 1.5));
+  const double length_m = std::max(9.0, side_m(wish, noise, 1.0, 1.5));
   const double pitch_m = noise.uniform(6.5, 10.0) + width_m;
   const int rows = std::clamp(static_cast<int>(side_m(wish, noise) / pitch_m) + 1, 1, 3);
   const int joins = rows == 1 ? whole_between(noise, 0, 1) : whole_between(noise, 2, length_m > 18.0 ? 3 : 2);
@@ -107,16 +107,17 @@ BuildingPlan draw_wings(const BuildingWish& wish, NoiseSource& noise) {
   BuildingPlan plan;
   const int wings = whole_between(noise, 2, 4);
   const double hall_m = noise.uniform(1.8, 3.5);
-  plan.add_area(regular_polygon({}, hall_m, whole_between(noise, 5, 9), noise.uniform(0.0, kPi)));
+  const int hall_corners = whole_between(noise, 5, 9);
+  plan.add_area(regular_polygon({}, hall_m, hall_corners, noise.uniform(0.0, kPi)));
   const double width_m = corridor_width_m(noise);
   std::vector<std::vector<Point2>> lines;
   double angle = noise.uniform(0.0, 2.0 * kPi);
   for (int i = 0; i < wings; ++i) {
-    const double length_m = hall_m + std::max(4.0, side_m(wish, noise) * noise.uniform(0.4, 0.8));
+    const double length_m = hall_m + std::max(4.0, side_m(wish, noise, 0.4, 0.8));
     std::vector<Point2> line{{}, moved({}, angle, length_m)};
+    const double bend = noise.either_sign(radians(noise.uniform(10.0, 60.0)));
     if (noise.chance(0.4))
-      line.push_back(moved(line[1], angle + noise.either_sign(radians(noise.uniform(10.0, 60.0))),
-                           std::max(4.0, length_m * noise.uniform(0.3, 0.7))));
+      line.push_back(moved(line[1], angle + bend, std::max(4.0, length_m * noise.uniform(0.3, 0.7))));
     plan.add_corridor(line, width_m);
     lines.push_back(line);
     angle += 2.0 * kPi / wings + radians(noise.uniform(-28.0, 28.0));
@@ -133,7 +134,7 @@ BuildingPlan draw_curved_corridors(const BuildingWish& wish, NoiseSource& noise)
   BuildingPlan plan;
   const double width_m = corridor_width_m(noise);
   const RoomStyle style = room_style(noise);
-  const double radius_m = std::clamp(side_m(wish, noise) * noise.uniform(0.4, 0.7), 4.0, 14.0);
+  const double radius_m = std::clamp(side_m(wish, noise, 0.4, 0.7), 4.0, 14.0);
   std::vector<Point2> line;
   if (noise.chance(0.5)) {
     line = arc(Pose2(0.0, -radius_m, 0.0), radius_m, 2.0 * kPi);
@@ -141,10 +142,11 @@ BuildingPlan draw_curved_corridors(const BuildingWish& wish, NoiseSource& noise)
     plan.add_corridor(line, width_m, true);
     if (noise.chance(0.5)) plan.add_corridor({line.front(), line[line.size() / 2]}, width_m);
   } else {
-    line = arc(Pose2(), noise.either_sign(radius_m), noise.uniform(0.8, 2.8));
+    const double first_radius_m = noise.either_sign(radius_m);
+    const double next_radius_m = noise.either_sign(radius_m * noise.uniform(0.6, 1.3));
+    line = arc(Pose2(), first_radius_m, noise.uniform(0.8, 2.8));
     const Pose2 end(line.back().x_m, line.back().y_m, bearing_rad(line[line.size() - 2], line.back()));
-    const std::vector<Point2> other =
-        arc(end, noise.either_sign(radius_m * noise.uniform(0.6, 1.3)), noise.uniform(0.8, 2.4));
+    const std::vector<Point2> other = arc(end, next_radius_m, noise.uniform(0.8, 2.4));
     line.insert(line.end(), other.begin() + 1, other.end());
     plan.add_corridor(line, width_m);
   }
@@ -169,8 +171,7 @@ BuildingPlan draw_polygonal_corridors(const BuildingWish& wish, NoiseSource& noi
     double bearing = noise.uniform(-kPi, kPi);
     double turn = noise.either_sign(1.0);
     for (int legs = whole_between(noise, 3, 6); legs > 0; --legs) {
-      line.push_back(
-          moved(line.back(), bearing, std::max(3.5, side_m(wish, noise) * noise.uniform(0.25, 0.6))));
+      line.push_back(moved(line.back(), bearing, std::max(3.5, side_m(wish, noise, 0.25, 0.6))));
       bearing += turn * radians(noise.uniform(15.0, 65.0));
       if (noise.chance(0.5)) turn = -turn;
     }

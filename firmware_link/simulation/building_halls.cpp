@@ -15,7 +15,8 @@ Outline hall(const BuildingWish& wish, NoiseSource& noise) {
   const double half_x_m = std::max(3.0, side_m(wish, noise) / 2.0);
   const double half_y_m = std::max(2.5, half_x_m * noise.uniform(0.4, 1.0));
   if (wish.directions == WallDirections::kOne) return rectangle({}, -half_x_m, -half_y_m, half_x_m, half_y_m);
-  Outline corners = regular_polygon({}, 1.0, whole_between(noise, 5, 9), noise.uniform(0.0, kPi));
+  const int sides = whole_between(noise, 5, 9);
+  Outline corners = regular_polygon({}, 1.0, sides, noise.uniform(0.0, kPi));
   const double squash = noise.uniform(-0.3, 0.3);
   for (Point2& corner : corners)
     corner = {half_x_m * 1.15 * corner.x_m + squash * corner.y_m, half_y_m * 1.15 * corner.y_m};

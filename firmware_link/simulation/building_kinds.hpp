@@ -29,8 +29,12 @@ struct BuildingKind {
 };
 [[nodiscard]] std::span<const BuildingKind> building_kinds();
 
-/// The side of a building that can be seen in such a flight.
-[[nodiscard]] double side_m(const BuildingWish& wish, NoiseSource& noise);
+// Draws are separate statements throughout: the order in which arguments and operands are evaluated is the
+// compiler's choice.
+
+/// The side of a building that can be seen in such a flight, or a share of it, evenly between the two.
+[[nodiscard]] double side_m(const BuildingWish& wish, NoiseSource& noise, double least_share = 1.0,
+                            double most_share = 1.0);
 
 // building_corridors.cpp
 [[nodiscard]] BuildingPlan draw_offices(const BuildingWish& wish, NoiseSource& noise);

@@ -15,8 +15,27 @@ Pose2 somewhere(double side_m, NoiseSource& noise) {
   return {x_m, y_m, noise.uniform(-kPi, kPi)};
 }
 
-void add_block(BuildingPlan& plan, const Pose2& T_world_block, double length_m, double width_m) {
-  plan.add_obstacle(rectangle(T_world_block, -length_m / 2.0, -width_m / 2.0, length_m / 2.0, width_m / 2.0));
+/// Bounds of the sides of a block, in metres.
+struct BlockSize {
+  double least_length_m;
+  double most_length_m;
+  double least_width_m;
+  double most_width_m;
+};
+constexpr BlockSize kHouse{2.5, 7.0, 2.0, 5.0};
+constexpr BlockSize kCar{3.8, 4.8, 1.7, 1.9};
+constexpr BlockSize kFence{2.0, 8.0, 0.08, 0.08};
+
+void add_block(BuildingPlan& plan, double ground_m, const BlockSize& size, NoiseSource& noise) {
+  const Pose2 T_world_block = somewhere(ground_m, noise);
+  const double half_length_m = 0.5 * noise.uniform(size.least_length_m, size.most_length_m);
+  const double half_width_m = 0.5 * noise.uniform(size.least_width_m, size.most_width_m);
+  plan.add_obstacle(rectangle(T_world_block, -half_length_m, -half_width_m, half_length_m, half_width_m));
+}
+
+void add_tree(BuildingPlan& plan, double ground_m, NoiseSource& noise) {
+  const Point2 at = somewhere(ground_m, noise).position();
+  plan.add_obstacle(regular_polygon(at, noise.uniform(0.1, 0.35), 8));
 }
 
 }  // namespace
@@ -32,14 +51,10 @@ BuildingPlan draw_outdoors(const BuildingWish& wish, NoiseSource& noise) {
   const auto count = [&](double share) {
     return static_cast<int>(std::lround(density * share * noise.uniform(0.3, 1.0)));
   };
-  for (int i = count(0.5); i > 0; --i)
-    add_block(plan, somewhere(ground_m, noise), noise.uniform(2.5, 7.0), noise.uniform(2.0, 5.0));
-  for (int i = count(1.5); i > 0; --i)
-    plan.add_obstacle(regular_polygon(somewhere(ground_m, noise).position(), noise.uniform(0.1, 0.35), 8));
-  for (int i = count(0.4); i > 0; --i)
-    add_block(plan, somewhere(ground_m, noise), noise.uniform(3.8, 4.8), noise.uniform(1.7, 1.9));
-  for (int i = count(0.5); i > 0; --i)
-    add_block(plan, somewhere(ground_m, noise), noise.uniform(2.0, 8.0), 0.08);
+  for (int i = 1 + count(0.5); i > 0; --i) add_block(plan, ground_m, kHouse, noise);
+  for (int i = 1 + count(1.5); i > 0; --i) add_tree(plan, ground_m, noise);
+  for (int i = count(0.4); i > 0; --i) add_block(plan, ground_m, kCar, noise);
+  for (int i = count(0.5); i > 0; --i) add_block(plan, ground_m, kFence, noise);
   return plan;
 }
 
