@@ -187,7 +187,7 @@ BuildingPlan draw_polygonal_corridors(const BuildingWish& wish, NoiseSource& noi
 BuildingPlan draw_long_loop(const BuildingWish& wish, NoiseSource& noise) {
   BuildingPlan plan;
   const double width_m = corridor_width_m(noise);
-  const double perimeter_m = std::clamp(wish.way_m * noise.uniform(0.25, 0.65), 28.0, 200.0);
+  const double perimeter_m = std::clamp(wish.way_m * noise.uniform(0.2, 0.5), 28.0, 140.0);
   std::vector<Point2> line = ring(wish.directions, perimeter_m, noise);
   plan.add_corridor(line, width_m, true);
   RoomStyle style = room_style(noise);
