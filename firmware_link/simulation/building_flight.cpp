@@ -29,14 +29,14 @@ struct FlightStyle {
 };
 
 FlightStyle draw_style(NoiseSource& noise) {
-  return {.revisit = noise.uniform(0.1, 0.45),
+  return {.revisit = noise.uniform(0.2, 0.6),
           .retrace = noise.uniform(0.0, 0.25),
           .hover = noise.uniform(0.0, 0.25),
           .spin = noise.uniform(0.0, 0.25),
           .sidestep = noise.uniform(0.0, 0.15),
           .reverse = noise.uniform(0.0, 0.12),
           .avoid_flown = noise.uniform(0.3, 1.0),
-          .returns = noise.chance(0.6)};
+          .returns = noise.chance(0.8)};
 }
 
 class FlightWriter {

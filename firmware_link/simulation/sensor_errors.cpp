@@ -20,7 +20,7 @@ FlowOdometryModel draw_odometry(NoiseSource& noise) {
   model.scale_wander_time_s = noise.uniform(2.0, 20.0);
   model.velocity_noise_m_s = noise.uniform(0.02, 0.08);
   model.yaw_bias_min_rad_s = 0.0;
-  model.yaw_bias_max_rad_s = radians(9.0) / 60.0 * log_normal(noise, 0.6);
+  model.yaw_bias_max_rad_s = radians(10.0) / 60.0 * log_normal(noise, 0.6);
   model.yaw_walk_rad_sqrt_s = radians(0.6) * log_normal(noise, 0.4);
   model.turn_scale_spread = std::abs(noise.gaussian(0.01));
   model.slips_per_s = 1.0 / noise.uniform(40.0, 300.0);
