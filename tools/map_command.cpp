@@ -73,6 +73,11 @@ void print_summary(const MapCommand& command, const RunView& run) {
               static_cast<unsigned long long>(counters.keyframes),
               static_cast<unsigned long long>(counters.closures_accepted),
               static_cast<unsigned long long>(counters.closures_dropped), run.input.problems.size());
+  if (counters.map_source != MapSource::kPoseGraph)
+    std::fprintf(stderr,
+                 "swiftlet: note: the map follows %s alone, which explains the ranges no worse than loop "
+                 "closures do\n",
+                 std::string(name_of(counters.map_source)).c_str());
   const std::string directory = command.output_directory.string();
   std::printf("files: %s: map.png map.pgm map.yaml trajectory.tum odometry.tum live.tum %sreport.json\n",
               directory.c_str(), run.truth.empty() ? "" : "ground_truth.tum ");

@@ -77,7 +77,7 @@ BackendUpdate Backend::finish() {
     while (s.loops.drop_worst(s.graph) && s.follow_graph(s.graph.optimize())) {
     }
   }
-  if (s.refinement.refine_all(s.graph.graph())) {
+  if (s.refinement.refine_all(s.graph.graph(), s.T_local_keyframe())) {
     update.poses_changed = true;
     ++s.version;
   }
@@ -135,7 +135,8 @@ BackendCounters Backend::counters() const {
           .windows_refused = refinement.windows_refused,
           .refined = refinement.refined,
           .held_out_before_m = refinement.held_out_before_m,
-          .held_out_after_m = refinement.held_out_after_m};
+          .held_out_after_m = refinement.held_out_after_m,
+          .map_source = refinement.map_source};
 }
 
 }  // namespace swiftlet

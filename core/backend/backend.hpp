@@ -9,6 +9,7 @@
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/pruning/pruning.hpp"
+#include "core/backend/refinement/map_source.hpp"
 #include "core/backend/store/frontend_estimates.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
@@ -40,6 +41,7 @@ struct BackendCounters {
   bool refined = false;               ///< the batch refinement was accepted
   double held_out_before_m = 0.0;     ///< its criterion: distance of held-out returns from walls
   double held_out_after_m = 0.0;
+  MapSource map_source = MapSource::kPoseGraph;  ///< what the final map follows
 };
 
 /// What one step did, for whoever publishes.

@@ -72,6 +72,7 @@ Json backend_json(const Backend& backend) {
             {"dropped", counters.closures_dropped}}},
           {"optimizations", counters.optimizations},
           {"windows", {{"refined", counters.windows_refined}, {"refused", counters.windows_refused}}},
+          {"map_source", name_of(counters.map_source)},
           {"refined", counters.refined},
           {"solver_failures", counters.solver_failures}};
 }

@@ -157,8 +157,11 @@ struct RefinementTuning {
   double robust_sigmas = 1.5;  ///< scale of the Geman-McClure kernel
 
   // Held-out returns
-  std::size_t hold_out_every = 10;  ///< one return in so many
-  double cap_sigmas = 3.0;          ///< of wall_sigma_m: greater distances count as this
+  std::size_t hold_out_every = 10;    ///< one return in so many
+  double cap_sigmas = 3.0;            ///< of wall_sigma_m: greater distances count as this
+  double refined_gain_sigmas = 1.64;  ///< 95 %, one-sided: refined dead reckoning must explain that much more
+  double correction_odds = 2.0;       ///< to one: that a correction of dead reckoning is right, a priori
+  double median_drift = 0.03;         ///< of dead reckoning on real logs: position error over way
 
   // Batch refinement
   double wide_radius_m = 0.5;  ///< instead of radius_m in the first iterations: walls may lie this far apart
@@ -181,6 +184,9 @@ struct RefinementTuning {
       {"robust_sigmas", &RefinementTuning::robust_sigmas},
       {"hold_out_every", &RefinementTuning::hold_out_every},
       {"cap_sigmas", &RefinementTuning::cap_sigmas},
+      {"refined_gain_sigmas", &RefinementTuning::refined_gain_sigmas},
+      {"correction_odds", &RefinementTuning::correction_odds},
+      {"median_drift", &RefinementTuning::median_drift},
       {"wide_radius_m", &RefinementTuning::wide_radius_m},
       {"wide_iterations", &RefinementTuning::wide_iterations},
       {"converged_step", &RefinementTuning::converged_step},

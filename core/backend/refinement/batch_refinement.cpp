@@ -27,18 +27,44 @@ RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tun
 
 /// Dead reckoning from each scan to the next.
 std::vector<RelativePoseFactor<PoseIndex>> motions_of(std::span<const StoredScan> scans,
-                                                      const OdometryNoise& noise) {
+                                                      const OdometryNoise& noise,
+                                                      DeadReckoning dead_reckoning) {
+  const auto pose_of = [&](const StoredScan& scan) -> const Pose2& {
+    return dead_reckoning == DeadReckoning::kAsReported ? scan.T_odom_body : scan.T_dead_body;
+  };
   std::vector<RelativePoseFactor<PoseIndex>> motions;
   for (std::size_t i = 1; i < scans.size(); ++i) {
     RelativePoseFactor<PoseIndex> c;
     c.from = make_id<PoseIndex>(i - 1);
     c.to = make_id<PoseIndex>(i);
     if (!scans[i].starts_segment || scans[i].odometry_ran_on)
-      c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
+      c.T_from_to = between(pose_of(scans[i - 1]), pose_of(scans[i]));
     c.information = motion_information(scans[i - 1], scans[i], noise) / noise.steps_err_together;
     motions.push_back(c);
   }
   return motions;
+}
+
+struct Judged {
+  double held_out_m = 0.0;
+  std::vector<double> misfit;  ///< RefinementReport's
+};
+
+/// `motions`: from each scan to the next.
+Judged judge(const ScanStore& scans, const RefinementProblem& problem,
+             std::span<const RelativePoseFactor<PoseIndex>> motions, const std::vector<Pose2>& T_map_body,
+             const RefinementTuning& tuning) {
+  const std::span<const StoredScan> stored = scans.all().values();
+  const std::uint32_t first = index_of(traversal_of(stored.front()));
+  const WallMap walls = problem.walls_at(T_map_body, tuning.radius_m);
+  Judged judged{problem.held_out_error_m(walls, T_map_body),
+                std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
+  for (const RelativePoseFactor<PoseIndex>& f : motions)
+    judged.misfit[index_of(traversal_of(stored[index_of(f.to)])) - first] += 0.5 * chi_square(f, T_map_body);
+  problem.for_held_out(walls, T_map_body, [&](std::uint32_t traversal, double distance_m) {
+    judged.misfit[traversal - first] += distance_m / tuning.wall_sigma_m;
+  });
+  return judged;
 }
 
 }  // namespace
@@ -47,13 +73,14 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
                                            std::span<const RelativePoseFactor<ScanId>> closures,
                                            std::span<const HeadingFactor<ScanId>> headings,
                                            const BackendConfig& config, std::vector<Pose2>& T_map_body,
-                                           const RefinementTuning& tuning) {
+                                           const RefinementTuning& tuning, DeadReckoning dead_reckoning) {
   SWIFTLET_CHECK(T_map_body.size() == scans.size(), "every scan has a pose");
   RefinementReport report;
   if (scans.size() < 2) return report;
   const RefinementProblem problem = problem_of(scans, tuning);
   const auto pose_of = [&](ScanId scan) { return make_id<PoseIndex>(scans.all().position(scan)); };
-  std::vector<RelativePoseFactor<PoseIndex>> factors = motions_of(scans.all().values(), sensor.odometry);
+  std::vector<RelativePoseFactor<PoseIndex>> factors =
+      motions_of(scans.all().values(), sensor.odometry, dead_reckoning);
   for (const RelativePoseFactor<ScanId>& c : closures)
     factors.push_back(c.joining(pose_of(c.from), pose_of(c.to)));
   PoseSystem system;
@@ -71,8 +98,12 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
     ++report.iterations;
     if (*largest < tuning.converged_step && !wide) break;
   }
-  report.judge(problem.held_out_error_m(problem.walls_at(T_map_body, tuning.radius_m), T_map_body),
-               problem.held_out_error_m(problem.walls_at(T, tuning.radius_m), T));
+  const auto motions = std::span<const RelativePoseFactor<PoseIndex>>(factors).first(scans.size() - 1);
+  Judged before = judge(scans, problem, motions, T_map_body, tuning);
+  Judged after = judge(scans, problem, motions, T, tuning);
+  report.judge(before.held_out_m, after.held_out_m);
+  report.misfit = report.accepted ? std::move(after.misfit) : before.misfit;
+  report.misfit_at_start = std::move(before.misfit);
   if (report.accepted) T_map_body = std::move(T);
   return report;
 }

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,17 @@ namespace swiftlet {
 
 struct RefinementReport : HeldOutVerdict {
   int iterations = 0;
+  /// By traversal, in order: minus the log likelihood of the poses returned, but for a constant. Of the
+  /// held-out returns (distance over wall sigma) and of the dead reckoning (half chi-square). Comparable
+  /// between starts of one run.
+  std::vector<double> misfit;
+  std::vector<double> misfit_at_start;
+};
+
+/// The dead reckoning that joins neighbouring scans.
+enum class DeadReckoning : std::uint8_t {
+  kLessDrift,   ///< StoredScan::T_dead_body
+  kAsReported,  ///< StoredScan::T_odom_body
 };
 
 /// Joint refinement of every scan's pose: one sparse Gauss-Newton problem of point-to-line factors to the
@@ -29,6 +41,7 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
                                            std::span<const RelativePoseFactor<ScanId>> closures,
                                            std::span<const HeadingFactor<ScanId>> headings,
                                            const BackendConfig& config, std::vector<Pose2>& T_map_body,
-                                           const RefinementTuning& tuning = {});
+                                           const RefinementTuning& tuning = {},
+                                           DeadReckoning dead_reckoning = DeadReckoning::kLessDrift);
 
 }  // namespace swiftlet

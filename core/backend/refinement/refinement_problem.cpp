@@ -16,12 +16,10 @@ WallMap RefinementProblem::walls_at(const std::vector<Pose2>& T_map_body, double
 double RefinementProblem::held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const {
   double sum_m = 0.0;
   std::size_t count = 0;
-  for (const PlacedReturn& r : returns_) {
-    if (!r.held_out) continue;
-    const TraversalPoint at{T_map_body[index_of(r.pose)] * r.p_body, r.traversal};
-    sum_m += judged_distance_m(walls.wall_near(at), at.p_map, tuning_);
+  for_held_out(walls, T_map_body, [&](std::uint32_t, double distance_m) {
+    sum_m += distance_m;
     ++count;
-  }
+  });
   return count == 0 ? 0.0 : sum_m / static_cast<double>(count);
 }
 

@@ -60,6 +60,16 @@ class RefinementProblem {
       system.add(r.pose, factor.H, factor.rhs);
     }
   }
+  /// Calls `take(traversal, distance_m)` for each held-out return, with its judged_distance_m() from the
+  /// walls.
+  template <typename Take>
+  void for_held_out(const WallMap& walls, const std::vector<Pose2>& T_map_body, Take&& take) const {
+    for (const PlacedReturn& r : returns_) {
+      if (!r.held_out) continue;
+      const TraversalPoint at{T_map_body[index_of(r.pose)] * r.p_body, r.traversal};
+      take(r.traversal, judged_distance_m(walls.wall_near(at), at.p_map, tuning_));
+    }
+  }
   /// Mean distance of the held-out returns from the walls, as judged_distance_m() has it; 0 without any.
   [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
 

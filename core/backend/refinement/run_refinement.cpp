@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/refinement/run_refinement.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +40,43 @@ std::vector<HeadingFactor<ScanId>> headings_of_scans(const PoseGraph& graph, con
   return headings;
 }
 
+/// By how many standard errors `misfit` lies below the simpler one's, traversals taken as independent.
+double gain_sigmas(std::span<const double> misfit, std::span<const double> simpler) {
+  double gain = 0.0;
+  double variance = 0.0;
+  for (std::size_t i = 0; i < misfit.size(); ++i) {
+    const double difference = simpler[i] - misfit[i];
+    gain += difference;
+    variance += difference * difference;
+  }
+  return variance > 0.0 ? gain / std::sqrt(variance) : 0.0;
+}
+
+double rms_distance_m(std::span<const Pose2> a, std::span<const Pose2> b) {
+  double sum_m2 = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum_m2 += (a[i].x_m() - b[i].x_m()) * (a[i].x_m() - b[i].x_m()) +
+              (a[i].y_m() - b[i].y_m()) * (a[i].y_m() - b[i].y_m());
+  return std::sqrt(sum_m2 / static_cast<double>(a.size()));
+}
+
+/// The same path, from another pose on.
+std::vector<Pose2> from(const Pose2& T_map_first, std::vector<Pose2> T_local_body) {
+  const Pose2 T_map_local = T_map_first * T_local_body.front().inverse();
+  for (Pose2& T : T_local_body) T = T_map_local * T;
+  return T_local_body;
+}
+
+/// The odometry as reported; where it restarted, the vehicle stood still.
+std::vector<Pose2> T_odom_bodies(std::span<const StoredScan> scans) {
+  std::vector<Pose2> T{Pose2()};
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const bool is_known = !scans[i].starts_segment || scans[i].odometry_ran_on;
+    T.push_back(is_known ? T.back() * between(scans[i - 1].T_odom_body, scans[i].T_odom_body) : T.back());
+  }
+  return T;
+}
+
 }  // namespace
 
 RunRefinement::RunRefinement(const BackendConfig& config, const SensorModel& sensor, const ScanStore& scans,
@@ -61,22 +100,66 @@ ScanRange RunRefinement::refine_window(const KeyframePoses& T_map_keyframe,
   return {};
 }
 
-bool RunRefinement::refine_all(const PoseGraph& graph) {
-  if (!is_wanted() || scans_->size() < 2) return false;
-  const ScanRange all{scans_->all().first_id(), scans_->all().end_id()};
-  std::vector<Pose2> T_map_body = chain_->T_w_bodies(all, graph.T_map_keyframe);
-  const Result<RefinementReport> report =
-      refine_scan_poses(*scans_, sensor_, closures_between_scans(graph, *chain_),
-                        headings_of_scans(graph, *chain_), *config_, T_map_body, config_->tuning.refinement);
+bool RunRefinement::try_refine(Hypothesis& hypothesis, const PoseGraph& graph) {
+  std::vector<RelativePoseFactor<ScanId>> closures;
+  std::vector<HeadingFactor<ScanId>> headings;
+  if (hypothesis.source == MapSource::kPoseGraph) {
+    closures = closures_between_scans(graph, *chain_);
+    headings = headings_of_scans(graph, *chain_);
+  }
+  const std::vector<Pose2> T_start = hypothesis.T_map_body;
+  const Result<RefinementReport> report = refine_scan_poses(
+      *scans_, sensor_, closures, headings, *config_, hypothesis.T_map_body, config_->tuning.refinement,
+      hypothesis.source == MapSource::kDeadReckoning ? DeadReckoning::kAsReported
+                                                     : DeadReckoning::kLessDrift);
   if (!report) {
     ++counters_.solver_failures;
     return false;
   }
-  counters_.held_out_before_m = report->held_out_before_m;
-  counters_.held_out_after_m = report->held_out_after_m;
-  counters_.refined = report->accepted;
-  if (report->accepted) T_map_refined_ = scans_->all().with(std::move(T_map_body));
-  return report->accepted;
+  hypothesis.report = *report;
+  if (hypothesis.source == MapSource::kDeadReckoning &&
+      gain_sigmas(report->misfit, report->misfit_at_start) < config_->tuning.refinement.refined_gain_sigmas) {
+    hypothesis.T_map_body = T_start;
+    hypothesis.report.misfit = report->misfit_at_start;
+    hypothesis.report.accepted = false;
+  }
+  return true;
+}
+
+/// The log odds: of the prior, of the ranges (a standard normal's), and of dead reckoning that errs as far as
+/// the two lie apart, which falls by half with each median error.
+bool RunRefinement::is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const {
+  const RefinementTuning& tuning = config_->tuning.refinement;
+  const double z = gain_sigmas(hypothesis.report.misfit, simpler.report.misfit);
+  const double way_m = scans_->all().values().back().path_m - scans_->all().values().front().path_m;
+  const double apart = rms_distance_m(hypothesis.T_map_body, simpler.T_map_body) / std::max(way_m, 1.0);
+  return std::log(tuning.correction_odds) + 0.5 * z * std::abs(z) >
+         std::log(2.0) * apart / tuning.median_drift;
+}
+
+bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
+  if (!is_wanted() || scans_->size() < 2) return false;
+  const ScanRange all{scans_->all().first_id(), scans_->all().end_id()};
+  Hypothesis best{MapSource::kPoseGraph, chain_->T_w_bodies(all, graph.T_map_keyframe), {}};
+  const Pose2 T_map_first = best.T_map_body.front();
+  bool is_known = try_refine(best, graph);
+  const auto hold_against = [&](MapSource source, const std::vector<Pose2>& T_local_body) {
+    Hypothesis simpler{source, from(T_map_first, T_local_body), {}};
+    if (!try_refine(simpler, graph)) return;
+    if (is_known && is_likelier(best, simpler)) return;
+    best = std::move(simpler);
+    is_known = true;
+  };
+  hold_against(MapSource::kFrontend, chain_->T_w_bodies(all, T_local_keyframe));
+  hold_against(MapSource::kDeadReckoning, T_odom_bodies(scans_->all().values()));
+  if (!is_known) return false;
+  counters_.held_out_before_m = best.report.held_out_before_m;
+  counters_.held_out_after_m = best.report.held_out_after_m;
+  counters_.refined = best.report.accepted;
+  counters_.map_source = best.source;
+  const bool has_moved = best.report.accepted || best.source != MapSource::kPoseGraph;
+  if (has_moved) T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
+  return has_moved;
 }
 
 void RunRefinement::erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals) {

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/batch_refinement.hpp"
+#include "core/backend/refinement/map_source.hpp"
 #include "core/backend/refinement/online_refinement.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/sensing/sensor_model.hpp"
@@ -19,6 +22,7 @@ struct RefinementCounters {
   bool refined = false;  ///< the batch refinement was accepted
   double held_out_before_m = 0.0;
   double held_out_after_m = 0.0;
+  MapSource map_source = MapSource::kPoseGraph;
 };
 
 /// The poses of all scans: between the graph's keyframes, refined window by window while the run goes on, and
@@ -38,8 +42,10 @@ class RunRefinement {
   void follow(const KeyframePoses& T_map_keyframe);
   /// After each keyframe: refines one window. Returns what has moved.
   ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
-  /// Gives every scan a pose of its own, for good. True: poses have moved.
-  bool refine_all(const PoseGraph& graph);
+  /// Gives every scan a pose of its own, for good. True: poses have moved. The poses of the graph are held
+  /// against those of the frontend alone and of dead reckoning alone, each refined in the same way: a
+  /// simpler one that has no more misfit is the map.
+  bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
   [[nodiscard]] Pose2 T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const;
@@ -52,6 +58,14 @@ class RunRefinement {
   [[nodiscard]] RefinementCounters counters() const;
 
  private:
+  struct Hypothesis {
+    MapSource source{};
+    std::vector<Pose2> T_map_body;
+    RefinementReport report;
+  };
+  bool try_refine(Hypothesis& hypothesis, const PoseGraph& graph);
+  [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
+
   [[nodiscard]] bool is_wanted() const { return config_->refine && config_->close_loops; }
 
   const BackendConfig* config_;

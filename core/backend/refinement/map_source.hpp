@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace swiftlet {
+
+/// What the final map follows; the simplest first.
+enum class MapSource : std::uint8_t {
+  kDeadReckoning,  ///< the odometry as reported
+  kFrontend,       ///< the landmark graph: no loop closures
+  kPoseGraph,
+};
+
+constexpr std::string_view name_of(MapSource source) {
+  switch (source) {
+    case MapSource::kDeadReckoning:
+      return "dead reckoning";
+    case MapSource::kFrontend:
+      return "frontend";
+    case MapSource::kPoseGraph:
+      break;
+  }
+  return "pose graph";
+}
+
+}  // namespace swiftlet
