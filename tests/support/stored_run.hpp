@@ -10,13 +10,15 @@
 
 namespace swiftlet {
 
-/// What a backend holds of a flight before it looks for loops: scans, chain and the frontend's keyframes.
+/// What a backend holds of a flight before it looks for loops: scans, chain and the frontend's keyframes. The
+/// frontend's path is the odometry, or `T_dead_body` of each sample.
 class StoredRun {
  public:
-  explicit StoredRun(std::span<const RangeSample> samples) {
+  explicit StoredRun(std::span<const RangeSample> samples, std::span<const Pose2> T_dead_body = {}) {
     DeadReckoningFrontend frontend;
     for (const RangeSample& sample : samples) {
-      const FrontendStep step = frontend.process(sample);
+      FrontendStep step = frontend.process(sample);
+      if (!T_dead_body.empty()) step.T_local_body = step.T_dead_body = T_dead_body[scans_.size()];
       const ScanId scan = scans_.add(step);
       if (!step.has_keyframe) continue;
       chain_.add(scan);

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/run_refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/loop_corridor.hpp"
+#include "tests/support/pose_near.hpp"
+#include "tests/support/stored_run.hpp"
+#include "tests/support/trajectory_error.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// Straight, 2 m wide and without a nook: each stretch of it looks like all the others.
+TextRoom straight_corridor() {
+  const std::string wall(60, '#');
+  return {{wall, "#" + std::string(58, '.') + "#", "#..a" + std::string(52, '.') + "b..#",
+           "#" + std::string(58, '.') + "#", wall},
+          0.5};
+}
+
+/// Once along it, 26 m, with perfect odometry.
+TestVehicle along_the_corridor() {
+  const TextRoom room = straight_corridor();
+  TestVehicle vehicle(room, Pose2(room.place('a').x_m, room.place('a').y_m, 0.0), {}, 71);
+  vehicle.fly_to(room, room.place('b'));
+  return vehicle;
+}
+
+/// Twice round the block. The odometry drifts so far that without loops its map is several metres off.
+const TestVehicle& two_laps() {
+  static const TestVehicle kVehicle = [] {
+    TestVehicleModel drifting;
+    drifting.drift_rad_per_m = 0.02;
+    TestVehicle vehicle = vehicle_at_start(drifting, 72);
+    fly_along(vehicle, loop_corridor(), "bcdabcda");
+    return vehicle;
+  }();
+  return kVehicle;
+}
+
+std::vector<Pose2> odometry(const TestVehicle& vehicle) {
+  std::vector<Pose2> T_odom_body;
+  for (const RangeSample& sample : vehicle.samples()) T_odom_body.push_back(sample.T_odom_body);
+  return T_odom_body;
+}
+
+/// The odometry with a yaw error that grows with the way. Where it restarted nothing has moved.
+std::vector<Pose2> bent(const TestVehicle& vehicle, double rad_per_m) {
+  const std::vector<RangeSample>& samples = vehicle.samples();
+  std::vector<Pose2> T{Pose2()};
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Pose2 step = between(samples[i - 1].T_odom_body, samples[i].T_odom_body);
+    const Pose2 turn(0.0, 0.0, rad_per_m * std::hypot(step.x_m(), step.y_m()));
+    T.push_back(samples[i].starts_segment ? T.back() : T.back() * step * turn);
+  }
+  return T;
+}
+
+struct FinalMap {
+  std::vector<Pose2> T_map_body;
+  RefinementCounters counters;
+};
+
+/// The map of a run whose pose graph has put the keyframes on this path.
+FinalMap final_map(const StoredRun& run, const std::vector<Pose2>& T_graph_body,
+                   std::span<const RelativePoseFactor<KeyframeId>> closures = {},
+                   const BackendConfig& config = {}) {
+  PoseGraph graph;
+  for (const auto& [keyframe, scan] : run.chain().all())
+    graph.T_map_keyframe.push_back(T_graph_body[index_of(scan)]);
+  for (const RelativePoseFactor<KeyframeId>& closure : closures) graph.factors.push_back(closure);
+  RunRefinement refinement(config, SensorModel::crazyflie(), run.scans(), run.chain());
+  for (std::size_t i = 0; i < run.scans().size(); ++i) refinement.add_scan();
+  refinement.refine_all(graph, run.T_local_keyframe());
+  FinalMap map;
+  for (const auto& [scan, stored] : run.scans().all())
+    map.T_map_body.push_back(refinement.T_map_body(scan, graph.T_map_keyframe));
+  map.counters = refinement.counters();
+  return map;
+}
+
+/// Root mean square distance over the way: what the a-priori odds look at.
+double apart_over_way(const std::vector<Pose2>& a, const std::vector<Pose2>& b, const StoredRun& run) {
+  double sum_m2 = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum_m2 += std::pow(a[i].x_m() - b[i].x_m(), 2) + std::pow(a[i].y_m() - b[i].y_m(), 2);
+  return std::sqrt(sum_m2 / static_cast<double>(a.size())) / run.scans().all().values().back().path_m;
+}
+
+bool same_bits(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (std::bit_cast<std::uint64_t>(a[i].vector()[k]) != std::bit_cast<std::uint64_t>(b[i].vector()[k]))
+        return false;
+    }
+  }
+  return a.size() == b.size();
+}
+
+/// Truth, with the first pose as origin as in dead reckoning.
+std::vector<Pose2> true_poses(const TestVehicle& vehicle) {
+  std::vector<Pose2> T_map_body;
+  for (const Pose2& T_world_body : vehicle.T_world_body())
+    T_map_body.push_back(between(vehicle.T_world_body()[0], T_world_body));
+  return T_map_body;
+}
+
+/// As loop closing leaves a path: off in slow waves of a few centimetres.
+std::vector<Pose2> in_waves(std::vector<Pose2> path) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double phase = 2.0 * kPi * static_cast<double>(i) / 150.0;
+    path[i] = path[i] * Pose2(0.05 * std::sin(phase), 0.05 * std::sin(1.3 * phase), 0.0);
+  }
+  return path;
+}
+
+TEST(RunRefinement, TheRangesPayForACorrectionThatDriftAloneMakesUnlikely) {
+  const StoredRun run(two_laps().samples());
+  const std::vector<Pose2> truth = true_poses(two_laps());
+  ASSERT_GT(apart_over_way(odometry(two_laps()), truth, run), 2.0 * RefinementTuning().median_drift);
+  const FinalMap map = final_map(run, in_waves(truth));
+  EXPECT_EQ(map.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.3);
+}
+
+TEST(RunRefinement, WhereNoWallContradictsTheOdometryItIsTheMapAsReported) {
+  const TestVehicle vehicle = along_the_corridor();
+  const std::vector<Pose2> T_wound_up = bent(vehicle, 0.02);
+  const StoredRun run(vehicle.samples(), T_wound_up);
+  ASSERT_GT(apart_over_way(T_wound_up, odometry(vehicle), run), 2.0 * RefinementTuning().median_drift);
+  const Pose2 T_map_first(3.0, -2.0, 0.7);
+  std::vector<Pose2> T_graph_body = T_wound_up;
+  for (Pose2& T : T_graph_body) T = T_map_first * T;
+  const FinalMap map = final_map(run, T_graph_body);
+  EXPECT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
+  EXPECT_FALSE(map.counters.refined);
+  for (std::size_t i = 0; i < map.T_map_body.size(); ++i)
+    ASSERT_TRUE(poses_near(map.T_map_body[i], T_map_first * odometry(vehicle)[i], 1e-9, 1e-9)) << i;
+}
+
+TEST(RunRefinement, AFalseClosureDoesNotBendTheMap) {
+  // It puts the far end of the corridor where the run began, and the graph has followed.
+  const TestVehicle vehicle = along_the_corridor();
+  const StoredRun run(vehicle.samples());
+  const std::vector<Pose2> T_round = bent(vehicle, 2.0 * kPi / 26.0);
+  RelativePoseFactor<KeyframeId> closure{KeyframeId{0}, run.newest(), T_round.back()};
+  closure.information = Eigen::Vector3d(400.0, 400.0, 1000.0).asDiagonal();
+  closure.is_closure = true;
+  const FinalMap map = final_map(run, T_round, std::vector{closure});
+  EXPECT_NE(map.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, odometry(vehicle)), 0.1);
+}
+
+TEST(RunRefinement, WhereTheOdometryRestartedNothingHasMoved) {
+  const TextRoom room = straight_corridor();
+  TestVehicle vehicle = along_the_corridor();
+  const std::size_t second = vehicle.samples().size();
+  vehicle.carry_to(room, Pose2(room.place('a').x_m, room.place('a').y_m, 0.0));
+  vehicle.fly_to(room, room.place('b'));
+  const StoredRun run(vehicle.samples(), bent(vehicle, 0.02));
+  const FinalMap map = final_map(run, bent(vehicle, 0.02));
+  ASSERT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
+  EXPECT_TRUE(poses_near(map.T_map_body[second], map.T_map_body[second - 1], 1e-9, 1e-9));
+  for (std::size_t i = 1; i < map.T_map_body.size(); ++i) {
+    if (i == second) continue;
+    ASSERT_TRUE(
+        poses_near(between(map.T_map_body[i - 1], map.T_map_body[i]),
+                   between(vehicle.samples()[i - 1].T_odom_body, vehicle.samples()[i].T_odom_body), 1e-9, 1e-9))
+        << i;
+  }
+}
+
+TEST(RunRefinement, ARestartThatLoopsHaveBridgedIsNoDrift) {
+  TestVehicle vehicle = vehicle_at_start({}, 73);
+  fly_along(vehicle, loop_corridor(), "bcda");
+  const Point2 c = loop_corridor().place('c');
+  vehicle.carry_to(loop_corridor(), Pose2(c.x_m, c.y_m, kPi));
+  fly_along(vehicle, loop_corridor(), "da");
+  const StoredRun run(vehicle.samples(), bent(vehicle, 0.0));
+  const std::vector<Pose2> truth = true_poses(vehicle);
+  const FinalMap map = final_map(run, in_waves(truth));
+  EXPECT_EQ(map.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.1);
+}
+
+TEST(RunRefinement, TwoRunsGiveTheSameBytes) {
+  const std::vector<Pose2> T_graph_body = in_waves(true_poses(two_laps()));
+  const FinalMap one = final_map(StoredRun(two_laps().samples()), T_graph_body);
+  const FinalMap other = final_map(StoredRun(two_laps().samples()), T_graph_body);
+  EXPECT_TRUE(one.counters.refined);
+  EXPECT_EQ(one.counters.map_source, other.counters.map_source);
+  EXPECT_EQ(one.counters.held_out_after_m, other.counters.held_out_after_m);
+  EXPECT_TRUE(same_bits(one.T_map_body, other.T_map_body));
+}
+
+TEST(RunRefinement, WithoutLoopClosingThePosesOfTheGraphStay) {
+  const TestVehicle vehicle = along_the_corridor();
+  const StoredRun run(vehicle.samples(), bent(vehicle, 0.02));
+  BackendConfig config;
+  config.close_loops = false;
+  const FinalMap map = final_map(run, bent(vehicle, 0.02), {}, config);
+  EXPECT_EQ(map.counters.map_source, MapSource::kPoseGraph);
+  const auto newest = index_of(run.chain().scan_of(run.newest()));
+  EXPECT_TRUE(poses_near(map.T_map_body[newest], bent(vehicle, 0.02)[newest], 1e-9, 1e-9));
+}
+
+TEST(MapSource, EachHasAName) {
+  EXPECT_EQ(name_of(MapSource::kDeadReckoning), "dead reckoning");
+  EXPECT_EQ(name_of(MapSource::kFrontend), "frontend");
+  EXPECT_EQ(name_of(MapSource::kPoseGraph), "pose graph");
+}
+
+}  // namespace
+}  // namespace swiftlet
