@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,12 +41,12 @@ std::vector<HeadingFactor<ScanId>> headings_of_scans(const PoseGraph& graph, con
   return headings;
 }
 
-/// By how many standard errors `misfit` lies below the simpler one's, traversals taken as independent.
-double gain_sigmas(std::span<const double> misfit, std::span<const double> simpler) {
+/// By how many of its standard errors `misfit` is less than the other, traversals being taken as independent.
+double gain_sigmas(std::span<const double> misfit, std::span<const double> other) {
   double gain = 0.0;
   double variance = 0.0;
   for (std::size_t i = 0; i < misfit.size(); ++i) {
-    const double difference = simpler[i] - misfit[i];
+    const double difference = other[i] - misfit[i];
     gain += difference;
     variance += difference * difference;
   }
@@ -60,14 +61,14 @@ double rms_distance_m(std::span<const Pose2> a, std::span<const Pose2> b) {
   return std::sqrt(sum_m2 / static_cast<double>(a.size()));
 }
 
-/// The same path, from another pose on.
-std::vector<Pose2> from(const Pose2& T_map_first, std::vector<Pose2> T_local_body) {
-  const Pose2 T_map_local = T_map_first * T_local_body.front().inverse();
-  for (Pose2& T : T_local_body) T = T_map_local * T;
-  return T_local_body;
+/// The same path, beginning at another pose.
+std::vector<Pose2> from(const Pose2& T_map_first, std::vector<Pose2> path) {
+  const Pose2 T_map_path = T_map_first * path.front().inverse();
+  for (Pose2& T : path) T = T_map_path * T;
+  return path;
 }
 
-/// The odometry as reported; where it restarted, the vehicle stood still.
+/// The odometry as reported. Where it restarted nothing has moved.
 std::vector<Pose2> T_odom_bodies(std::span<const StoredScan> scans) {
   std::vector<Pose2> T{Pose2()};
   for (std::size_t i = 1; i < scans.size(); ++i) {
@@ -100,34 +101,50 @@ ScanRange RunRefinement::refine_window(const KeyframePoses& T_map_keyframe,
   return {};
 }
 
+/// The simplest last.
+std::vector<RunRefinement::Hypothesis> RunRefinement::hypotheses(
+    const PoseGraph& graph, const KeyframePoses& T_local_keyframe) const {
+  const ScanRange all{scans_->all().first_id(), scans_->all().end_id()};
+  std::vector<Hypothesis> found(3);
+  found[0] = {MapSource::kPoseGraph, chain_->T_w_bodies(all, graph.T_map_keyframe), {}};
+  const Pose2 T_map_first = found[0].T_map_body.front();
+  found[1] = {MapSource::kFrontend, from(T_map_first, chain_->T_w_bodies(all, T_local_keyframe)), {}};
+  found[2] = {MapSource::kDeadReckoning, from(T_map_first, T_odom_bodies(scans_->all().values())), {}};
+  return found;
+}
+
+/// The odometry is left as reported unless that is significantly worse.
 bool RunRefinement::try_refine(Hypothesis& hypothesis, const PoseGraph& graph) {
+  const RefinementTuning& tuning = config_->tuning.refinement;
+  const bool is_odometry = hypothesis.source == MapSource::kDeadReckoning;
   std::vector<RelativePoseFactor<ScanId>> closures;
   std::vector<HeadingFactor<ScanId>> headings;
   if (hypothesis.source == MapSource::kPoseGraph) {
     closures = closures_between_scans(graph, *chain_);
     headings = headings_of_scans(graph, *chain_);
   }
-  const std::vector<Pose2> T_start = hypothesis.T_map_body;
-  const Result<RefinementReport> report = refine_scan_poses(
-      *scans_, sensor_, closures, headings, *config_, hypothesis.T_map_body, config_->tuning.refinement,
-      hypothesis.source == MapSource::kDeadReckoning ? DeadReckoning::kAsReported
-                                                     : DeadReckoning::kLessDrift);
+  std::vector<Pose2> T_refined = hypothesis.T_map_body;
+  Result<RefinementReport> report =
+      refine_scan_poses(*scans_, sensor_, closures, headings, *config_, T_refined, tuning,
+                        is_odometry ? DeadReckoning::kAsReported : DeadReckoning::kLessDrift);
   if (!report) {
     ++counters_.solver_failures;
     return false;
   }
-  hypothesis.report = *report;
-  if (hypothesis.source == MapSource::kDeadReckoning &&
-      gain_sigmas(report->misfit, report->misfit_at_start) < config_->tuning.refinement.refined_gain_sigmas) {
-    hypothesis.T_map_body = T_start;
-    hypothesis.report.misfit = report->misfit_at_start;
-    hypothesis.report.accepted = false;
+  hypothesis.report = std::move(*report);
+  RefinementReport& r = hypothesis.report;
+  if (is_odometry && gain_sigmas(r.misfit, r.misfit_at_start) < tuning.refined_gain_sigmas) {
+    r.misfit = r.misfit_at_start;
+    r.accepted = false;
+  } else {
+    hypothesis.T_map_body = std::move(T_refined);
   }
   return true;
 }
 
-/// The log odds: of the prior, of the ranges (a standard normal's), and of dead reckoning that errs as far as
-/// the two lie apart, which falls by half with each median error.
+/// By the log odds: what a correction has beforehand, and what the ranges give (those of a standard normal
+/// variable), against dead reckoning that errs as far as the two lie apart, which each further median error
+/// makes half as likely.
 bool RunRefinement::is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const {
   const RefinementTuning& tuning = config_->tuning.refinement;
   const double z = gain_sigmas(hypothesis.report.misfit, simpler.report.misfit);
@@ -139,26 +156,18 @@ bool RunRefinement::is_likelier(const Hypothesis& hypothesis, const Hypothesis& 
 
 bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
   if (!is_wanted() || scans_->size() < 2) return false;
-  const ScanRange all{scans_->all().first_id(), scans_->all().end_id()};
-  Hypothesis best{MapSource::kPoseGraph, chain_->T_w_bodies(all, graph.T_map_keyframe), {}};
-  const Pose2 T_map_first = best.T_map_body.front();
-  bool is_known = try_refine(best, graph);
-  const auto hold_against = [&](MapSource source, const std::vector<Pose2>& T_local_body) {
-    Hypothesis simpler{source, from(T_map_first, T_local_body), {}};
-    if (!try_refine(simpler, graph)) return;
-    if (is_known && is_likelier(best, simpler)) return;
-    best = std::move(simpler);
-    is_known = true;
-  };
-  hold_against(MapSource::kFrontend, chain_->T_w_bodies(all, T_local_keyframe));
-  hold_against(MapSource::kDeadReckoning, T_odom_bodies(scans_->all().values()));
-  if (!is_known) return false;
-  counters_.held_out_before_m = best.report.held_out_before_m;
-  counters_.held_out_after_m = best.report.held_out_after_m;
-  counters_.refined = best.report.accepted;
-  counters_.map_source = best.source;
-  const bool has_moved = best.report.accepted || best.source != MapSource::kPoseGraph;
-  if (has_moved) T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
+  std::optional<Hypothesis> best;
+  for (Hypothesis& simpler : hypotheses(graph, T_local_keyframe)) {
+    if (!try_refine(simpler, graph)) continue;
+    if (!best || !is_likelier(*best, simpler)) best = std::move(simpler);
+  }
+  if (!best) return false;
+  counters_.held_out_before_m = best->report.held_out_before_m;
+  counters_.held_out_after_m = best->report.held_out_after_m;
+  counters_.refined = best->report.accepted;
+  counters_.map_source = best->source;
+  const bool has_moved = best->report.accepted || best->source != MapSource::kPoseGraph;
+  if (has_moved) T_map_refined_ = scans_->all().with(std::move(best->T_map_body));
   return has_moved;
 }
 

@@ -42,9 +42,9 @@ class RunRefinement {
   void follow(const KeyframePoses& T_map_keyframe);
   /// After each keyframe: refines one window. Returns what has moved.
   ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
-  /// Gives every scan a pose of its own, for good. True: poses have moved. The poses of the graph are held
-  /// against those of the frontend alone and of dead reckoning alone, each refined in the same way: a
-  /// simpler one that has no more misfit is the map.
+  /// Gives every scan a pose of its own, for good. True: poses have moved. The graph's path is held against
+  /// that of the frontend alone and that of dead reckoning alone, each refined in the same way: the simpler
+  /// one is the map unless the ranges pay for how far the other departs from it.
   bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
@@ -53,16 +53,19 @@ class RunRefinement {
   /// a centimetre: each was refined by itself, and the published pose must not jump with every one.
   [[nodiscard]] Pose2 T_map_newest(const KeyframePoses& T_map_keyframe,
                                    const KeyframePoses& T_local_keyframe) const;
-  /// Whether refine_all() was accepted.
+  /// Whether refine_all() has moved poses.
   [[nodiscard]] bool is_final() const { return !T_map_refined_.empty(); }
   [[nodiscard]] RefinementCounters counters() const;
 
  private:
+  /// A path that the map may follow.
   struct Hypothesis {
     MapSource source{};
     std::vector<Pose2> T_map_body;
     RefinementReport report;
   };
+  [[nodiscard]] std::vector<Hypothesis> hypotheses(const PoseGraph& graph,
+                                                   const KeyframePoses& T_local_keyframe) const;
   bool try_refine(Hypothesis& hypothesis, const PoseGraph& graph);
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
 

@@ -173,9 +173,9 @@ TEST(RunRefinement, WhereTheOdometryRestartedNothingHasMoved) {
   EXPECT_TRUE(poses_near(map.T_map_body[second], map.T_map_body[second - 1], 1e-9, 1e-9));
   for (std::size_t i = 1; i < map.T_map_body.size(); ++i) {
     if (i == second) continue;
-    ASSERT_TRUE(
-        poses_near(between(map.T_map_body[i - 1], map.T_map_body[i]),
-                   between(vehicle.samples()[i - 1].T_odom_body, vehicle.samples()[i].T_odom_body), 1e-9, 1e-9))
+    ASSERT_TRUE(poses_near(between(map.T_map_body[i - 1], map.T_map_body[i]),
+                           between(vehicle.samples()[i - 1].T_odom_body, vehicle.samples()[i].T_odom_body),
+                           1e-9, 1e-9))
         << i;
   }
 }
