@@ -27,19 +27,19 @@ RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tun
 
 /// Dead reckoning from each scan to the next.
 std::vector<RelativePoseFactor<PoseIndex>> motions_of(std::span<const StoredScan> scans,
-                                                      const OdometryNoise& noise,
+                                                      const SensorModel& sensor,
                                                       DeadReckoning dead_reckoning) {
-  const auto pose_of = [&](const StoredScan& scan) -> const Pose2& {
-    return dead_reckoning == DeadReckoning::kAsReported ? scan.T_odom_body : scan.T_dead_body;
-  };
   std::vector<RelativePoseFactor<PoseIndex>> motions;
   for (std::size_t i = 1; i < scans.size(); ++i) {
     RelativePoseFactor<PoseIndex> c;
     c.from = make_id<PoseIndex>(i - 1);
     c.to = make_id<PoseIndex>(i);
-    if (!scans[i].starts_segment || scans[i].odometry_ran_on)
-      c.T_from_to = between(pose_of(scans[i - 1]), pose_of(scans[i]));
-    c.information = motion_information(scans[i - 1], scans[i], noise) / noise.steps_err_together;
+    if (dead_reckoning == DeadReckoning::kAsReported)
+      c.T_from_to = reported_motion(scans[i - 1], scans[i], sensor.odometry_calibration);
+    else if (!scans[i].starts_segment || scans[i].odometry_ran_on)
+      c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
+    c.information =
+        motion_information(scans[i - 1], scans[i], sensor.odometry) / sensor.odometry.steps_err_together;
     motions.push_back(c);
   }
   return motions;
@@ -80,7 +80,7 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
   const RefinementProblem problem = problem_of(scans, tuning);
   const auto pose_of = [&](ScanId scan) { return make_id<PoseIndex>(scans.all().position(scan)); };
   std::vector<RelativePoseFactor<PoseIndex>> factors =
-      motions_of(scans.all().values(), sensor.odometry, dead_reckoning);
+      motions_of(scans.all().values(), sensor, dead_reckoning);
   for (const RelativePoseFactor<ScanId>& c : closures)
     factors.push_back(c.joining(pose_of(c.from), pose_of(c.to)));
   PoseSystem system;

@@ -27,7 +27,7 @@ struct RefinementReport : HeldOutVerdict {
 /// The dead reckoning that joins neighbouring scans.
 enum class DeadReckoning : std::uint8_t {
   kLessDrift,   ///< StoredScan::T_dead_body
-  kAsReported,  ///< StoredScan::T_odom_body
+  kAsReported,  ///< StoredScan::T_odom_body, calibrated
 };
 
 /// Joint refinement of every scan's pose: one sparse Gauss-Newton problem of point-to-line factors to the

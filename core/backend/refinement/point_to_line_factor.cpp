@@ -33,6 +33,11 @@ PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map
   return {weight * J * J.transpose(), -weight * off_m * J};
 }
 
+Pose2 reported_motion(const StoredScan& from, const StoredScan& to, const OdometryCalibration& calibration) {
+  if (to.starts_segment && !to.odometry_ran_on) return {};
+  return calibration.corrected(between(from.T_odom_body, to.T_odom_body), to.stamp - from.stamp);
+}
+
 Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to, const OdometryNoise& noise) {
   OdometrySigma sigma = kUnknownMotion;
   const Pose2 T_from_to = between(from.T_dead_body, to.T_dead_body);

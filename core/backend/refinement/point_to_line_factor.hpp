@@ -32,6 +32,11 @@ struct PointToLineFactor {
 [[nodiscard]] PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map_body,
                                                      const Point2& p_body, const RefinementTuning& tuning);
 
+/// The odometry's motion from `from` to the next scan `to`, as reported but for the sensor's calibration;
+/// none where it restarted.
+[[nodiscard]] Pose2 reported_motion(const StoredScan& from, const StoredScan& to,
+                                    const OdometryCalibration& calibration);
+
 /// Information of the dead reckoning from `from` to the next scan `to`; almost none where it was restarted.
 [[nodiscard]] Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to,
                                                  const OdometryNoise& noise);

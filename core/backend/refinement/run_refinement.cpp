@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/backend/refinement/batch_refinement.hpp"
+#include "core/backend/refinement/point_to_line_factor.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
@@ -68,14 +69,12 @@ std::vector<Pose2> from(const Pose2& T_map_first, std::vector<Pose2> path) {
   return path;
 }
 
-/// The odometry as reported. Where it restarted nothing has moved.
-std::vector<Pose2> T_odom_bodies(std::span<const StoredScan> scans) {
-  std::vector<Pose2> T{Pose2()};
-  for (std::size_t i = 1; i < scans.size(); ++i) {
-    const bool is_known = !scans[i].starts_segment || scans[i].odometry_ran_on;
-    T.push_back(is_known ? T.back() * between(scans[i - 1].T_odom_body, scans[i].T_odom_body) : T.back());
-  }
-  return T;
+/// The odometry's path from the first scan.
+std::vector<Pose2> reported_path(std::span<const StoredScan> scans, const OdometryCalibration& calibration) {
+  std::vector<Pose2> T_first_body{Pose2()};
+  for (std::size_t i = 1; i < scans.size(); ++i)
+    T_first_body.push_back(T_first_body.back() * reported_motion(scans[i - 1], scans[i], calibration));
+  return T_first_body;
 }
 
 }  // namespace
@@ -109,7 +108,9 @@ std::vector<RunRefinement::Hypothesis> RunRefinement::hypotheses(
   found[0] = {MapSource::kPoseGraph, chain_->T_w_bodies(all, graph.T_map_keyframe), {}};
   const Pose2 T_map_first = found[0].T_map_body.front();
   found[1] = {MapSource::kFrontend, from(T_map_first, chain_->T_w_bodies(all, T_local_keyframe)), {}};
-  found[2] = {MapSource::kDeadReckoning, from(T_map_first, T_odom_bodies(scans_->all().values())), {}};
+  found[2] = {MapSource::kDeadReckoning,
+              from(T_map_first, reported_path(scans_->all().values(), sensor_.odometry_calibration)),
+              {}};
   return found;
 }
 

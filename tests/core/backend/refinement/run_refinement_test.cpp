@@ -74,12 +74,12 @@ struct FinalMap {
 /// The map of a run whose pose graph has put the keyframes on this path.
 FinalMap final_map(const StoredRun& run, const std::vector<Pose2>& T_graph_body,
                    std::span<const RelativePoseFactor<KeyframeId>> closures = {},
-                   const BackendConfig& config = {}) {
+                   const BackendConfig& config = {}, const SensorModel& sensor = SensorModel::crazyflie()) {
   PoseGraph graph;
   for (const auto& [keyframe, scan] : run.chain().all())
     graph.T_map_keyframe.push_back(T_graph_body[index_of(scan)]);
   for (const RelativePoseFactor<KeyframeId>& closure : closures) graph.factors.push_back(closure);
-  RunRefinement refinement(config, SensorModel::crazyflie(), run.scans(), run.chain());
+  RunRefinement refinement(config, sensor, run.scans(), run.chain());
   for (std::size_t i = 0; i < run.scans().size(); ++i) refinement.add_scan();
   refinement.refine_all(graph, run.T_local_keyframe());
   FinalMap map;
@@ -146,6 +146,20 @@ TEST(RunRefinement, WhereNoWallContradictsTheOdometryItIsTheMapAsReported) {
   EXPECT_FALSE(map.counters.refined);
   for (std::size_t i = 0; i < map.T_map_body.size(); ++i)
     ASSERT_TRUE(poses_near(map.T_map_body[i], T_map_first * odometry(vehicle)[i], 1e-9, 1e-9)) << i;
+}
+
+TEST(RunRefinement, TheReportedOdometryIsCalibrated) {
+  const TextRoom room = straight_corridor();
+  TestVehicleModel short_metre;
+  short_metre.odometry_scale = 0.8;
+  TestVehicle vehicle(room, Pose2(room.place('a').x_m, room.place('a').y_m, 0.0), short_metre, 71);
+  vehicle.fly_to(room, room.place('b'));
+  const std::vector<Pose2> T_wound_up = bent(vehicle, 0.02);
+  SensorModel sensor = SensorModel::crazyflie();
+  sensor.odometry_calibration.forward_scale = 1.0 / short_metre.odometry_scale;
+  const FinalMap map = final_map(StoredRun(vehicle.samples(), T_wound_up), T_wound_up, {}, {}, sensor);
+  EXPECT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
+  EXPECT_TRUE(poses_near(map.T_map_body.back(), true_poses(vehicle).back(), 1e-9, 1e-9));
 }
 
 TEST(RunRefinement, AFalseClosureDoesNotBendTheMap) {
