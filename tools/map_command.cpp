@@ -7,13 +7,16 @@
 #include <memory>
 #include <utility>
 
+#include "core/calibration/calibration_findings.hpp"
 #include "daemon/config/configuration.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
+#include "daemon/system/signal_watcher.hpp"
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
+#include "tools/calibrate_command.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace swiftlet {
@@ -39,6 +42,27 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.min_range_m = config.sensor.min_range_m;
   if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
   return open_sample_source(command.input, options);
+}
+
+/// Estimates the systematic errors of the input from all of it, and sets what matters.
+Status calibrate_first(const MapCommand& command, const SensorModel& sensor, Configuration& config) {
+  const SignalWatcher signals;
+  InputReport input;
+  CalibrateCommand request;
+  request.input = command.input;
+  request.beams = command.beams;
+  const Result<CalibrationReport> report = calibrate(request, signals.token(), input);
+  if (!report) return report.error();
+  if (!report->check || report->check->is_worse()) return {};
+  const SensorModel found = calibrated(report->findings, sensor);
+  config.sensor.take_calibration(found);
+  std::fprintf(
+      stderr,
+      "swiftlet: note: by this input itself its ranges are %.3f s old (%.3f s expected), and its odometry's "
+      "scale is %.3f forward, %.3f sideways\n",
+      to_seconds(found.range_age), to_seconds(sensor.range_age), found.odometry_calibration.forward_scale,
+      found.odometry_calibration.sideways_scale);
+  return {};
 }
 
 /// To the end of the input. The report, with what ended the input before its time among the problems.
@@ -99,10 +123,15 @@ Status damage_of(const InputReport& report) {
 }  // namespace
 
 Status run_map_command(const MapCommand& command) {
-  const Result<Configuration> config = configuration_for(command);
+  Result<Configuration> config = configuration_for(command);
   if (!config) return config.error();
-  const Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
+  Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
   if (!opened) return opened.error();
+  if (command.calibrate) {
+    if (Status done = calibrate_first(command, (*opened)->sensor(), *config); !done) return done;
+    opened = open_input(command, *config);
+    if (!opened) return opened.error();
+  }
   SampleSource& source = **opened;
   if (Status ready = prepare_output_directory(command.output_directory); !ready) return ready;
 

@@ -11,6 +11,16 @@ std::vector<std::string> SensorOverrides::validate() const {
   return problems;
 }
 
+void SensorOverrides::take_calibration(const SensorModel& calibrated) {
+  const OdometryCalibration& calibration = calibrated.odometry_calibration;
+  range_age_s = to_seconds(calibrated.range_age);
+  odometry_forward_scale = calibration.forward_scale;
+  odometry_sideways_scale = calibration.sideways_scale;
+  missed_yaw_per_metre_rad = calibration.yaw_per_metre_rad;
+  missed_yaw_per_radian = calibration.yaw_per_radian;
+  missed_yaw_per_second_rad = calibration.yaw_per_second_rad;
+}
+
 SensorModel SensorOverrides::applied_to(SensorModel model) const {
   model.min_range_m = min_range_m.value_or(model.min_range_m);
   model.max_range_m = max_range_m.value_or(model.max_range_m);

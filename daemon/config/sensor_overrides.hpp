@@ -65,6 +65,9 @@ struct SensorOverrides {
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;
 
+  /// Sets the systematic errors of a calibrated model: age of the ranges, scales and missed yaw.
+  void take_calibration(const SensorModel& calibrated);
+
   /// The input's model with what is set here put in its place.
   [[nodiscard]] SensorModel applied_to(SensorModel model) const;
 };
