@@ -100,18 +100,16 @@ ScanRange RunRefinement::refine_window(const KeyframePoses& T_map_keyframe,
   return {};
 }
 
-/// The simplest last.
-std::vector<RunRefinement::Hypothesis> RunRefinement::hypotheses(
-    const PoseGraph& graph, const KeyframePoses& T_local_keyframe) const {
+RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const PoseGraph& graph,
+                                                    const KeyframePoses& T_local_keyframe) const {
   const ScanRange all{scans_->all().first_id(), scans_->all().end_id()};
-  std::vector<Hypothesis> found(3);
-  found[0] = {MapSource::kPoseGraph, chain_->T_w_bodies(all, graph.T_map_keyframe), {}};
-  const Pose2 T_map_first = found[0].T_map_body.front();
-  found[1] = {MapSource::kFrontend, from(T_map_first, chain_->T_w_bodies(all, T_local_keyframe)), {}};
-  found[2] = {MapSource::kDeadReckoning,
-              from(T_map_first, reported_path(scans_->all().values(), sensor_.odometry_calibration)),
-              {}};
-  return found;
+  std::vector<Pose2> T_map_body = chain_->T_w_bodies(all, graph.T_map_keyframe);
+  const Pose2 T_map_first = T_map_body.front();
+  if (source == MapSource::kFrontend)
+    T_map_body = from(T_map_first, chain_->T_w_bodies(all, T_local_keyframe));
+  if (source == MapSource::kDeadReckoning)
+    T_map_body = from(T_map_first, reported_path(scans_->all().values(), sensor_.odometry_calibration));
+  return {source, std::move(T_map_body), {}};
 }
 
 /// The odometry is left as reported unless that is significantly worse.
@@ -158,9 +156,13 @@ bool RunRefinement::is_likelier(const Hypothesis& hypothesis, const Hypothesis& 
 bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
   if (!is_wanted() || scans_->size() < 2) return false;
   std::optional<Hypothesis> best;
-  for (Hypothesis& simpler : hypotheses(graph, T_local_keyframe)) {
-    if (!try_refine(simpler, graph)) continue;
-    if (!best || !is_likelier(*best, simpler)) best = std::move(simpler);
+  Hypothesis simplest = hypothesis(MapSource::kDeadReckoning, graph, T_local_keyframe);
+  if (try_refine(simplest, graph)) best = std::move(simplest);
+  for (const MapSource source : {MapSource::kPoseGraph, MapSource::kFrontend}) {
+    Hypothesis correction = hypothesis(source, graph, T_local_keyframe);
+    if (!try_refine(correction, graph) || (best && !is_likelier(correction, *best))) continue;
+    best = std::move(correction);
+    break;
   }
   if (!best) return false;
   counters_.held_out_before_m = best->report.held_out_before_m;

@@ -43,8 +43,8 @@ class RunRefinement {
   /// After each keyframe: refines one window. Returns what has moved.
   ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
   /// Gives every scan a pose of its own, for good. True: poses have moved. The graph's path is held against
-  /// that of the frontend alone and that of dead reckoning alone, each refined in the same way: the simpler
-  /// one is the map unless the ranges pay for how far the other departs from it.
+  /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way. Dead
+  /// reckoning is the map unless the ranges pay for how far a correction departs from it.
   bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
@@ -64,8 +64,8 @@ class RunRefinement {
     std::vector<Pose2> T_map_body;
     RefinementReport report;
   };
-  [[nodiscard]] std::vector<Hypothesis> hypotheses(const PoseGraph& graph,
-                                                   const KeyframePoses& T_local_keyframe) const;
+  [[nodiscard]] Hypothesis hypothesis(MapSource source, const PoseGraph& graph,
+                                      const KeyframePoses& T_local_keyframe) const;
   bool try_refine(Hypothesis& hypothesis, const PoseGraph& graph);
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
 
