@@ -151,9 +151,11 @@ Json json_of(const FlightResult& flight) {
 std::string evaluation_text(const Evaluation& evaluation) {
   std::string text = fmt::format("{}: {} poses over {:.1f} s\n", evaluation.trajectory_file, evaluation.poses,
                                  to_seconds(evaluation.last_stamp - evaluation.first_stamp));
-  for (const ReferenceResult& reference : evaluation.references)
-    text += "\n" + std::visit([&](const auto& figures) { return text_of(reference.file, figures); },
-                              reference.figures);
+  for (const ReferenceResult& reference : evaluation.references) {
+    const auto print = [&](const auto& figures) { return text_of(reference.file, figures); };
+    text += '\n';
+    text += std::visit(print, reference.figures);
+  }
   return text;
 }
 
