@@ -10,7 +10,7 @@ thread_local swiftlet::test::HeapCalls calls;  // plain numbers: needs no constr
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef SWIFTLET_SANITIZED
 // NOLINTBEGIN(readability-identifier-naming,bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(std::size_t size);
@@ -65,7 +65,7 @@ void free(void* memory) {
 namespace swiftlet::test {
 
 bool counts_allocations() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SWIFTLET_SANITIZED
   return false;
 #else
   return true;

@@ -215,8 +215,8 @@ TEST(LinkSampleSource, StartsTheLogOfALiveVehicle) {
   input.name = "sim://test";
   input.link = std::move(link);
   input.starts_logging = true;
-  input.truth.emplace([](DeviceTime at) { return Pose2(to_seconds(at.time_since_epoch()), 0.0, 0.0); },
-                      std::move(PoseFile::open()).value());
+  input.truth = KnownTruth{[](DeviceTime at) { return Pose2(to_seconds(at.time_since_epoch()), 0.0, 0.0); },
+                           std::move(PoseFile::open()).value()};
   LinkSampleSource source(std::move(input));
   const std::vector<RangeSample> samples = read_all(source);
   ASSERT_GT(samples.size(), 40U);
