@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/backend/store/scan_store.hpp"
@@ -19,7 +20,7 @@ inline constexpr std::uint32_t kKeyframesPerTraversal = 3;
 [[nodiscard]] inline TraversalId traversal_of(const StoredScan& scan) { return traversal_of(scan.keyframe); }
 
 [[nodiscard]] inline IdRange<KeyframeId> keyframes_of(TraversalId traversal) {
-  const auto first = make_id<KeyframeId>(index_of(traversal) * kKeyframesPerTraversal);
+  const auto first = make_id<KeyframeId>(std::size_t{index_of(traversal)} * kKeyframesPerTraversal);
   return {first, first + kKeyframesPerTraversal};
 }
 
