@@ -16,6 +16,7 @@
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/sample/sign_mending_source.hpp"
 #include "tools/calibrate_command.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -41,7 +42,9 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.max_range_m = config.sensor.max_range_m;
   options.min_range_m = config.sensor.min_range_m;
   if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
-  return open_sample_source(command.input, options);
+  Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
+  if (!source || (*source)->is_live() || command.odometry_only) return source;
+  return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
 }
 
 /// Estimates the systematic errors of the input from all of it, and sets what matters.
@@ -150,6 +153,7 @@ Status run_map_command(const MapCommand& command) {
                     .truth = source.ground_truth(),
                     .input_uri = command.input,
                     .sensor = config->sensor.applied_to(source.sensor()),
+                    .mended = source.mended(),
                     .pruned = &*pruned,
                     .peak_memory_mb = peak_of_run_mb};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;

@@ -4,154 +4,193 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace swiftlet {
+namespace {
 
-LostSign::LostSign(const BeamLayout& beams, const LostSignTuning& tuning) : tuning_(tuning), beams_(beams) {
-  beam_step_ = (beams.count + tuning.max_beams - 1) / tuning.max_beams;
-  paths_.emplace_back();
-  paths_.emplace_back();
+Point2 operator+(const Point2& a, const Point2& b) { return {a.x_m + b.x_m, a.y_m + b.y_m}; }
+Point2 operator-(const Point2& a, const Point2& b) { return {a.x_m - b.x_m, a.y_m - b.y_m}; }
+Point2 operator*(double s, const Point2& p) { return {s * p.x_m, s * p.y_m}; }
+double length2(const Point2& p) { return p.x_m * p.x_m + p.y_m * p.y_m; }
+double length(const Point2& p) { return std::hypot(p.x_m, p.y_m); }
+
+/// Along the chord of an arc.
+double forward_m(const Pose2& motion) {
+  const double half_rad = motion.yaw_rad() / 2.0;
+  return std::cos(half_rad) * motion.x_m() + std::sin(half_rad) * motion.y_m();
 }
 
-const LostSign::Path& LostSign::best() const {
-  return *std::min_element(paths_.begin() + 1, paths_.end(),
-                           [](const Path& a, const Path& b) { return a.cost < b.cost; });
+}  // namespace
+
+Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp, const Pose2& T_mended) {
+  const auto after = std::upper_bound(mended.begin(), mended.end(), stamp,
+                                      [](HostTime at, const MendedPositions& m) { return at < m.since; });
+  if (after == mended.begin()) return T_mended;
+  const MendedPositions& m = *std::prev(after);
+  const Point2 p = m.sign * (T_mended.position() - m.offset);
+  return {p.x_m, p.y_m, T_mended.yaw_rad()};
 }
-double LostSign::evidence() const { return paths_[0].cost - best().cost; }
+
+LostSign::LostSign(const BeamLayout& beams, const LostSignTuning& tuning)
+    : tuning_(tuning), beam_step_((beams.count + tuning.max_beams - 1) / tuning.max_beams) {
+  for (std::size_t i = 0; i < beams.count; ++i)
+    direction_[i] = {std::cos(beams.bearing_rad[i]), std::sin(beams.bearing_rad[i])};
+}
 
 void LostSign::add(const RangeSample& sample) {
-  if (!refuted_) step(sample);
-  last_ = sample;
+  if (!refuted_) follow(sample);
+  newest_ = sample;
   held_.push_back(sample);
-  ++next_;
+  ++added_;
 }
 
-void LostSign::step(const RangeSample& sample) {
-  if (!last_ || sample.starts_segment) {
-    scans_.clear();
-    for (Path& p : paths_) p.offsets.clear();
-    speed_before_ = speed_ = 0;
-    score(sample);
-    return;
-  }
-  const Pose2 m = between(last_->T_odom_body, sample.T_odom_body);
-  const double half = m.yaw_rad() / 2;
-  if (m.x_m() * std::cos(half) + m.y_m() * std::sin(half) < -tuning_.backward_step_m) {
+void LostSign::follow(const RangeSample& sample) {
+  if (!newest_ || sample.starts_segment) return begin_segment(sample);
+  const Pose2 motion = between(newest_->T_odom_body, sample.T_odom_body);
+  if (forward_m(motion) < -tuning_.backward_step_m) {
     refuted_ = true;
     return;
   }
-  const double dt = to_seconds(sample.measured_at - last_->measured_at);
-  const double way = std::hypot(m.x_m(), m.y_m());
-  const double speed = way / std::max(dt, 1e-3);
-  if (speed_ < tuning_.standstill_m_per_s && speed_ < speed_before_ && speed_ <= speed &&
-      path_m_ - dip_at_m_ >= tuning_.dip_travel_m) {
-    dip_at_m_ = path_m_;
-    branch();
-  }
-  speed_before_ = speed_;
-  speed_ = speed;
-  path_m_ += way;
-  const Point2 d{sample.T_odom_body.x_m() - last_->T_odom_body.x_m(),
-                 sample.T_odom_body.y_m() - last_->T_odom_body.y_m()};
-  for (Path& p : paths_)
-    if (p.reversed) p.offset = {p.offset.x_m - 2 * d.x_m, p.offset.y_m - 2 * d.y_m};
-  const Scan& before = scans_.back();
-  const Pose2 since = between(before.T, sample.T_odom_body);
-  if (path_m_ - before.path_m >= tuning_.scan_spacing_m ||
-      std::abs(since.yaw_rad()) >= tuning_.scan_spacing_rad) {
-    score(sample);
-    prune();
-  }
+  const Point2 step = sample.T_odom_body.position() - newest_->T_odom_body.position();
+  const double duration_s = to_seconds(sample.measured_at - newest_->measured_at);
+  if (duration_s > 0.0) on_speed(length(step) / duration_s);
+  path_m_ += length(step);
+  for (Path& path : paths_)
+    if (path.reversed) path.offset = path.offset - 2.0 * step;
+  const Scan& last = scans_.back();
+  if (path_m_ - last.path_m >= tuning_.scan_spacing_m ||
+      std::abs(wrap_angle(sample.T_odom_body.yaw_rad() - last.yaw_rad)) >= tuning_.scan_spacing_rad)
+    judge(sample);
+}
+
+/// What was seen before does not lie in this frame.
+void LostSign::begin_segment(const RangeSample& sample) {
+  scans_.clear();
+  reported_.scan_offsets.clear();
+  for (Path& path : paths_) path.scan_offsets.clear();
+  speed_m_per_s_ = speed_before_m_per_s_ = 0.0;
+  judge(sample);
+}
+
+/// Past the slowest sample of a standstill the sign may have changed.
+void LostSign::on_speed(double speed_m_per_s) {
+  const bool stood = speed_m_per_s_ < tuning_.standstill_m_per_s && speed_m_per_s_ < speed_before_m_per_s_ &&
+                     speed_m_per_s_ <= speed_m_per_s;
+  speed_before_m_per_s_ = std::exchange(speed_m_per_s_, speed_m_per_s);
+  if (!stood || path_m_ - standstill_at_m_ < tuning_.standstill_spacing_m) return;
+  standstill_at_m_ = path_m_;
+  branch();
 }
 
 void LostSign::branch() {
-  const std::size_t n = paths_.size();
-  for (std::size_t i = 1; i < n; ++i) {
+  const std::size_t count = paths_.size();
+  for (std::size_t i = 0; i < count; ++i) {
     Path other = paths_[i];
     other.reversed = !other.reversed;
-    other.cost += other.reversed ? tuning_.to_reverse : tuning_.to_forward;
-    other.switched_at_m = path_m_;
-    other.switches.push_back(next_);
+    other.cost += other.reversed ? tuning_.begin_cost : tuning_.end_cost;
+    other.changed_at_m = path_m_;
+    other.changes.push_back(added_);
     paths_.push_back(std::move(other));
   }
 }
 
-void LostSign::score(const RangeSample& sample) {
-  Scan scan{path_m_, sample.T_odom_body, {}};
-  for (std::size_t b = 0; b < sample.beam_count; b += beam_step_) {
-    if (sample.status[b] != RangeStatus::kHit) continue;
-    const double r = sample.distance_m[b];
-    scan.hits.push_back(sample.T_odom_body *
-                        Point2{r * std::cos(beams_.bearing_rad[b]), r * std::sin(beams_.bearing_rad[b])});
-  }
+void LostSign::judge(const RangeSample& sample) {
   while (!scans_.empty() && scans_.front().path_m < path_m_ - tuning_.memory_m) {
     scans_.pop_front();
-    for (Path& p : paths_) p.offsets.pop_front();
+    reported_.scan_offsets.pop_front();
+    for (Path& path : paths_) path.scan_offsets.pop_front();
   }
-  const double cap2 = tuning_.cap * 2 * tuning_.sigma_m * tuning_.sigma_m;
-  for (Path& p : paths_) {
-    double sum = 0;
-    for (const Point2& h : scan.hits) {
-      double nearest = cap2;
-      for (std::size_t j = 0; j < scans_.size(); ++j) {
-        const double x = h.x_m + p.offset.x_m - p.offsets[j].x_m;
-        const double y = h.y_m + p.offset.y_m - p.offsets[j].y_m;
-        for (const Point2& g : scans_[j].hits)
-          nearest = std::min(nearest, (x - g.x_m) * (x - g.x_m) + (y - g.y_m) * (y - g.y_m));
-      }
-      sum += nearest / (2 * tuning_.sigma_m * tuning_.sigma_m);
-    }
-    p.cost += tuning_.weight * sum;
-    p.offsets.push_back(p.offset);
-  }
+  Scan scan = scan_of(sample);
+  const auto take_into = [&](Path& path) {
+    path.cost += cost_of(scan, path);
+    path.scan_offsets.push_back(path.offset);
+  };
+  take_into(reported_);
+  for (Path& path : paths_) take_into(path);
   scans_.push_back(std::move(scan));
+  prune();
 }
 
+LostSign::Scan LostSign::scan_of(const RangeSample& sample) const {
+  Scan scan{path_m_, sample.T_odom_body.yaw_rad(), {}};
+  for (std::size_t i = 0; i < sample.beam_count; i += beam_step_)
+    if (sample.status[i] == RangeStatus::kHit)
+      scan.hits_odom.push_back(sample.T_odom_body * (double{sample.distance_m[i]} * direction_[i]));
+  return scan;
+}
+
+double LostSign::cost_of(const Scan& scan, const Path& path) const {
+  const double variance2 = 2.0 * tuning_.sigma_m * tuning_.sigma_m;
+  double sum = 0.0;
+  for (const Point2& hit : scan.hits_odom) {
+    double nearest2 = tuning_.outlier_cost * variance2;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      const Point2 moved = hit + (path.offset - path.scan_offsets[i]);
+      for (const Point2& earlier : scans_[i].hits_odom)
+        nearest2 = std::min(nearest2, length2(moved - earlier));
+    }
+    sum += nearest2 / variance2;
+  }
+  return sum;
+}
+
+/// Paths with the same signs within memory have the same future: the best of them is kept (Viterbi 1967).
 void LostSign::prune() {
-  std::sort(paths_.begin() + 1, paths_.end(), [](const Path& a, const Path& b) { return a.cost < b.cost; });
+  std::sort(paths_.begin(), paths_.end(), [](const Path& a, const Path& b) { return a.cost < b.cost; });
+  std::array<bool, 2> settled{};
   std::vector<Path> kept;
-  kept.push_back(std::move(paths_[0]));
-  for (std::size_t i = 1; i < paths_.size() && kept.size() <= tuning_.max_paths; ++i) {
-    Path& p = paths_[i];
-    const bool settled = p.switched_at_m < path_m_ - tuning_.memory_m;
-    const bool known = settled && std::any_of(kept.begin() + 1, kept.end(), [&](const Path& k) {
-                         return k.reversed == p.reversed && k.switched_at_m < path_m_ - tuning_.memory_m;
-                       });
-    if (!known) kept.push_back(std::move(p));
+  for (Path& path : paths_) {
+    if (kept.size() == tuning_.max_paths) break;
+    const bool is_settled = path.changed_at_m < path_m_ - tuning_.memory_m || path.changes.empty();
+    if (is_settled && std::exchange(settled[path.reversed ? 1 : 0], true)) continue;
+    kept.push_back(std::move(path));
   }
   paths_ = std::move(kept);
 }
 
-void LostSign::end() { ended_ = true; }
+const LostSign::Path& LostSign::best() const {
+  return *std::min_element(paths_.begin(), paths_.end(),
+                           [](const Path& a, const Path& b) { return a.cost < b.cost; });
+}
+
+double LostSign::evidence() const {
+  const Path& path = best();
+  const auto stretches = static_cast<double>((path.changes.size() + 1) / 2);
+  return reported_.cost - path.cost - stretches * tuning_.stretch_doubt;
+}
 
 std::optional<RangeSample> LostSign::take() {
   if (held_.empty() || (!ended_ && !refuted_ && held_.size() <= tuning_.look_ahead)) return std::nullopt;
-  RangeSample s = held_.front();
+  RangeSample sample = held_.front();
   held_.pop_front();
-  RangeSample out = mend(s);
-  ++first_held_;
-  return out;
+  mend(sample, !sample.starts_segment && is_reversed(taken_));
+  ++taken_;
+  return sample;
 }
 
-RangeSample LostSign::mend(RangeSample s) {
-  const Path& b = best();
-  bool reversed = false;
-  if (!refuted_ && evidence() > tuning_.evidence) {
-    const auto n = std::upper_bound(b.switches.begin(), b.switches.end(), first_held_) - b.switches.begin();
-    reversed = n % 2 == 1;
+bool LostSign::is_reversed(std::uint64_t sample) const {
+  if (refuted_ || evidence() < tuning_.least_evidence) return false;
+  const std::vector<std::uint64_t>& changes = best().changes;
+  return (std::upper_bound(changes.begin(), changes.end(), sample) - changes.begin()) % 2 == 1;
+}
+
+void LostSign::mend(RangeSample& sample, bool reversed) {
+  const Pose2 T_odom_body = sample.T_odom_body;
+  const double sign = reversed ? -1.0 : 1.0;
+  if (sign != (mended_.empty() ? 1.0 : mended_.back().sign)) {
+    // The step to this sample is the first with the other sign: positions are mirrored in the sample before.
+    const Point2 before = T_odom_taken_->position();
+    const Point2 before_mended =
+        mended_.empty() ? before : mended_.back().offset + mended_.back().sign * before;
+    mended_.push_back({sample.stamp, sign, before_mended - sign * before});
   }
-  const Pose2 T = s.T_odom_body;
-  if (reversed && T_out_before_ && !s.starts_segment) {
-    const Point2 d{T.x_m() - T_out_before_->x_m(), T.y_m() - T_out_before_->y_m()};
-    out_offset_ = {out_offset_.x_m - 2 * d.x_m, out_offset_.y_m - 2 * d.y_m};
-    report_.reversed_m += std::hypot(d.x_m, d.y_m);
-    if (!out_reversed_) ++report_.stretches;
-  }
-  out_reversed_ = reversed;
-  T_out_before_ = T;
-  if (out_offset_.x_m != 0 || out_offset_.y_m != 0)
-    s.T_odom_body = Pose2(T.x_m() + out_offset_.x_m, T.y_m() + out_offset_.y_m, T.yaw_rad());
-  return s;
+  if (reversed) reversed_m_ += length(T_odom_body.position() - T_odom_taken_->position());
+  T_odom_taken_ = T_odom_body;
+  if (mended_.empty()) return;
+  const Point2 p = mended_.back().offset + sign * T_odom_body.position();
+  sample.T_odom_body = Pose2(p.x_m, p.y_m, T_odom_body.yaw_rad());
 }
 
 }  // namespace swiftlet

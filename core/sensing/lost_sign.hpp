@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
@@ -14,78 +16,115 @@
 
 namespace swiftlet {
 
+/// Costs are negative log-likelihoods (nats).
 struct LostSignTuning {
-  double backward_step_m = 0.001;
-  double standstill_m_per_s = 0.3;
-  double dip_travel_m = 0.02;
-  double scan_spacing_m = 0.05;
-  double scan_spacing_rad = 0.1;
-  double memory_m = 3.0;
-  std::size_t max_beams = 16;
-  double sigma_m = 0.1;
-  double cap = 2.0;
-  double weight = 1.0;
-  double to_reverse = 5.0;
-  double to_forward = 2.0;
-  double evidence = 30.0;
-  std::size_t max_paths = 16;
-  std::size_t look_ahead = 4096;
+  double backward_step_m = 0.001;      ///< a longer one shows that the odometry has signs: a log's resolution
+  double standstill_m_per_s = 0.3;     ///< the slowest sample at a turning point is slower: half a sample's
+                                       ///< period at 0.2 s, braked with 3 m/s^2
+  double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once: noise
+  double scan_spacing_m = 0.05;        ///< half of sigma_m: closer scans say the same again ...
+  double scan_spacing_rad = 0.1;       ///< ... unless they look elsewhere
+  double memory_m = 3.0;               ///< hits are compared with those of this way: a room's length
+  std::size_t max_beams = 16;          ///< of a scan, evenly chosen: time grows with their square
+  double sigma_m = 0.1;                ///< distance of a hit from the nearest earlier one: their spacing and
+                                       ///< the drift over memory_m
+  double outlier_cost = 2.0;           ///< of a hit at two sigma_m or more
+  double begin_cost = 5.0;             ///< for the way after a standstill to be reversed: one in 150 is
+  double end_cost = 2.0;               ///< for it to be forward again: one in 7
+  double stretch_doubt = 13.0;   ///< what a stretch gains where no sign is lost, since the ground driven over
+                                 ///< is known and the ground ahead is not; measured: up to 11
+  double least_evidence = 30.0;  ///< that this odometry loses signs, beyond the doubts
+  std::size_t max_paths = 16;    ///< hypotheses kept: four standstills within memory_m
+  std::size_t look_ahead = 4096;  ///< samples: 7 to 14 minutes, 1.6 MB
 };
 
-struct LostSignReport {
-  double reversed_m = 0.0;
-  std::size_t stretches = 0;
+/// Positions of samples stamped `since` and later, up to the next record: mended = offset + sign * reported.
+struct MendedPositions {
+  HostTime since{};
+  double sign = 1.0;
+  Point2 offset;
 };
+/// The reverse: the pose as the odometry reported it. `mended` in order of time; empty where nothing was.
+[[nodiscard]] Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp,
+                                const Pose2& T_mended);
 
+/// Mends odometry that reports reverse driving as forward (wheel counters without a direction, firmware that
+/// takes the absolute value): decides from the ranges, with look-ahead, over which stretches each step
+/// (x, y, yaw) has to become (-x, -y, yaw). A hidden Markov model with two states, which may change near a
+/// standstill only; each path through it has a map of its own (per-survivor processing, Raheli, Polydoros &
+/// Tzou 1995). "As reported" wins unless the whole run says that signs are lost; one backward step refutes
+/// it.
 class LostSign {
  public:
-  LostSign(const BeamLayout& beams, const LostSignTuning& tuning = {});
+  explicit LostSign(const BeamLayout& beams, const LostSignTuning& tuning = {});
+
+  /// Allocates.
   void add(const RangeSample& sample);
-  void end();
+  /// No sample follows: those held back can be taken.
+  void end() { ended_ = true; }
+  /// The next sample, in the order in which they were added; nullopt while it is held back.
   std::optional<RangeSample> take();
-  [[nodiscard]] const LostSignReport& report() const { return report_; }
-  double evidence() const;
+
+  /// The way that was taken as reversed, among the samples taken so far.
+  [[nodiscard]] double reversed_m() const { return reversed_m_; }
+  [[nodiscard]] const std::vector<MendedPositions>& mended() const { return mended_; }
+  /// For "signs are lost" against "as reported", so far (nats).
+  [[nodiscard]] double evidence() const;
 
  private:
   struct Scan {
-    double path_m;
-    Pose2 T;
-    std::vector<Point2> hits;
+    double path_m = 0.0;
+    double yaw_rad = 0.0;
+    std::vector<Point2> hits_odom;
   };
+  /// One hypothesis on the signs so far.
   struct Path {
     double cost = 0.0;
     bool reversed = false;
-    Point2 offset{};
-    double switched_at_m = -1e9;
-    std::deque<Point2> offsets;
-    std::vector<std::uint64_t> switches;  // sample numbers
+    double changed_at_m = 0.0;             ///< the way at its last change
+    Point2 offset;                         ///< mended less reported position, now ...
+    std::deque<Point2> scan_offsets;       ///< ... and at each scan in memory
+    std::vector<std::uint64_t> changes{};  ///< the samples from which on its sign differs from before
   };
-  LostSignTuning tuning_;
-  BeamLayout beams_;
-  std::size_t beam_step_ = 1;
-  bool refuted_ = false;
-  bool ended_ = false;
-  std::deque<RangeSample> held_;
-  std::uint64_t first_held_ = 0;
-  std::uint64_t next_ = 0;
-  std::optional<RangeSample> last_;
-  double speed_before_ = 0, speed_ = 0;
-  double path_m_ = 0;
-  double dip_at_m_ = -1;
-  std::deque<Scan> scans_;
-  std::vector<Path> paths_;  // [0]: as reported
-  // output
-  bool out_reversed_ = false;
-  Point2 out_offset_{};
-  std::optional<Pose2> T_out_before_;
-  LostSignReport report_;
 
-  void step(const RangeSample& sample);
+  LostSignTuning tuning_;
+  std::array<Point2, kMaxBeams> direction_{};
+  std::size_t beam_step_ = 1;
+
+  std::deque<RangeSample> held_;
+  std::uint64_t added_ = 0;
+  std::uint64_t taken_ = 0;
+  bool ended_ = false;
+  bool refuted_ = false;
+
+  // What is known of the motion.
+  std::optional<RangeSample> newest_;
+  double path_m_ = 0.0;
+  double speed_m_per_s_ = 0.0;
+  double speed_before_m_per_s_ = 0.0;
+  double standstill_at_m_ = 0.0;
+
+  // The hypotheses and what they are judged by.
+  std::deque<Scan> scans_;
+  Path reported_;
+  std::vector<Path> paths_{1};  // best first after each scan
+
+  // What was taken.
+  std::optional<Pose2> T_odom_taken_;
+  double reversed_m_ = 0.0;
+  std::vector<MendedPositions> mended_;
+
+  void follow(const RangeSample& sample);
+  void begin_segment(const RangeSample& sample);
+  void on_speed(double speed_m_per_s);
   void branch();
-  void score(const RangeSample& sample);
+  void judge(const RangeSample& sample);
+  [[nodiscard]] Scan scan_of(const RangeSample& sample) const;
+  [[nodiscard]] double cost_of(const Scan& scan, const Path& path) const;
   void prune();
-  RangeSample mend(RangeSample s);
-  const Path& best() const;
+  [[nodiscard]] const Path& best() const;
+  [[nodiscard]] bool is_reversed(std::uint64_t sample) const;
+  void mend(RangeSample& sample, bool reversed);
 };
 
 }  // namespace swiftlet

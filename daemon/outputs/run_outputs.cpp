@@ -33,11 +33,18 @@ Status write_picture(const std::filesystem::path& directory, const RunView& run)
   return write_file(directory / "map.png", *png);
 }
 
+Status for_each_scan(const RunView& run, const std::function<void(const TrajectoryPoint&)>& visit) {
+  return for_each_scan(run.backend, run.pruned, [&](TrajectoryPoint at) {
+    at.T_odom_body = as_reported(run.mended, at.stamp, at.T_odom_body);
+    visit(at);
+  });
+}
+
 /// A line at a time: hours of a patrol need not fit into memory.
 Status write_trajectory(const std::filesystem::path& path, const RunView& run, Pose2 TrajectoryPoint::*pose) {
   return write_file(path, [&](const FileSink& write) {
     std::string line;
-    return for_each_scan(run.backend, run.pruned, [&](const TrajectoryPoint& at) {
+    return for_each_scan(run, [&](const TrajectoryPoint& at) {
       line.clear();
       append_tum_line(line, at.stamp, at.*pose);
       write(line);
@@ -69,7 +76,7 @@ std::optional<RunError> run_error(const RunView& run) {
   std::vector<Point2> corrected;
   std::vector<Point2> known;
   auto truth = run.truth.begin();
-  const Status visited = for_each_scan(run.backend, run.pruned, [&](const TrajectoryPoint& at) {
+  const Status visited = for_each_scan(run, [&](const TrajectoryPoint& at) {
     while (truth != run.truth.end() && truth->stamp < at.stamp) ++truth;
     if (truth == run.truth.end() || truth->stamp != at.stamp) return;
     odometry.push_back(at.T_odom_body.position());

@@ -29,6 +29,7 @@ Json input_json(const RunView& run) {
           {"segments", counters.segments},
           {"beams",
            {{"hits", counters.hits}, {"no_returns", counters.no_returns}, {"invalid", counters.invalid}}},
+          {"reversed_m", input.reversed_m},
           {"notes", input.notes},
           {"problems", input.problems}};
 }

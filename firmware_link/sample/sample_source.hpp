@@ -9,6 +9,7 @@
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/stamped_pose.hpp"
+#include "core/sensing/lost_sign.hpp"
 #include "core/sensing/sensor_model.hpp"
 #include "firmware_link/link/frame_sink.hpp"
 #include "firmware_link/sample/input_counters.hpp"
@@ -23,6 +24,7 @@ struct InputReport {
   InputCounters counters;
   std::vector<std::string> notes;     ///< remarks (e.g. layout taken from a side file)
   std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
+  double reversed_m = 0.0;  ///< way that the odometry reported as forward, taken as driven in reverse
 };
 
 /// A source of range samples in time order: a link with its log session and assembler, or a laser log. One
@@ -53,6 +55,8 @@ class SampleSource {
   virtual void end() {}
   /// T_world_body at every sample delivered so far, stamped like the sample; empty if the truth is unknown.
   [[nodiscard]] virtual std::vector<StampedPose> ground_truth() const { return {}; }
+  /// Where the dead reckoning of the samples delivered so far is not as reported.
+  [[nodiscard]] virtual std::vector<MendedPositions> mended() const { return {}; }
 };
 
 struct SampleSourceOptions {
