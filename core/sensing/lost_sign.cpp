@@ -89,9 +89,9 @@ void LostSign::branch() {
   for (std::size_t i = 0; i < count; ++i) {
     Path other = paths_[i];
     other.reversed = !other.reversed;
+    other.changes.push_back({added_, reported_.cost - other.cost});
     other.cost += other.reversed ? tuning_.begin_cost : tuning_.end_cost;
     other.changed_at_m = path_m_;
-    other.changes.push_back(added_);
     paths_.push_back(std::move(other));
   }
 }
@@ -157,8 +157,13 @@ const LostSign::Path& LostSign::best() const {
 
 double LostSign::evidence() const {
   const Path& path = best();
-  const auto stretches = static_cast<double>((path.changes.size() + 1) / 2);
-  return reported_.cost - path.cost - stretches * tuning_.stretch_doubt;
+  double sum = 0.0;
+  for (std::size_t begin = 0; begin < path.changes.size(); begin += 2) {
+    const bool is_last = begin + 2 >= path.changes.size();
+    const double lead = is_last ? reported_.cost - path.cost : path.changes[begin + 2].lead_before;
+    sum += std::min(lead - path.changes[begin].lead_before, tuning_.most_gain) - tuning_.stretch_doubt;
+  }
+  return sum;
 }
 
 std::optional<RangeSample> LostSign::take() {
@@ -172,8 +177,10 @@ std::optional<RangeSample> LostSign::take() {
 
 bool LostSign::is_reversed(std::uint64_t sample) const {
   if (refuted_ || evidence() < tuning_.least_evidence) return false;
-  const std::vector<std::uint64_t>& changes = best().changes;
-  return (std::upper_bound(changes.begin(), changes.end(), sample) - changes.begin()) % 2 == 1;
+  const std::vector<Change>& changes = best().changes;
+  const auto after = std::upper_bound(changes.begin(), changes.end(), sample,
+                                      [](std::uint64_t at, const Change& c) { return at < c.sample; });
+  return (after - changes.begin()) % 2 == 1;
 }
 
 void LostSign::mend(RangeSample& sample, bool reversed) {

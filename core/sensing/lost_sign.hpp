@@ -16,26 +16,27 @@
 
 namespace swiftlet {
 
-/// Costs are negative log-likelihoods (nats).
+/// Costs, gains and evidence are negative log-likelihoods and their differences (nats).
 struct LostSignTuning {
   double backward_step_m = 0.001;      ///< a longer one shows that the odometry has signs: a log's resolution
-  double standstill_m_per_s = 0.3;     ///< the slowest sample at a turning point is slower: half a sample's
-                                       ///< period at 0.2 s, braked with 3 m/s^2
-  double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once: noise
-  double scan_spacing_m = 0.05;        ///< half of sigma_m: closer scans say the same again ...
+  double standstill_m_per_s = 0.3;     ///< the slower of the two steps beside a turning point is slower than
+                                       ///< this: 3 m/s^2 over half a period of 0.2 s
+  double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once
+  double scan_spacing_m = 0.05;        ///< half of sigma_m: scans closer together say the same again ...
   double scan_spacing_rad = 0.1;       ///< ... unless they look elsewhere
-  double memory_m = 3.0;               ///< hits are compared with those of this way: a room's length
-  std::size_t max_beams = 16;          ///< of a scan, evenly chosen: time grows with their square
-  double sigma_m = 0.1;                ///< distance of a hit from the nearest earlier one: their spacing and
-                                       ///< the drift over memory_m
-  double outlier_cost = 2.0;           ///< of a hit at two sigma_m or more
-  double begin_cost = 5.0;             ///< for the way after a standstill to be reversed: one in 150 is
-  double end_cost = 2.0;               ///< for it to be forward again: one in 7
-  double stretch_doubt = 13.0;   ///< what a stretch gains where no sign is lost, since the ground driven over
-                                 ///< is known and the ground ahead is not; measured: up to 11
-  double least_evidence = 30.0;  ///< that this odometry loses signs, beyond the doubts
-  std::size_t max_paths = 16;    ///< hypotheses kept: four standstills within memory_m
-  std::size_t look_ahead = 4096;  ///< samples: 7 to 14 minutes, 1.6 MB
+  double memory_m = 3.0;  ///< hits are compared with those of this way: one that drifts less than sigma_m
+  std::size_t max_beams = 16;  ///< of a scan, evenly chosen: the cost grows with their square
+  double sigma_m = 0.1;  ///< from a hit to the nearest earlier one: their spacing along a wall, and drift
+  double outlier_cost = 2.0;    ///< of a hit at two sigma_m or more
+  double begin_cost = 5.0;      ///< for a standstill to begin a stretch in reverse: one in 150 does
+  double end_cost = 2.0;        ///< for one to end it: one in 7 does
+  double stretch_doubt = 13.0;  ///< what a stretch must gain to speak for lost signs: hits fit the known
+                                ///< ground behind better than the unknown ahead; where no sign can be lost
+                                ///< (begun while driving fast) stretches gain 8 to 11 on average
+  double most_gain = 26.0;  ///< that counts of one stretch: twice the doubt, as one stretch may be a slip
+  double least_evidence = 30.0;   ///< beyond the doubts, so of three stretches at least
+  std::size_t max_paths = 16;     ///< hypotheses kept: four standstills within memory_m
+  std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
 };
 
 /// Positions of samples stamped `since` and later, up to the next record: mended = offset + sign * reported.
@@ -68,7 +69,7 @@ class LostSign {
   /// The way that was taken as reversed, among the samples taken so far.
   [[nodiscard]] double reversed_m() const { return reversed_m_; }
   [[nodiscard]] const std::vector<MendedPositions>& mended() const { return mended_; }
-  /// For "signs are lost" against "as reported", so far (nats).
+  /// For "signs are lost" against "as reported", so far.
   [[nodiscard]] double evidence() const;
 
  private:
@@ -77,14 +78,18 @@ class LostSign {
     double yaw_rad = 0.0;
     std::vector<Point2> hits_odom;
   };
+  struct Change {
+    std::uint64_t sample = 0;  ///< the first with the other sign
+    double lead_before = 0.0;  ///< by how much the path was better than "as reported"
+  };
   /// One hypothesis on the signs so far.
   struct Path {
     double cost = 0.0;
     bool reversed = false;
-    double changed_at_m = 0.0;             ///< the way at its last change
-    Point2 offset;                         ///< mended less reported position, now ...
-    std::deque<Point2> scan_offsets;       ///< ... and at each scan in memory
-    std::vector<std::uint64_t> changes{};  ///< the samples from which on its sign differs from before
+    double changed_at_m = 0.0;        ///< the way at its last change
+    Point2 offset;                    ///< mended less reported position, now ...
+    std::deque<Point2> scan_offsets;  ///< ... and at each scan in memory
+    std::vector<Change> changes{};    ///< begins and ends of stretches in reverse, in turn
   };
 
   LostSignTuning tuning_;
