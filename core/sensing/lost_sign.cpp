@@ -49,10 +49,8 @@ void LostSign::add(const RangeSample& sample) {
 void LostSign::follow(const RangeSample& sample) {
   if (!newest_ || sample.starts_segment) return begin_segment(sample);
   const Pose2 motion = between(newest_->T_odom_body, sample.T_odom_body);
-  if (forward_m(motion) < -tuning_.backward_step_m) {
-    refuted_ = true;
-    return;
-  }
+  on_direction(forward_m(motion));
+  if (refuted_) return;
   const Point2 step = sample.T_odom_body.position() - newest_->T_odom_body.position();
   const double duration_s = to_seconds(sample.measured_at - newest_->measured_at);
   if (duration_s > 0.0) on_speed(length(step) / duration_s);
@@ -63,6 +61,15 @@ void LostSign::follow(const RangeSample& sample) {
   if (path_m_ - last.path_m >= tuning_.scan_spacing_m ||
       std::abs(wrap_angle(sample.T_odom_body.yaw_rad() - last.yaw_rad)) >= tuning_.scan_spacing_rad)
     judge(sample);
+}
+
+void LostSign::on_direction(double forward_m) {
+  forward_m_ += forward_m;
+  least_forward_m_ = std::min(least_forward_m_, forward_m_);
+  most_forward_m_ = std::max(most_forward_m_, forward_m_);
+  went_forward_ = went_forward_ || forward_m_ - least_forward_m_ > tuning_.both_ways_m;
+  went_backward_ = went_backward_ || most_forward_m_ - forward_m_ > tuning_.both_ways_m;
+  refuted_ = went_forward_ && went_backward_;
 }
 
 /// What was seen before does not lie in this frame.

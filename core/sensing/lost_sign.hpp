@@ -18,7 +18,8 @@ namespace swiftlet {
 
 /// Costs, gains and evidence are negative log-likelihoods and their differences (nats).
 struct LostSignTuning {
-  double backward_step_m = 0.001;      ///< a longer one shows that the odometry has signs: a log's resolution
+  double both_ways_m = 0.05;  ///< driven forward and in reverse, as reported, shows that signs are reported:
+                              ///< one scan_spacing_m, beyond the noise of single steps
   double standstill_m_per_s = 0.3;     ///< the slower of the two steps beside a turning point is slower than
                                        ///< this: 3 m/s^2 over half a period of 0.2 s
   double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once
@@ -33,7 +34,7 @@ struct LostSignTuning {
   double stretch_doubt = 13.0;  ///< what a stretch must gain to speak for lost signs: hits fit the known
                                 ///< ground behind better than the unknown ahead; where no sign can be lost
                                 ///< (begun while driving fast) stretches gain 8 to 11 on average
-  double most_gain = 26.0;  ///< that counts of one stretch: twice the doubt, as one stretch may be a slip
+  double most_gain = 26.0;      ///< that counts of one stretch: twice the doubt, as one stretch may be a slip
   double least_evidence = 30.0;   ///< beyond the doubts, so of three stretches at least
   std::size_t max_paths = 16;     ///< hypotheses kept: four standstills within memory_m
   std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
@@ -49,12 +50,12 @@ struct MendedPositions {
 [[nodiscard]] Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp,
                                 const Pose2& T_mended);
 
-/// Mends odometry that reports reverse driving as forward (wheel counters without a direction, firmware that
-/// takes the absolute value): decides from the ranges, with look-ahead, over which stretches each step
-/// (x, y, yaw) has to become (-x, -y, yaw). A hidden Markov model with two states, which may change near a
+/// Mends odometry that reports every way as forward (wheel counters without a direction, firmware that takes
+/// the absolute value): decides from the ranges, with look-ahead, over which stretches each step (x, y, yaw)
+/// has to become (-x, -y, yaw). A hidden Markov model with two states, which may change near a
 /// standstill only; each path through it has a map of its own (per-survivor processing, Raheli, Polydoros &
-/// Tzou 1995). "As reported" wins unless the whole run says that signs are lost; one backward step refutes
-/// it.
+/// Tzou 1995). "As reported" wins unless the whole run says that signs are lost; odometry that goes both ways
+/// refutes it.
 class LostSign {
  public:
   explicit LostSign(const BeamLayout& beams, const LostSignTuning& tuning = {});
@@ -105,6 +106,11 @@ class LostSign {
   // What is known of the motion.
   std::optional<RangeSample> newest_;
   double path_m_ = 0.0;
+  double forward_m_ = 0.0;  ///< less what was reported as reverse: now, ...
+  double least_forward_m_ = 0.0;
+  double most_forward_m_ = 0.0;
+  bool went_forward_ = false;
+  bool went_backward_ = false;
   double speed_m_per_s_ = 0.0;
   double speed_before_m_per_s_ = 0.0;
   double standstill_at_m_ = 0.0;
@@ -120,6 +126,7 @@ class LostSign {
   std::vector<MendedPositions> mended_;
 
   void follow(const RangeSample& sample);
+  void on_direction(double forward_m);
   void begin_segment(const RangeSample& sample);
   void on_speed(double speed_m_per_s);
   void branch();
