@@ -33,8 +33,10 @@ Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp, const
   return {p.x_m, p.y_m, T_mended.yaw_rad()};
 }
 
-LostSign::LostSign(const BeamLayout& beams, const LostSignTuning& tuning)
-    : tuning_(tuning), beam_step_((beams.count + tuning.max_beams - 1) / tuning.max_beams) {
+LostSign::LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning)
+    : tuning_(tuning),
+      max_range_m_(sensor.max_range_m),
+      beam_step_((beams.count + tuning.max_beams - 1) / tuning.max_beams) {
   for (std::size_t i = 0; i < beams.count; ++i)
     direction_[i] = {std::cos(beams.bearing_rad[i]), std::sin(beams.bearing_rad[i])};
 }
@@ -96,8 +98,8 @@ void LostSign::branch() {
   for (std::size_t i = 0; i < count; ++i) {
     Path other = paths_[i];
     other.reversed = !other.reversed;
-    other.changes.push_back({added_, reported_.cost - other.cost});
-    other.cost += other.reversed ? tuning_.begin_cost : tuning_.end_cost;
+    other.changes.push_back({added_, reported_.cost.contradiction - other.cost.contradiction});
+    other.cost.misfit += other.reversed ? tuning_.begin_cost : tuning_.end_cost;
     other.changed_at_m = path_m_;
     paths_.push_back(std::move(other));
   }
@@ -121,31 +123,81 @@ void LostSign::judge(const RangeSample& sample) {
 }
 
 LostSign::Scan LostSign::scan_of(const RangeSample& sample) const {
-  Scan scan{path_m_, sample.T_odom_body.yaw_rad(), {}};
-  for (std::size_t i = 0; i < sample.beam_count; i += beam_step_)
-    if (sample.status[i] == RangeStatus::kHit)
-      scan.hits_odom.push_back(sample.T_odom_body * (double{sample.distance_m[i]} * direction_[i]));
+  const Pose2& T_odom_body = sample.T_odom_body;
+  Scan scan{path_m_, T_odom_body.yaw_rad(), {}};
+  for (std::size_t i = 0; i < sample.beam_count; i += beam_step_) {
+    const bool is_hit = sample.status[i] == RangeStatus::kHit;
+    Ray ray;
+    ray.status = sample.status[i];
+    ray.length_m = is_hit ? double{sample.distance_m[i]} : max_range_m_;
+    ray.from = T_odom_body.position();
+    ray.end = T_odom_body * (ray.length_m * direction_[i]);
+    ray.direction = (1.0 / ray.length_m) * (ray.end - ray.from);
+    if (is_hit) ray.jump_cost = jump_cost(scan.rays.size(), ray.length_m);
+    scan.rays.push_back(ray);
+  }
   return scan;
 }
 
-double LostSign::cost_of(const Scan& scan, const Path& path) const {
-  const double variance2 = 2.0 * tuning_.sigma_m * tuning_.sigma_m;
-  double sum = 0.0;
-  for (const Point2& hit : scan.hits_odom) {
-    double nearest2 = tuning_.outlier_cost * variance2;
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      const Point2 moved = hit + (path.offset - path.scan_offsets[i]);
-      for (const Point2& earlier : scans_[i].hits_odom)
-        nearest2 = std::min(nearest2, length2(moved - earlier));
-    }
-    sum += nearest2 / variance2;
-  }
+/// Ranges go on as they were or as they changed; whatever the vehicle does, this says nothing on its signs.
+double LostSign::jump_cost(std::size_t beam, double length_m) const {
+  const auto length_before = [&](std::size_t scans) -> std::optional<double> {
+    if (scans_.size() < scans) return std::nullopt;
+    const Ray& ray = scans_[scans_.size() - scans].rays[beam];
+    if (ray.status != RangeStatus::kHit) return std::nullopt;
+    return ray.length_m;
+  };
+  const std::optional<double> last_m = length_before(1);
+  if (!last_m) return tuning_.outlier_cost;
+  double jump_m = std::abs(length_m - *last_m);
+  if (const std::optional<double> second_m = length_before(2))
+    jump_m = std::min(jump_m, std::abs(length_m - 2.0 * *last_m + *second_m));
+  return std::min(tuning_.outlier_cost, jump_m * jump_m / (2.0 * tuning_.sigma_m * tuning_.sigma_m));
+}
+
+LostSign::Cost LostSign::cost_of(const Scan& scan, const Path& path) const {
+  Cost sum;
+  for (const Ray& ray : scan.rays)
+    if (ray.status != RangeStatus::kInvalid) sum += cost_of(ray, path);
+  if (!scan.rays.empty())
+    sum.contradiction *= std::min(1.0, tuning_.scan_weight / static_cast<double>(scan.rays.size()));
   return sum;
+}
+
+LostSign::Cost LostSign::cost_of(const Ray& ray, const Path& path) const {
+  const bool is_hit = ray.status == RangeStatus::kHit;
+  const double variance2 = 2.0 * tuning_.sigma_m * tuning_.sigma_m;
+  double nearest2 = tuning_.outlier_cost * variance2;
+  bool contradicts = false;
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    const Point2 moved = path.offset - path.scan_offsets[i];
+    const Point2 end = ray.end + moved;
+    for (const Ray& earlier : scans_[i].rays) {
+      if (earlier.status == RangeStatus::kInvalid) continue;
+      const bool was_hit = earlier.status == RangeStatus::kHit;
+      if (is_hit && was_hit) nearest2 = std::min(nearest2, length2(end - earlier.end));
+      if (contradicts) continue;
+      contradicts =
+          (is_hit && passes_through(earlier, end)) || (was_hit && passes_through(ray, earlier.end - moved));
+    }
+  }
+  Cost cost;
+  if (is_hit) cost.misfit = nearest2 / variance2;
+  cost.contradiction = contradicts ? tuning_.outlier_cost : std::min(cost.misfit, ray.jump_cost);
+  return cost;
+}
+
+bool LostSign::passes_through(const Ray& ray, const Point2& hit) const {
+  const Point2 seen = hit - ray.from;
+  const double along_m = seen.x_m * ray.direction.x_m + seen.y_m * ray.direction.y_m;
+  const double across_m = seen.x_m * ray.direction.y_m - seen.y_m * ray.direction.x_m;
+  return std::abs(across_m) < tuning_.beside_m && along_m > 0.0 && along_m < ray.length_m - tuning_.before_m;
 }
 
 /// Paths with the same signs within memory have the same future: the best of them is kept (Viterbi 1967).
 void LostSign::prune() {
-  std::sort(paths_.begin(), paths_.end(), [](const Path& a, const Path& b) { return a.cost < b.cost; });
+  std::sort(paths_.begin(), paths_.end(),
+            [](const Path& a, const Path& b) { return a.cost.misfit < b.cost.misfit; });
   std::array<bool, 2> settled{};
   std::vector<Path> kept;
   for (Path& path : paths_) {
@@ -159,7 +211,7 @@ void LostSign::prune() {
 
 const LostSign::Path& LostSign::best() const {
   return *std::min_element(paths_.begin(), paths_.end(),
-                           [](const Path& a, const Path& b) { return a.cost < b.cost; });
+                           [](const Path& a, const Path& b) { return a.cost.misfit < b.cost.misfit; });
 }
 
 double LostSign::evidence() const {
@@ -167,7 +219,8 @@ double LostSign::evidence() const {
   double sum = 0.0;
   for (std::size_t begin = 0; begin < path.changes.size(); begin += 2) {
     const bool is_last = begin + 2 >= path.changes.size();
-    const double lead = is_last ? reported_.cost - path.cost : path.changes[begin + 2].lead_before;
+    const double lead = is_last ? reported_.cost.contradiction - path.cost.contradiction
+                                : path.changes[begin + 2].lead_before;
     sum += std::min(lead - path.changes[begin].lead_before, tuning_.most_gain) - tuning_.stretch_doubt;
   }
   return sum;

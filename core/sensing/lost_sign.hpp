@@ -16,27 +16,30 @@
 
 namespace swiftlet {
 
-/// Costs, gains and evidence are negative log-likelihoods and their differences (nats).
+/// Costs and gains are negative log-likelihoods and their differences (nats).
 struct LostSignTuning {
   double both_ways_m = 0.05;  ///< driven forward and in reverse, as reported, shows that signs are reported:
-                              ///< one scan_spacing_m, beyond the noise of single steps
+                              ///< beyond the noise of single steps
   double standstill_m_per_s = 0.3;     ///< the slower of the two steps beside a turning point is slower than
                                        ///< this: 3 m/s^2 over half a period of 0.2 s
   double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once
   double scan_spacing_m = 0.05;        ///< half of sigma_m: scans closer together say the same again ...
   double scan_spacing_rad = 0.1;       ///< ... unless they look elsewhere
-  double memory_m = 3.0;  ///< hits are compared with those of this way: one that drifts less than sigma_m
-  std::size_t max_beams = 16;  ///< of a scan, evenly chosen: the cost grows with their square
+  double memory_m = 3.0;       ///< a scan is compared with those of this way: dead reckoning drifts less than
+                               ///< sigma_m over it
+  std::size_t max_beams = 16;  ///< of a scan, evenly chosen: time grows with their square
   double sigma_m = 0.1;  ///< from a hit to the nearest earlier one: their spacing along a wall, and drift
-  double outlier_cost = 2.0;    ///< of a hit at two sigma_m or more
-  double begin_cost = 5.0;      ///< for a standstill to begin a stretch in reverse: one in 150 does
-  double end_cost = 2.0;        ///< for one to end it: one in 7 does
-  double stretch_doubt = 13.0;  ///< what a stretch must gain to speak for lost signs: hits fit the known
-                                ///< ground behind better than the unknown ahead; where no sign can be lost
-                                ///< (begun while driving fast) stretches gain 8 to 11 on average
-  double most_gain = 26.0;      ///< that counts of one stretch: twice the doubt, as one stretch may be a slip
-  double least_evidence = 30.0;   ///< beyond the doubts, so of three stretches at least
-  std::size_t max_paths = 16;     ///< hypotheses kept: four standstills within memory_m
+  double outlier_cost = 2.0;  ///< of a hit at two sigma_m or more, and of one that contradicts an earlier ray
+  double begin_cost = 5.0;    ///< for a standstill to begin a stretch with the other sign: one in 150 does
+  double end_cost = 2.0;      ///< for one to end it: one in 7 does
+  double beside_m = 0.05;     ///< a ray passes through all that lies nearer to it than half of sigma_m ...
+  double before_m = 0.3;      ///< ... and farther before its end than three sigma_m
+  double scan_weight = 4.0;   ///< rays of a scan err together: more than these don't add to the gain
+  double stretch_doubt = 10.0;   ///< what slips and lags gain without any lost sign: 9 per stretch at most on
+                                 ///< the laser logs, mostly less than nothing; lost signs gain 28 to 47
+  double most_gain = 30.0;       ///< that counts of one stretch ...
+  double least_evidence = 50.0;  ///< ... so that one or two are no evidence
+  std::size_t max_paths = 16;    ///< hypotheses kept: four standstills within memory_m
   std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
 };
 
@@ -54,11 +57,12 @@ struct MendedPositions {
 /// the absolute value): decides from the ranges, with look-ahead, over which stretches each step (x, y, yaw)
 /// has to become (-x, -y, yaw). A hidden Markov model with two states, which may change near a
 /// standstill only; each path through it has a map of its own (per-survivor processing, Raheli, Polydoros &
-/// Tzou 1995). "As reported" wins unless the whole run says that signs are lost; odometry that goes both ways
-/// refutes it.
+/// Tzou 1995). A path is chosen by how near its hits lie to earlier ones, and judged by something else, lest
+/// it is believed for having been chosen: by rays that pass through what others hit, and by ranges that jump.
+/// "As reported" wins unless the whole run says that signs are lost; odometry that goes both ways refutes it.
 class LostSign {
  public:
-  explicit LostSign(const BeamLayout& beams, const LostSignTuning& tuning = {});
+  LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning = {});
 
   /// Allocates.
   void add(const RangeSample& sample);
@@ -74,18 +78,36 @@ class LostSign {
   [[nodiscard]] double evidence() const;
 
  private:
+  /// One beam of a scan, in the odometry's frame.
+  struct Ray {
+    RangeStatus status = RangeStatus::kInvalid;
+    double length_m = 0.0;
+    Point2 from;
+    Point2 direction;
+    Point2 end;
+    double jump_cost = 0.0;  ///< of its range after those of the same beam before
+  };
   struct Scan {
     double path_m = 0.0;
     double yaw_rad = 0.0;
-    std::vector<Point2> hits_odom;
+    std::vector<Ray> rays;
+  };
+  struct Cost {
+    double misfit = 0.0;         ///< chooses
+    double contradiction = 0.0;  ///< judges
+    Cost& operator+=(const Cost& other) {
+      misfit += other.misfit;
+      contradiction += other.contradiction;
+      return *this;
+    }
   };
   struct Change {
     std::uint64_t sample = 0;  ///< the first with the other sign
-    double lead_before = 0.0;  ///< by how much the path was better than "as reported"
+    double lead_before = 0.0;  ///< by how much less the path contradicted itself than "as reported"
   };
   /// One hypothesis on the signs so far.
   struct Path {
-    double cost = 0.0;
+    Cost cost;
     bool reversed = false;
     double changed_at_m = 0.0;        ///< the way at its last change
     Point2 offset;                    ///< mended less reported position, now ...
@@ -94,6 +116,7 @@ class LostSign {
   };
 
   LostSignTuning tuning_;
+  double max_range_m_;
   std::array<Point2, kMaxBeams> direction_{};
   std::size_t beam_step_ = 1;
 
@@ -132,7 +155,10 @@ class LostSign {
   void branch();
   void judge(const RangeSample& sample);
   [[nodiscard]] Scan scan_of(const RangeSample& sample) const;
-  [[nodiscard]] double cost_of(const Scan& scan, const Path& path) const;
+  [[nodiscard]] double jump_cost(std::size_t beam, double length_m) const;
+  [[nodiscard]] Cost cost_of(const Scan& scan, const Path& path) const;
+  [[nodiscard]] Cost cost_of(const Ray& ray, const Path& path) const;
+  [[nodiscard]] bool passes_through(const Ray& ray, const Point2& hit) const;
   void prune();
   [[nodiscard]] const Path& best() const;
   [[nodiscard]] bool is_reversed(std::uint64_t sample) const;

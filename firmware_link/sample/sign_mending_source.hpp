@@ -17,7 +17,7 @@ namespace swiftlet {
 class SignMendingSource final : public SampleSource {
  public:
   explicit SignMendingSource(std::unique_ptr<SampleSource> recording)
-      : recording_(std::move(recording)), signs_(recording_->beams()) {}
+      : recording_(std::move(recording)), signs_(recording_->sensor(), recording_->beams()) {}
 
   [[nodiscard]] Result<ReceivedSample> next() override;
   [[nodiscard]] const BeamLayout& beams() const override { return recording_->beams(); }

@@ -21,7 +21,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr double kBlockM = 0.5;
-constexpr double kMaxRangeM = 5.0;
+const double kMaxRangeM = SensorModel::carmen_laser().max_range_m;
 
 /// Nine beams over the half circle in front.
 BeamLayout front_beams() {
@@ -135,7 +135,7 @@ struct Mending {
 };
 
 Mending mend(const std::vector<RangeSample>& samples, const LostSignTuning& tuning = {}) {
-  LostSign signs(front_beams(), tuning);
+  LostSign signs(SensorModel::carmen_laser(), front_beams(), tuning);
   Mending out;
   const auto take_all = [&] {
     while (const auto sample = signs.take()) out.samples.push_back(*sample);
@@ -225,7 +225,7 @@ TEST(LostSign, HoldsBackNoMoreThanItsLookAhead) {
   Drive drive(corridor_with_doors());
   drive.to_and_fro();
   const LostSignTuning tuning{.look_ahead = 50};
-  LostSign signs(front_beams(), tuning);
+  LostSign signs(SensorModel::carmen_laser(), front_beams(), tuning);
   std::size_t held = 0;
   for (const RangeSample& sample : drive.with_lost_signs()) {
     signs.add(sample);

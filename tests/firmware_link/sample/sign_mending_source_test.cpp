@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample/sign_mending_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "firmware_link/input/open_sample_source.hpp"
+#include "tests/support/reference_data.hpp"
+#include "tests/support/scripted_sample_source.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TEST(SignMendingSource, DeliversAllBeforeItSaysWhatEndedTheRecording) {
+  SignMendingSource source(std::make_unique<ScriptedSampleSource>(flight_in_square_room(100, 2.0, 1.0),
+                                                                  Error{ErrorCode::kDamaged, "torn off"}));
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const Result<ReceivedSample> received = source.next();
+    ASSERT_TRUE(received) << i;
+    EXPECT_EQ(received->sample.sequence, i);
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(source.next().error().message, "torn off");
+  source.end();
+  EXPECT_EQ(source.report().counters.samples, 100U);
+  EXPECT_TRUE(source.report().notes.empty());
+  EXPECT_TRUE(source.mended().empty());
+}
+
+TEST(SignMendingSource, ReportsTheWayTakenAsReversed) {
+  const std::string path = reference_file("radish/fr079.clf.gz");
+  SWIFTLET_REQUIRE_REFERENCE(path);
+  for (const int beams : {4, 11, 61}) {
+    auto log = open_sample_source(path, {.beam_count = beams});
+    ASSERT_TRUE(log);
+    SignMendingSource source(std::move(log).value());
+    while (source.next()) {
+    }
+    source.end();
+    EXPECT_NEAR(source.report().reversed_m, 10.9, 0.8) << beams;
+    EXPECT_THAT(source.report().notes, Contains(HasSubstr("taken as driven in reverse")));
+  }
+}
+
+TEST(SignMendingSource, LeavesOdometryWithSignsAlone) {
+  for (const char* name : {"radish/aces.clf.gz", "radish/fr-clinic.clf.gz"}) {
+    const std::string path = reference_file(name);
+    SWIFTLET_REQUIRE_REFERENCE(path);
+    for (const int beams : {4, 11}) {
+      auto log = open_sample_source(path, {.beam_count = beams});
+      ASSERT_TRUE(log);
+      SignMendingSource source(std::move(log).value());
+      while (source.next()) {
+      }
+      EXPECT_TRUE(source.mended().empty()) << name << ", " << beams << " beams";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
