@@ -39,7 +39,7 @@ struct LostSignTuning {
                                  ///< the laser logs, mostly less than nothing; lost signs gain 28 to 47
   double most_gain = 30.0;       ///< that counts of one stretch ...
   double least_evidence = 50.0;  ///< ... so that one or two are no evidence
-  std::size_t max_paths = 16;    ///< hypotheses kept: four standstills within memory_m
+  std::size_t max_paths = 8;     ///< hypotheses kept: three standstills within memory_m
   std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
 };
 

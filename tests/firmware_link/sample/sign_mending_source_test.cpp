@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "firmware_link/input/open_sample_source.hpp"
 #include "tests/support/reference_data.hpp"
@@ -17,6 +19,19 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+
+/// Plays all of a log, thinned to `beams`.
+std::unique_ptr<SignMendingSource> played(const std::string& path, int beams) {
+  SampleSourceOptions options;
+  options.beam_count = beams;
+  auto log = open_sample_source(path, options);
+  if (!log) return nullptr;
+  auto source = std::make_unique<SignMendingSource>(std::move(log).value());
+  while (source->next()) {
+  }
+  source->end();
+  return source;
+}
 
 TEST(SignMendingSource, DeliversAllBeforeItSaysWhatEndedTheRecording) {
   SignMendingSource source(std::make_unique<ScriptedSampleSource>(flight_in_square_room(100, 2.0, 1.0),
@@ -37,14 +52,10 @@ TEST(SignMendingSource, ReportsTheWayTakenAsReversed) {
   const std::string path = reference_file("radish/fr079.clf.gz");
   SWIFTLET_REQUIRE_REFERENCE(path);
   for (const int beams : {4, 11, 61}) {
-    auto log = open_sample_source(path, {.beam_count = beams});
-    ASSERT_TRUE(log);
-    SignMendingSource source(std::move(log).value());
-    while (source.next()) {
-    }
-    source.end();
-    EXPECT_NEAR(source.report().reversed_m, 10.9, 0.8) << beams;
-    EXPECT_THAT(source.report().notes, Contains(HasSubstr("taken as driven in reverse")));
+    const auto source = played(path, beams);
+    ASSERT_NE(source, nullptr);
+    EXPECT_NEAR(source->report().reversed_m, 10.9, 0.8) << beams;
+    EXPECT_THAT(source->report().notes, Contains(HasSubstr("taken as driven in reverse")));
   }
 }
 
@@ -53,12 +64,9 @@ TEST(SignMendingSource, LeavesOdometryWithSignsAlone) {
     const std::string path = reference_file(name);
     SWIFTLET_REQUIRE_REFERENCE(path);
     for (const int beams : {4, 11}) {
-      auto log = open_sample_source(path, {.beam_count = beams});
-      ASSERT_TRUE(log);
-      SignMendingSource source(std::move(log).value());
-      while (source.next()) {
-      }
-      EXPECT_TRUE(source.mended().empty()) << name << ", " << beams << " beams";
+      const auto source = played(path, beams);
+      ASSERT_NE(source, nullptr);
+      EXPECT_TRUE(source->mended().empty()) << name << ", " << beams << " beams";
     }
   }
 }
