@@ -57,13 +57,16 @@ Judged judge(const ScanStore& scans, const RefinementProblem& problem,
   const std::span<const StoredScan> stored = scans.all().values();
   const std::uint32_t first = index_of(traversal_of(stored.front()));
   const WallMap walls = problem.walls_at(T_map_body, tuning.radius_m);
-  Judged judged{problem.held_out_error_m(walls, T_map_body),
-                std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
+  Judged judged{0.0, std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
+  std::size_t count = 0;
   for (const RelativePoseFactor<PoseIndex>& f : motions)
     judged.misfit[index_of(traversal_of(stored[index_of(f.to)])) - first] += 0.5 * chi_square(f, T_map_body);
   problem.for_held_out(walls, T_map_body, [&](std::uint32_t traversal, double distance_m) {
     judged.misfit[traversal - first] += distance_m / tuning.wall_sigma_m;
+    judged.held_out_m += distance_m;
+    ++count;
   });
+  if (count > 0) judged.held_out_m /= static_cast<double>(count);
   return judged;
 }
 
