@@ -49,6 +49,12 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
 
 /// Estimates the systematic errors of the input from all of it, and sets what matters.
 Status calibrate_first(const MapCommand& command, const SensorModel& sensor, Configuration& config) {
+  const SensorOverrides& set = config.sensor;
+  if (set.range_age_s || set.odometry_forward_scale || set.odometry_sideways_scale ||
+      set.missed_yaw_per_metre_rad || set.missed_yaw_per_radian || set.missed_yaw_per_second_rad)
+    return Error{ErrorCode::kInvalidInput, command.config_file +
+                                               ": sets what --calibrate estimates (range_age_s, " +
+                                               "odometry scales or missed yaw); leave out one of the two"};
   const SignalWatcher signals;
   InputReport input;
   CalibrateCommand request;
@@ -56,7 +62,10 @@ Status calibrate_first(const MapCommand& command, const SensorModel& sensor, Con
   request.beams = command.beams;
   const Result<CalibrationReport> report = calibrate(request, signals.token(), input);
   if (!report) return report.error();
-  if (!report->check || report->check->is_worse()) return {};
+  if (!report->check || report->check->is_worse()) {
+    std::fprintf(stderr, "swiftlet: note: --calibrate found nothing that matters; sensors are as expected\n");
+    return {};
+  }
   const SensorModel found = calibrated(report->findings, sensor);
   config.sensor.take_calibration(found);
   std::fprintf(

@@ -197,6 +197,14 @@ TEST_F(SwiftletCommand, CalibratesFromASimulatedFlightAndMapsWithWhatItFound) {
   ASSERT_THAT(found, HasSubstr(setting));
   EXPECT_NEAR(std::stod(found.substr(found.find(setting) + setting.size())), 0.173, 0.02);
   EXPECT_EQ(run("map 'sim://office?seed=4' -o {}/out --config {}/found.toml").exit_code, 0);
+  const Outcome at_once = run("map 'sim://office?seed=4' -o {}/at_once --calibrate");
+  EXPECT_EQ(at_once.exit_code, 0);
+  const std::string age = "its ranges are ";
+  ASSERT_THAT(at_once.err, HasSubstr(age));
+  EXPECT_NEAR(std::stod(at_once.err.substr(at_once.err.find(age) + age.size())), 0.173, 0.02);
+  EXPECT_NE(text_of(file("at_once/trajectory.tum")), "");
+  EXPECT_THAT(run("map 'sim://office?seed=4' -o {}/none --calibrate --config {}/found.toml"),
+              refuses_with("sets what --calibrate estimates"));
   EXPECT_THAT(run("calibrate 'sim://office?seed=4' -o {}/found.toml"), refuses_with("is there already"));
   EXPECT_EQ(text_of(file("found.toml")), found);
 }
