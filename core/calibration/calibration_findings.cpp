@@ -13,18 +13,17 @@ using Verdict = CalibrationFinding::Verdict;
 
 /// The properties of a systematic error.
 struct Kind {
-  const char* setting;
   const char* meaning;
   const char* unit;
   double offset;  // of the setting from the error
 };
 constexpr std::array<Kind, kSystematicErrors> kKinds{{
-    {"range_age_s", "age of the ranges", "s", 0.0},
-    {"odometry_forward_scale", "metres moved per metre measured, forward", "", 1.0},
-    {"odometry_sideways_scale", "the same, sideways", "", 1.0},
-    {"missed_yaw_per_metre_rad", "yaw missed per metre forward", "rad/m", 0.0},
-    {"missed_yaw_per_radian", "share of each turn missed", "", 0.0},
-    {"missed_yaw_per_second_rad", "yaw missed per second", "rad/s", 0.0},
+    {"age of the ranges", "s", 0.0},
+    {"metres moved per metre measured, forward", "", 1.0},
+    {"the same, sideways", "", 1.0},
+    {"yaw missed per metre forward", "rad/m", 0.0},
+    {"share of each turn missed", "", 0.0},
+    {"yaw missed per second", "rad/s", 0.0},
 }};
 
 std::string number(const char* format, double value) {
@@ -33,32 +32,13 @@ std::string number(const char* format, double value) {
   return text.data();
 }
 
-double present_value(SystematicError error, const SensorModel& sensor) {
-  const OdometryCalibration& calibration = sensor.odometry_calibration;
-  switch (error) {
-    case SystematicError::kRangeAge:
-      return to_seconds(sensor.range_age);
-    case SystematicError::kForwardScale:
-      return calibration.forward_scale;
-    case SystematicError::kSidewaysScale:
-      return calibration.sideways_scale;
-    case SystematicError::kYawPerMetre:
-      return calibration.yaw_per_metre_rad;
-    case SystematicError::kYawPerRadian:
-      return calibration.yaw_per_radian;
-    case SystematicError::kYawPerSecond:
-      return calibration.yaw_per_second_rad;
-  }
-  return 0.0;
-}
-
 CalibrationFinding blank_finding(SystematicError error, const SensorModel& sensor) {
   const Kind& kind = kKinds[static_cast<std::size_t>(error)];
   CalibrationFinding finding;
-  finding.setting = kind.setting;
+  finding.setting = setting_of(error);
   finding.meaning = kind.meaning;
   finding.unit = kind.unit;
-  finding.present = present_value(error, sensor);
+  finding.present = value_in(sensor, error);
   return finding;
 }
 

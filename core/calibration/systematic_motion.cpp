@@ -3,7 +3,10 @@
 #include "core/calibration/systematic_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+
+#include "core/sensing/odometry_calibration.hpp"
 
 namespace swiftlet {
 namespace {
@@ -29,6 +32,35 @@ Pose2 moved(const Eigen::Vector3d& twist, double seconds) {
 
 }  // namespace
 
+const char* setting_of(SystematicError error) {
+  static constexpr std::array<const char*, kSystematicErrors> kSettings{"range_age_s",
+                                                                        "odometry_forward_scale",
+                                                                        "odometry_sideways_scale",
+                                                                        "missed_yaw_per_metre_rad",
+                                                                        "missed_yaw_per_radian",
+                                                                        "missed_yaw_per_second_rad"};
+  return kSettings[static_cast<std::size_t>(error)];
+}
+
+double value_in(const SensorModel& sensor, SystematicError error) {
+  const OdometryCalibration& calibration = sensor.odometry_calibration;
+  switch (error) {
+    case SystematicError::kRangeAge:
+      return to_seconds(sensor.range_age);
+    case SystematicError::kForwardScale:
+      return calibration.forward_scale;
+    case SystematicError::kSidewaysScale:
+      return calibration.sideways_scale;
+    case SystematicError::kYawPerMetre:
+      return calibration.yaw_per_metre_rad;
+    case SystematicError::kYawPerRadian:
+      return calibration.yaw_per_radian;
+    case SystematicError::kYawPerSecond:
+      return calibration.yaw_per_second_rad;
+  }
+  return 0.0;
+}
+
 double usual_interval_s(std::span<const CalibrationScan> scans) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < scans.size(); ++i) intervals.push_back(seconds_between(scans[i - 1], scans[i]));
@@ -40,35 +72,97 @@ double usual_interval_s(std::span<const CalibrationScan> scans) {
 
 SystematicMotion::SystematicMotion(std::span<const CalibrationScan> scans,
                                    const SystematicMotionTuning& tuning)
-    : scans_(scans), twists_(scans.size(), Eigen::Vector3d::Zero()) {
+    : scans_(scans),
+      is_usual_(scans.size(), false),
+      has_twist_(scans.size(), false),
+      twists_(scans.size(), Eigen::Vector3d::Zero()),
+      corrected_(scans.size()) {
   const double usual_s = usual_interval_s(scans);
-  const auto is_usual = [&](std::size_t i) {
+  for (std::size_t i = 1; i < scans.size(); ++i) {
     const double interval_s = seconds_between(scans[i - 1], scans[i]);
-    return !scans[i].starts_segment && interval_s > tuning.min_share * usual_s &&
-           interval_s < tuning.max_share * usual_s;
-  };
-  for (std::size_t i = 1; i + 1 < scans.size(); ++i) {
-    if (is_usual(i) && is_usual(i + 1)) twists_[i] = twist_between(scans[i - 1], scans[i], scans[i + 1]);
+    is_usual_[i] = !scans[i].starts_segment && interval_s > tuning.min_share * usual_s &&
+                   interval_s < tuning.max_share * usual_s;
   }
+  for (std::size_t i = 1; i + 1 < scans.size(); ++i) has_twist_[i] = is_usual_[i] && is_usual_[i + 1];
+  for (std::size_t i = 1; i + 1 < scans.size(); ++i)
+    if (has_twist_[i]) twists_[i] = twist_between(scans[i - 1], scans[i], scans[i + 1]);
+}
+
+bool SystematicMotion::shows_time_offset() const {
+  return 2 * static_cast<std::size_t>(std::count(has_twist_.begin(), has_twist_.end(), true)) >
+         has_twist_.size();
 }
 
 Pose2 SystematicMotion::measured(std::size_t i) const {
   return between(scans_[i - 1].T_odom_body, scans_[i].T_odom_body);
 }
 
-Pose2 SystematicMotion::predicted(std::size_t i, const Pose2& T_previous_this,
-                                  const SystematicErrors& errors) const {
-  if (measured(i).vector().isZero(0.0)) return T_previous_this;  // as in OdometryCalibration
-  const auto error = [&](SystematicError which) { return errors(index_of(which)); };
-  const double age_s = error(SystematicError::kRangeAge);
-  const Pose2 T_moved = moved(twists_[i - 1], age_s).inverse() * T_previous_this * moved(twists_[i], age_s);
-  const double forward_m = T_moved.x_m() / (1.0 + error(SystematicError::kForwardScale));
-  const double left_m = T_moved.y_m() / (1.0 + error(SystematicError::kSidewaysScale));
+SystematicMotion::Earlier SystematicMotion::earlier(std::size_t i, double seconds) const {
+  if (!has_twist_[i]) return {scans_[i].T_odom_body, Eigen::Vector3d::Zero()};
+  std::size_t low = i;  // the time lies between this scan and the next, or at it
+  double after_low_s = -seconds;
+  while (after_low_s < 0.0 && low > 0 && is_usual_[low]) {
+    after_low_s += seconds_between(scans_[low - 1], scans_[low]);
+    --low;
+  }
+  while (low + 1 < scans_.size() && is_usual_[low + 1] &&
+         after_low_s >= seconds_between(scans_[low], scans_[low + 1])) {
+    after_low_s -= seconds_between(scans_[low], scans_[low + 1]);
+    ++low;
+  }
+  Pose2 T_odom_body = scans_[i].T_odom_body;
+  Eigen::Vector3d twist = twists_[i];
+  if (after_low_s >= 0.0 && low + 1 < scans_.size() && is_usual_[low + 1]) {
+    const double share = after_low_s / seconds_between(scans_[low], scans_[low + 1]);
+    const Eigen::Vector3d step = measured(low + 1).vector();
+    T_odom_body = scans_[low].T_odom_body * Pose2(share * step(0), share * step(1), share * step(2));
+    twist = (1.0 - share) * twists_[low] + share * twists_[low + 1];
+  } else {
+    T_odom_body = T_odom_body * moved(twist, -seconds);
+  }
+  return {T_odom_body, jacobian_compose_second(T_odom_body) * twist};
+}
+
+CorrectedStep SystematicMotion::corrected(std::size_t i, const Earlier& before, const Earlier& here,
+                                          const SystematicErrors& errors) const {
+  const Pose2 T_before_odom = before.T_odom_body.inverse();
+  const Pose2 step = T_before_odom * here.T_odom_body;
+  CorrectedStep corrected{step, decltype(CorrectedStep::by_errors)::Zero()};
+  if (step.vector().isZero(0.0)) return corrected;  // as in OdometryCalibration
   const double elapsed_s = seconds_between(scans_[i - 1], scans_[i]);
-  const double missed_rad =
-      error(SystematicError::kYawPerMetre) * forward_m + error(SystematicError::kYawPerSecond) * elapsed_s;
-  const double turn_rad = (T_moved.yaw_rad() - missed_rad) / (1.0 + error(SystematicError::kYawPerRadian));
-  return {forward_m, left_m, turn_rad};
+  const auto error = [&](SystematicError which) { return errors(index_of(which)); };
+  const OdometryCalibration calibration{
+      1.0 + error(SystematicError::kForwardScale), 1.0 + error(SystematicError::kSidewaysScale),
+      error(SystematicError::kYawPerMetre), error(SystematicError::kYawPerRadian),
+      error(SystematicError::kYawPerSecond)};
+  corrected.T_previous_this = calibration.corrected(step, from_seconds(elapsed_s));
+  Eigen::Matrix3d by_step = Eigen::Matrix3d::Zero();
+  by_step.diagonal() << calibration.forward_scale, calibration.sideways_scale,
+      1.0 + calibration.yaw_per_radian;
+  by_step(2, 0) = calibration.yaw_per_metre_rad;
+  const Eigen::Vector3d step_by_time = jacobian_compose_first(T_before_odom, here.T_odom_body) *
+                                           (jacobian_inverse(before.T_odom_body) * before.by_time) +
+                                       jacobian_compose_second(T_before_odom) * here.by_time;
+  const auto by = [&](SystematicError which) { return corrected.by_errors.col(index_of(which)); };
+  by(SystematicError::kRangeAge) = -by_step * step_by_time;
+  by(SystematicError::kForwardScale)(0) = step.x_m();
+  by(SystematicError::kSidewaysScale)(1) = step.y_m();
+  by(SystematicError::kYawPerMetre)(2) = step.x_m();
+  by(SystematicError::kYawPerRadian)(2) = step.yaw_rad();
+  by(SystematicError::kYawPerSecond)(2) = elapsed_s;
+  return corrected;
+}
+
+std::span<const CorrectedStep> SystematicMotion::correct(const SystematicErrors& errors) {
+  const double age_s = errors(index_of(SystematicError::kRangeAge));
+  if (scans_.empty()) return corrected_;
+  Earlier before = earlier(0, age_s);
+  for (std::size_t i = 1; i < scans_.size(); ++i) {
+    const Earlier here = earlier(i, age_s);
+    corrected_[i] = corrected(i, before, here, errors);
+    before = here;
+  }
+  return corrected_;
 }
 
 }  // namespace swiftlet

@@ -25,6 +25,11 @@ inline constexpr std::size_t kSystematicErrors = 6;
 using SystematicErrors = Eigen::Matrix<double, kSystematicErrors, 1>;
 constexpr Eigen::Index index_of(SystematicError error) { return static_cast<Eigen::Index>(error); }
 
+/// Its setting in the section [sensor] of a configuration file.
+[[nodiscard]] const char* setting_of(SystematicError error);
+/// ... and the value of that in a sensor model.
+[[nodiscard]] double value_in(const SensorModel& sensor, SystematicError error);
+
 /// Whether the yaw comes from wheels, whose errors grow with travel; a gyro's grow with time.
 inline bool yaw_goes_with_travel(const OdometryNoise& noise) { return noise.drift_yaw_per_metre_rad > 0.0; }
 
@@ -37,9 +42,17 @@ struct SystematicMotionTuning {
   double max_share = 2.0;
 };
 
-/// Predicts the dead reckoning of the steps between neighbouring scans from its systematic errors. The time
-/// offset moves each scan along its twist, a central difference over its neighbours: so the noise of a step
-/// is in no derivative of that step and does not draw the estimate towards smoother odometry.
+/// A step of dead reckoning without its systematic errors, and its derivative with respect to them.
+struct CorrectedStep {
+  Pose2 T_previous_this;
+  Eigen::Matrix<double, 3, kSystematicErrors> by_errors;
+};
+
+/// Takes the systematic errors out of the steps between neighbouring scans. A time offset moves each scan
+/// along the dead reckoning; its derivative is a central difference over the neighbours: so the noise of a
+/// step is in no derivative of that step and does not draw the estimate towards smoother odometry. A scan
+/// moves by its own twist where the dead reckoning around that time is unknown, and not at all where the
+/// intervals around the scan are unusual.
 class SystematicMotion {
  public:
   /// Allocates here only. `scans` must outlive it.
@@ -48,17 +61,29 @@ class SystematicMotion {
 
   /// Whether the step from scan `i - 1` to scan `i` was measured; i >= 1.
   [[nodiscard]] bool is_known(std::size_t i) const { return !scans_[i].starts_segment; }
+  /// Whether a time offset would show: most scans are at usual intervals.
+  [[nodiscard]] bool shows_time_offset() const;
   /// The step from scan `i - 1` to scan `i` as measured; i >= 1.
   [[nodiscard]] Pose2 measured(std::size_t i) const;
-  /// The same step as it would be measured without noise if the vehicle truly moved by `T_previous_this`
-  /// from the time of one scan's ranges to that of the next one's. Where the dead reckoning did not move,
-  /// nothing counts as missed.
-  [[nodiscard]] Pose2 predicted(std::size_t i, const Pose2& T_previous_this,
-                                const SystematicErrors& errors) const;
+  /// The corrected steps to each scan (the first has none); valid until the next call. Where the dead
+  /// reckoning did not move, nothing counts as missed.
+  std::span<const CorrectedStep> correct(const SystematicErrors& errors);
 
  private:
+  /// A scan's dead reckoning as it was some time before the scan.
+  struct Earlier {
+    Pose2 T_odom_body;
+    Eigen::Vector3d by_time;  // its derivative with respect to that time, in the odometry's frame
+  };
+  [[nodiscard]] Earlier earlier(std::size_t i, double seconds) const;
+  [[nodiscard]] CorrectedStep corrected(std::size_t i, const Earlier& before, const Earlier& here,
+                                        const SystematicErrors& errors) const;
+
   std::span<const CalibrationScan> scans_;
+  std::vector<bool> is_usual_;           // the interval before each scan
+  std::vector<bool> has_twist_;          // each scan: the intervals around it are usual
   std::vector<Eigen::Vector3d> twists_;  // m/s, m/s, rad/s in the body frame; zero where unknown
+  std::vector<CorrectedStep> corrected_;
 };
 
 }  // namespace swiftlet

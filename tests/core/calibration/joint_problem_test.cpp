@@ -73,6 +73,20 @@ TEST(JointProblem, KnowsLittleWithoutWalls) {
   EXPECT_GT(estimate->sigma(index_of(SystematicError::kForwardScale)), 0.1);
 }
 
+TEST(JointProblem, FindsNoAgeWhereStampsComeInBunches) {
+  RoomFlight flight;
+  flight.age_s = 0.06;
+  FlownScans flown = fly(flight);
+  for (std::size_t i = 0; i < flown.scans.size(); ++i)
+    flown.scans[i].measured_at =
+        DeviceTime(from_seconds(0.3 * static_cast<double>(i / 3) + 0.001 * static_cast<double>(i % 3)));
+  const Result<JointEstimate> estimate =
+      estimate_jointly(flown.scans, SensorModel::crazyflie(), flown.T_map_body, go_on);
+  ASSERT_TRUE(estimate) << estimate.error().message;
+  EXPECT_NEAR(estimate->errors(index_of(SystematicError::kRangeAge)), 0.0, 1e-6);
+  EXPECT_GT(estimate->sigma(index_of(SystematicError::kRangeAge)), 0.1);
+}
+
 TEST(JointProblem, GivesTheSameTwice) {
   RoomFlight flight;
   flight.scans = 300;

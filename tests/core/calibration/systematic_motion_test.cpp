@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include "tests/core/calibration/room_flight.hpp"
 
 namespace swiftlet {
@@ -16,21 +21,29 @@ RoomFlight noiseless() {
   return flight;
 }
 
-/// Largest difference between measured and predicted steps, metres or radians.
-double largest_misprediction(const FlownScans& flown, double age_s, const SystematicErrors& errors) {
-  const SystematicMotion motion(flown.scans);
+constexpr double kPeriodS = 0.1;
+
+/// Largest difference between corrected and true steps, metres or radians.
+double largest_error(const FlownScans& flown, double age_s, const SystematicErrors& errors) {
+  SystematicMotion motion(flown.scans);
+  const std::span<const CorrectedStep> steps = motion.correct(errors);
   double largest = 0.0;
-  for (std::size_t i = 2; i + 1 < flown.scans.size(); ++i) {
-    const double period_s = 0.1;
-    const double t_s = static_cast<double>(i) * period_s;
-    const Pose2 moved = between(true_pose(t_s - period_s - age_s), true_pose(t_s - age_s));
-    const Eigen::Vector3d off = motion.predicted(i, moved, errors).vector() - motion.measured(i).vector();
+  for (std::size_t i = 8; i + 8 < flown.scans.size(); ++i) {
+    const double t_s = static_cast<double>(i) * kPeriodS;
+    const Pose2 moved = between(true_pose(t_s - kPeriodS - age_s), true_pose(t_s - age_s));
+    const Eigen::Vector3d off = steps[i].T_previous_this.vector() - moved.vector();
     largest = std::max(largest, off.cwiseAbs().maxCoeff());
   }
   return largest;
 }
 
-TEST(SystematicMotion, PredictsWhatIsMeasuredOfATrueMotion) {
+SystematicErrors aged(double seconds) {
+  SystematicErrors errors = SystematicErrors::Zero();
+  errors(index_of(SystematicError::kRangeAge)) = seconds;
+  return errors;
+}
+
+TEST(SystematicMotion, CorrectsWhatIsMeasuredToTheTrueMotion) {
   RoomFlight flight = noiseless();
   flight.calibration = {.forward_scale = 1.05,
                         .sideways_scale = 0.9,
@@ -39,27 +52,46 @@ TEST(SystematicMotion, PredictsWhatIsMeasuredOfATrueMotion) {
                         .yaw_per_second_rad = 0.004};
   SystematicErrors errors;
   errors << 0.0, 0.05, -0.1, 0.02, 0.03, 0.004;
-  EXPECT_LT(largest_misprediction(fly(flight), 0.0, errors), 1e-9);
-  EXPECT_GT(largest_misprediction(fly(flight), 0.0, SystematicErrors::Zero()), 1e-3);
+  EXPECT_LT(largest_error(fly(flight), 0.0, errors), 1e-9);
+  EXPECT_GT(largest_error(fly(flight), 0.0, SystematicErrors::Zero()), 1e-3);
 }
 
-TEST(SystematicMotion, ATimeOffsetMovesScansAlongTheirTwist) {
-  SystematicErrors errors = SystematicErrors::Zero();
-  errors(index_of(SystematicError::kRangeAge)) = 0.05;
+TEST(SystematicMotion, ATimeOffsetMovesScansAlongTheDeadReckoning) {
   const FlownScans flown = fly(noiseless());
-  const double without = largest_misprediction(flown, 0.05, SystematicErrors::Zero());
-  EXPECT_LT(largest_misprediction(flown, 0.05, errors), 0.1 * without);
+  for (const double age_s : {-0.25, -0.05, 0.05, 0.3}) {
+    const double without = largest_error(flown, age_s, SystematicErrors::Zero());
+    EXPECT_LT(largest_error(flown, age_s, aged(age_s)), 0.15 * without) << age_s;
+  }
+}
+
+TEST(SystematicMotion, KnowsHowItsStepsChangeWithTheErrors) {
+  RoomFlight flight = noiseless();
+  const FlownScans flown = fly(flight);
+  SystematicErrors errors;
+  errors << 0.13, 0.05, -0.1, 0.02, 0.03, 0.004;
+  SystematicMotion motion(flown.scans);
+  const std::vector<CorrectedStep> steps(motion.correct(errors).begin(), motion.correct(errors).end());
+  for (Eigen::Index k = 0; k < errors.size(); ++k) {
+    const double nudge = 1e-4;
+    SystematicMotion less(flown.scans);
+    SystematicMotion more(flown.scans);
+    const auto before = less.correct(errors - nudge * SystematicErrors::Unit(k));
+    const auto after = more.correct(errors + nudge * SystematicErrors::Unit(k));
+    for (std::size_t i = 8; i + 8 < steps.size(); ++i) {
+      const Eigen::Vector3d slope =
+          (after[i].T_previous_this.vector() - before[i].T_previous_this.vector()) / (2.0 * nudge);
+      // A chord's slope and the central difference differ by the noiseless path's bend.
+      EXPECT_LT((steps[i].by_errors.col(k) - slope).norm(), k == 0 ? 0.02 : 1e-6) << i << " by " << k;
+    }
+  }
 }
 
 TEST(SystematicMotion, StampsInBunchesMakeNoVelocity) {
-  RoomFlight flight = noiseless();
-  FlownScans flown = fly(flight);
+  FlownScans flown = fly(noiseless());
   flown.scans[50].measured_at = flown.scans[49].measured_at + from_seconds(0.0005);
-  const SystematicMotion motion(flown.scans);
-  SystematicErrors errors = SystematicErrors::Zero();
-  errors(index_of(SystematicError::kRangeAge)) = 0.05;
-  const Pose2 still;
-  EXPECT_LT(motion.predicted(50, still, errors).vector().norm(), 1e-12);
+  SystematicMotion motion(flown.scans);
+  const Pose2 step = motion.correct(aged(0.05))[50].T_previous_this;
+  EXPECT_LT((step.vector() - motion.measured(50).vector()).norm(), 1e-12);
 }
 
 TEST(SystematicMotion, AVehicleThatStandsMissesNothing) {
@@ -67,7 +99,8 @@ TEST(SystematicMotion, AVehicleThatStandsMissesNothing) {
   flown.scans[50].T_odom_body = flown.scans[49].T_odom_body;
   SystematicErrors errors = SystematicErrors::Zero();
   errors(index_of(SystematicError::kYawPerSecond)) = 0.1;
-  EXPECT_EQ(SystematicMotion(flown.scans).predicted(50, Pose2(), errors).vector(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(SystematicMotion(flown.scans).correct(errors)[50].T_previous_this.vector(),
+            Eigen::Vector3d::Zero());
 }
 
 TEST(UsualInterval, IsTheMiddleOne) {
