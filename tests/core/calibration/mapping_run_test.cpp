@@ -11,25 +11,6 @@
 namespace swiftlet {
 namespace {
 
-std::vector<RangeSample> samples_of(const RoomFlight& flight) {
-  std::vector<RangeSample> samples;
-  for (const CalibrationScan& scan : fly(flight).scans) {
-    RangeSample sample;
-    sample.sequence = static_cast<std::uint32_t>(samples.size());
-    sample.measured_at = scan.measured_at;
-    sample.T_odom_body = scan.T_odom_body;
-    sample.starts_segment = scan.starts_segment;
-    sample.beam_count = 4;
-    for (std::size_t beam = 0; beam < 4; ++beam) {
-      sample.distance_m[beam] =
-          static_cast<float>(std::hypot(scan.hits_body[beam].x_m, scan.hits_body[beam].y_m));
-      sample.status[beam] = RangeStatus::kHit;
-    }
-    samples.push_back(sample);
-  }
-  return samples;
-}
-
 TEST(MappingRun, GivesEverySampleAPose) {
   const std::vector<RangeSample> samples = samples_of({});
   const Result<MappingRun> run =

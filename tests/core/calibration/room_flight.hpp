@@ -6,12 +6,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "core/calibration/calibration_scan.hpp"
 #include "core/sensing/odometry_calibration.hpp"
+#include "core/sensing/range_sample.hpp"
 
 namespace swiftlet {
 
@@ -85,6 +87,26 @@ inline FlownScans fly(const RoomFlight& flight) {
     flown.T_map_body.push_back(here);
   }
   return flown;
+}
+
+/// The same scans as an input delivers them.
+inline std::vector<RangeSample> samples_of(const RoomFlight& flight) {
+  std::vector<RangeSample> samples;
+  for (const CalibrationScan& scan : fly(flight).scans) {
+    RangeSample sample;
+    sample.sequence = static_cast<std::uint32_t>(samples.size());
+    sample.measured_at = scan.measured_at;
+    sample.T_odom_body = scan.T_odom_body;
+    sample.starts_segment = scan.starts_segment;
+    sample.beam_count = 4;
+    for (std::size_t beam = 0; beam < 4; ++beam) {
+      sample.distance_m[beam] =
+          static_cast<float>(std::hypot(scan.hits_body[beam].x_m, scan.hits_body[beam].y_m));
+      sample.status[beam] = RangeStatus::kHit;
+    }
+    samples.push_back(sample);
+  }
+  return samples;
 }
 
 }  // namespace swiftlet
