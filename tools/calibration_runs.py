@@ -55,7 +55,7 @@ def fly(flight, program):
 
 def mapped(swiftlet, wanted, config, output):
     """Live and final trajectory, evaluated by the reference. Raises as said() does, or ValueError."""
-    arguments = [*wanted.arguments(), *([] if config is None else ["--config", str(config)])]
+    arguments = [*wanted.arguments(), "--no-calibrate", *([] if config is None else ["--config", str(config)])]
     whole_runs.run(swiftlet, arguments, output)
     reference = output / "ground_truth.tum" if wanted.log.reference is None else (
         mapped_runs.DATASETS / wanted.log.reference)

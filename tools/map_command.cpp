@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "core/calibration/calibration_findings.hpp"
 #include "daemon/config/configuration.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
-#include "daemon/system/signal_watcher.hpp"
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 #include "firmware_link/sample/sign_mending_source.hpp"
-#include "tools/calibrate_command.hpp"
+#include "tools/calibration/input_calibration.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace swiftlet {
@@ -47,34 +46,14 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
 }
 
-/// Estimates the systematic errors of the input from all of it, and sets what matters.
-Status calibrate_first(const MapCommand& command, const SensorModel& sensor, Configuration& config) {
-  const SensorOverrides& set = config.sensor;
-  if (set.range_age_s || set.odometry_forward_scale || set.odometry_sideways_scale ||
-      set.missed_yaw_per_metre_rad || set.missed_yaw_per_radian || set.missed_yaw_per_second_rad)
-    return Error{ErrorCode::kInvalidInput, command.config_file +
-                                               ": sets what --calibrate estimates (range_age_s, " +
-                                               "odometry scales or missed yaw); leave out one of the two"};
-  const SignalWatcher signals;
-  InputReport input;
-  CalibrateCommand request;
-  request.input = command.input;
-  request.beams = command.beams;
-  const Result<CalibrationReport> report = calibrate(request, signals.token(), input);
-  if (!report) return report.error();
-  if (!report->check || report->check->is_worse()) {
-    std::fprintf(stderr, "swiftlet: note: --calibrate found nothing that matters; sensors are as expected\n");
-    return {};
-  }
-  const SensorModel found = calibrated(report->findings, sensor);
-  config.sensor.take_calibration(found);
-  std::fprintf(
-      stderr,
-      "swiftlet: note: by this input itself its ranges are %.3f s old (%.3f s expected), and its odometry's "
-      "scale is %.3f forward, %.3f sideways\n",
-      to_seconds(found.range_age), to_seconds(sensor.range_age), found.odometry_calibration.forward_scale,
-      found.odometry_calibration.sideways_scale);
-  return {};
+/// Estimates the systematic errors of the input from all of it first, and sets those that the configuration
+/// leaves out.
+std::optional<InputCalibration> calibrate_first(SampleSource& source, Configuration& config) {
+  const Result<InputCalibration> calibration =
+      calibrate_by_itself(source, config.sensor.applied_to(source.sensor()));
+  if (!calibration) return std::nullopt;
+  config.sensor.take_calibration(calibration->found);
+  return *calibration;
 }
 
 /// To the end of the input. The report, with what ended the input before its time among the problems.
@@ -139,8 +118,9 @@ Status run_map_command(const MapCommand& command) {
   if (!config) return config.error();
   Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
   if (!opened) return opened.error();
-  if (command.calibrate) {
-    if (Status done = calibrate_first(command, (*opened)->sensor(), *config); !done) return done;
+  std::optional<InputCalibration> calibration;
+  if (command.calibrate && !command.odometry_only && !(*opened)->is_live()) {
+    calibration = calibrate_first(**opened, *config);
     opened = open_input(command, *config);
     if (!opened) return opened.error();
   }
@@ -151,7 +131,8 @@ Status run_map_command(const MapCommand& command) {
   if (!pruned) return pruned.error();
   Pipeline pipeline(*config, source);
   pipeline.keep_pruned(*pruned);
-  const InputReport report = run_to_end(pipeline, source);
+  InputReport report = run_to_end(pipeline, source);
+  if (calibration) report.notes.push_back(calibration_note(*calibration));
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
   const RunView run{.backend = pipeline.backend(),
@@ -162,6 +143,7 @@ Status run_map_command(const MapCommand& command) {
                     .truth = source.ground_truth(),
                     .input_uri = command.input,
                     .sensor = config->sensor.applied_to(source.sensor()),
+                    .calibration = calibration,
                     .mended = source.mended(),
                     .pruned = &*pruned,
                     .peak_memory_mb = peak_of_run_mb};

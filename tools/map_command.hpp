@@ -14,10 +14,9 @@ namespace swiftlet {
 struct MapCommand {
   std::string input;  ///< URI or plain path, see open_sample_source
   std::filesystem::path output_directory;
-  std::string config_file;   ///< empty: the defaults
-  std::optional<int> beams;  ///< laser logs: how many beams to keep
-  bool calibrate =
-      false;  ///< estimate age of the ranges and scale of the odometry first, and set what matters
+  std::string config_file;     ///< empty: the defaults
+  std::optional<int> beams;    ///< laser logs: how many beams to keep
+  bool calibrate = true;       ///< estimate age of the ranges and scales of the odometry first
   bool odometry_only = false;  ///< baseline: dead reckoning, nothing corrected
   bool frontend_only = false;  ///< baseline: walls, but no loop closures
 };

@@ -54,9 +54,9 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   map->add_option("--config", command.config_file, "TOML file with settings");
   map->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
       ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
-  map->add_flag(
-      "--calibrate", command.calibrate,
-      "Estimate age of the ranges and scale of the odometry from the input first; takes five times as long");
+  map->add_flag_callback(
+      "--no-calibrate", [&command] { command.calibrate = false; },
+      "Take the sensors as expected: do not estimate age of the ranges and scales of the odometry first");
   CLI::Option* odometry =
       map->add_flag("--odometry-only", command.odometry_only, "Correct nothing: a baseline");
   map->add_flag("--frontend-only", command.frontend_only, "Walls but no loop closures: a baseline")

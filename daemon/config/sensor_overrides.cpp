@@ -13,12 +13,13 @@ std::vector<std::string> SensorOverrides::validate() const {
 
 void SensorOverrides::take_calibration(const SensorModel& calibrated) {
   const OdometryCalibration& calibration = calibrated.odometry_calibration;
-  range_age_s = to_seconds(calibrated.range_age);
-  odometry_forward_scale = calibration.forward_scale;
-  odometry_sideways_scale = calibration.sideways_scale;
-  missed_yaw_per_metre_rad = calibration.yaw_per_metre_rad;
-  missed_yaw_per_radian = calibration.yaw_per_radian;
-  missed_yaw_per_second_rad = calibration.yaw_per_second_rad;
+  const auto take = [](double value, std::optional<double>& setting) { setting = setting.value_or(value); };
+  take(to_seconds(calibrated.range_age), range_age_s);
+  take(calibration.forward_scale, odometry_forward_scale);
+  take(calibration.sideways_scale, odometry_sideways_scale);
+  take(calibration.yaw_per_metre_rad, missed_yaw_per_metre_rad);
+  take(calibration.yaw_per_radian, missed_yaw_per_radian);
+  take(calibration.yaw_per_second_rad, missed_yaw_per_second_rad);
 }
 
 SensorModel SensorOverrides::applied_to(SensorModel model) const {

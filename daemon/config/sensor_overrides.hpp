@@ -65,7 +65,8 @@ struct SensorOverrides {
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;
 
-  /// Sets the systematic errors of a calibrated model: age of the ranges, scales and missed yaw.
+  /// Takes the systematic errors of a calibrated model, age of the ranges, scales and missed yaw, where none
+  /// is set.
   void take_calibration(const SensorModel& calibrated);
 
   /// The input's model with what is set here put in its place.

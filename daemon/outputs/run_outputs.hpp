@@ -9,6 +9,7 @@
 
 #include "core/backend/backend.hpp"
 #include "core/base/result.hpp"
+#include "core/calibration/systematic_prior.hpp"
 #include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
@@ -27,9 +28,10 @@ struct RunView {
   RunTiming timing;
   std::vector<StampedPose> truth;  ///< T_world_body in order of time; empty where nobody knows it
   std::string input_uri;
-  SensorModel sensor;                     ///< as used: with the configuration's overrides
-  std::vector<MendedPositions> mended{};  ///< where the backend's dead reckoning is not as reported
-  const PrunedScans* pruned = nullptr;    ///< where the backend may have pruned scans
+  SensorModel sensor;                             ///< as used: with the configuration's overrides
+  std::optional<InputCalibration> calibration{};  ///< by the input itself, where one was made
+  std::vector<MendedPositions> mended{};          ///< where the backend's dead reckoning is not as reported
+  const PrunedScans* pruned = nullptr;            ///< where the backend may have pruned scans
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 

@@ -48,6 +48,21 @@ Json sensor_json(const RunView& run) {
           {"missed_yaw_per_second_rad", calibration.yaw_per_second_rad}};
 }
 
+/// What the input showed of its own sensors.
+Json calibration_json(const std::optional<InputCalibration>& calibration) {
+  if (!calibration) return nullptr;
+  Json json = Json::object();
+  for (std::size_t k = 0; k < kSystematicErrors; ++k) {
+    const auto error = static_cast<SystematicError>(k);
+    const double sigma = calibration->sigma(index_of(error));
+    if (sigma > 0.0)
+      json[setting_of(error)] = {{"expected", value_in(calibration->expected, error)},
+                                 {"found", value_in(calibration->found, error)},
+                                 {"sigma", sigma}};
+  }
+  return json;
+}
+
 Json frontend_json(const FrontendCounters& frontend) {
   return {{"samples", frontend.samples},
           {"keyframes", frontend.keyframes},
@@ -139,6 +154,7 @@ Json error_json(const TrajectoryError& error) {
 std::string run_report_json(const RunView& run) {
   Json json{{"input", input_json(run)},
             {"sensor", sensor_json(run)},
+            {"calibration", calibration_json(run.calibration)},
             {"frontend", frontend_json(run.frontend)},
             {"backend", backend_json(run.backend)},
             {"trajectory", trajectory_json(run.backend)},

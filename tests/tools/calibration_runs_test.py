@@ -70,8 +70,8 @@ class CalibrationRuns(unittest.TestCase):
         uri = "sim://office?seed=2"
         self.assertEqual([call for call in self.calls() if not call.startswith("eval")],
                          [f"calibrate {uri} --json -o HERE/found.toml",
-                          f"map {uri} -o HERE/without",
-                          f"map {uri} --config HERE/found.toml -o HERE/with"])
+                          f"map {uri} --no-calibrate -o HERE/without",
+                          f"map {uri} --no-calibrate --config HERE/found.toml -o HERE/with"])
         self.assertEqual(result["with"], {"live": {"of": "live.tum", "by": "ground_truth.tum"},
                                           "final": {"of": "trajectory.tum", "by": "ground_truth.tum"}})
         self.assertEqual(result["calibration"], {"findings": []})

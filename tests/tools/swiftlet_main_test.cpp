@@ -197,16 +197,25 @@ TEST_F(SwiftletCommand, CalibratesFromASimulatedFlightAndMapsWithWhatItFound) {
   ASSERT_THAT(found, HasSubstr(setting));
   EXPECT_NEAR(std::stod(found.substr(found.find(setting) + setting.size())), 0.173, 0.02);
   EXPECT_EQ(run("map 'sim://office?seed=4' -o {}/out --config {}/found.toml").exit_code, 0);
-  const Outcome at_once = run("map 'sim://office?seed=4' -o {}/at_once --calibrate");
-  EXPECT_EQ(at_once.exit_code, 0);
-  const std::string age = "its ranges are ";
-  ASSERT_THAT(at_once.err, HasSubstr(age));
-  EXPECT_NEAR(std::stod(at_once.err.substr(at_once.err.find(age) + age.size())), 0.173, 0.02);
-  EXPECT_NE(text_of(file("at_once/trajectory.tum")), "");
-  EXPECT_THAT(run("map 'sim://office?seed=4' -o {}/none --calibrate --config {}/found.toml"),
-              refuses_with("sets what --calibrate estimates"));
   EXPECT_THAT(run("calibrate 'sim://office?seed=4' -o {}/found.toml"), refuses_with("is there already"));
   EXPECT_EQ(text_of(file("found.toml")), found);
+}
+
+TEST_F(SwiftletCommand, MapsWithTheAgeThatTheInputShows) {
+  const Outcome outcome = run("map 'sim://office?seed=4' -o {}/out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  const std::string note = "by the input itself: age of the ranges ";  // 0.173 s by the simulation
+  ASSERT_THAT(outcome.err, HasSubstr(note));
+  EXPECT_NEAR(std::stod(outcome.err.substr(outcome.err.find(note) + note.size())), 0.173, 0.02);
+  EXPECT_THAT(text_of(file("out/report.json")), HasSubstr("\"expected\": 0.1,"));
+  const Outcome plain = run("map 'sim://office?seed=4' -o {}/plain --no-calibrate");
+  EXPECT_EQ(plain.exit_code, 0);
+  EXPECT_THAT(plain.err, Not(HasSubstr(note)));
+  EXPECT_THAT(text_of(file("plain/report.json")),
+              AllOf(HasSubstr("\"calibration\": null"), HasSubstr("\"range_age_s\": 0.1,")));
+  write("age.toml", "[sensor]\nrange_age_s = 0.15\n");
+  EXPECT_EQ(run("map 'sim://office?seed=4' -o {}/set --config {}/age.toml").exit_code, 0);
+  EXPECT_THAT(text_of(file("set/report.json")), HasSubstr("\"range_age_s\": 0.15,"));
 }
 
 TEST_F(SwiftletCommand, CalibratesNothingFromARunWithoutTurns) {
@@ -292,7 +301,7 @@ TEST_F(SwiftletCommand, UsesACaptureUpToTheDamageAndReportsIt) {
   if (!fs::exists(flight)) GTEST_SKIP() << flight << " is missing";
   const std::string whole = text_of(flight);
   std::ofstream(file("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 8 + 7);
-  const Outcome outcome = run("map {}/cut.pcap -o {}/out");
+  const Outcome outcome = run("map {}/cut.pcap -o {}/out --no-calibrate");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("swiftlet: "), HasSubstr("byte")));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);

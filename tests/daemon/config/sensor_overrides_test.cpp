@@ -4,8 +4,21 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 namespace swiftlet {
 namespace {
+
+TEST(SensorOverrides, TakeACalibrationWhereNothingIsSet) {
+  SensorOverrides overrides;
+  overrides.range_age_s = 0.15;
+  SensorModel found = SensorModel::crazyflie();
+  found.range_age = std::chrono::milliseconds(50);
+  found.odometry_calibration.forward_scale = 1.05;
+  overrides.take_calibration(found);
+  EXPECT_EQ(overrides.range_age_s, 0.15);
+  EXPECT_EQ(overrides.odometry_forward_scale, 1.05);
+}
 
 TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
   SensorOverrides overrides;

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "tests/daemon/outputs/finished_run.hpp"
@@ -57,6 +58,20 @@ TEST(RunReport, GivesTheErrorWhereTheTruthIsKnown) {
   const double spread = 0.1 * std::sqrt((81.0 * 81.0 - 1.0) / 12.0);
   EXPECT_NEAR(report["absolute_trajectory_error"]["odometry"]["rmse_m"].get<double>(), 0.1 * spread, 1e-9);
   EXPECT_EQ(report["absolute_trajectory_error"]["samples"], 81);
+}
+
+TEST(RunReport, TellsWhatTheInputShowedOfItsSensors) {
+  const FinishedRun run;
+  RunView view = run.view(false);
+  EXPECT_TRUE(json::parse(run_report_json(view))["calibration"].is_null());
+  view.calibration = InputCalibration{SensorModel::crazyflie(), SensorModel::crazyflie()};
+  view.calibration->found.range_age = std::chrono::milliseconds(50);
+  view.calibration->sigma(index_of(SystematicError::kRangeAge)) = 0.01;
+  const json calibration = json::parse(run_report_json(view))["calibration"];
+  EXPECT_EQ(calibration.size(), 1U);
+  EXPECT_EQ(calibration["range_age_s"]["expected"], 0.1);
+  EXPECT_EQ(calibration["range_age_s"]["found"], 0.05);
+  EXPECT_EQ(calibration["range_age_s"]["sigma"], 0.01);
 }
 
 TEST(RunReport, SurvivesNamesThatAreNotText) {

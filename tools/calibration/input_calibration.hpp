@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <string>
+
+#include "core/base/result.hpp"
+#include "core/calibration/systematic_prior.hpp"
+#include "firmware_link/sample/sample_source.hpp"
+
+namespace swiftlet {
+
+/// Reads a source to its end and estimates what its samples show of its sensors. `expected`: its sensor
+/// model, with what a configuration sets. Errors: kInvalidInput: fewer than two samples; kSolver. Allocates.
+/// Repeatable.
+[[nodiscard]] Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorModel& expected);
+
+/// One line.
+[[nodiscard]] std::string calibration_note(const InputCalibration& calibration);
+
+}  // namespace swiftlet
