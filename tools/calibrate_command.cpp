@@ -37,8 +37,7 @@ Result<PairedRun> read_input(const CalibrateCommand& command, std::optional<Dura
   return run;
 }
 
-}  // namespace
-
+/// `input`: what the input reports about itself.
 Result<CalibrationReport> calibrate(const CalibrateCommand& command, const std::stop_token& stop,
                                     InputReport& input) {
   ProgressBar bar(stderr, ProgressBar::Clock::now());
@@ -54,8 +53,6 @@ Result<CalibrationReport> calibrate(const CalibrateCommand& command, const std::
     return Error{ErrorCode::kTimeout, "calibration stopped before its end; nothing was written"};
   return report;
 }
-
-namespace {
 
 Status check_request(const CalibrateCommand& command) {
   const Result<InputUri> input = parse_input_uri(command.input);

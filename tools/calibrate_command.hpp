@@ -4,12 +4,9 @@
 
 #include <filesystem>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 #include "core/base/result.hpp"
-#include "firmware_link/sample/sample_source.hpp"
-#include "tools/calibration/calibration_report.hpp"
 
 namespace swiftlet {
 
@@ -20,13 +17,6 @@ struct CalibrateCommand {
   std::optional<int> beams;         ///< laser logs: how many beams to keep
   bool json = false;                ///< for programs, not the table
 };
-
-/// Estimates the sensor model's systematic errors from one run. Progress goes to stderr. `input`: what the
-/// input reports about itself.
-///
-/// Errors: kNotFound, kInvalidInput: the input cannot be used. kTimeout: `stop` was requested. kSolver.
-[[nodiscard]] Result<CalibrationReport> calibrate(const CalibrateCommand& command,
-                                                  const std::stop_token& stop, InputReport& input);
 
 /// Estimates the sensor model's systematic errors from one run and tells them on stdout; what matters goes to
 /// the configuration file. Progress and notes go to stderr. SIGINT and SIGTERM end it between two steps.
