@@ -16,7 +16,8 @@ import mapped_runs
 PAPER = {("ACES", 11): (0.0454, 1.131), ("ACES", 4): (0.0440, 1.013), ("Intel", 11): (0.0901, 2.363),
          ("Intel", 4): (0.1193, 2.623), ("Killian", 11): (0.0718, 2.065)}
 REFINED_LIMITS = {("ACES", 11): (0.036, 0.50), ("ACES", 4): (0.037, 0.52), ("Intel", 11): (0.047, 1.6),
-                  ("Intel", 4): (0.063, 1.95), ("Killian", 11): (0.06, 1.3), ("Killian", 4): (0.15, None)}
+                  ("Intel", 4): (0.063, 1.95), ("Killian", 11): (0.06, 1.3), ("Killian", 4): (0.15, None),
+                  ("FR079", 11): (0.055, 1.0), ("FR079", 4): (0.080, 1.3)}
 CELLS = {"Olsson Hall": (2398, 1800), "Rice Hall": (2015, 1720)}  # 0.2 m: the paper's code, limit
 NONE = "–"
 WIDTH = 120  # of a line of text

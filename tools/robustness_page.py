@@ -14,7 +14,6 @@ import robustness_runs as runs
 OVER_QUARTER = 1.5  # times the error below which the best quarter of a group lies
 OVER_QUARTER_CELLS = 1.25  # the same of cells over those of dead reckoning
 OVER_ODOMETRY = 1.02
-OTHERWISE_ATTAINABLE_M = {"FR079": 0.1}  # dense matching is within 0.02 m of the relations there
 CONFIDENCE_Z = 1.96  # 95 %
 PICTURES = 12
 NONE = "–"
@@ -64,14 +63,16 @@ def grouped(all_outcomes, key):
 
 def attainable_m(log, group):
     """Error known to be possible, so that a log on which every run is bad has break-outs, too."""
-    limit_m, _ = accuracy_page.REFINED_LIMITS.get((log, 4 if group.endswith(runs.FEW) else 11), (None, None))
-    return limit_m or OTHERWISE_ATTAINABLE_M.get(log, math.inf)
+    limit_m, _ = accuracy_page.REFINED_LIMITS.get((log, 4 if group.endswith(runs.FEW) else 11), (math.inf, None))
+    return limit_m
 
 
 def quarters(all_outcomes):
-    """{group: error below which its best quarter lies}. With many beams none is higher than with few."""
+    """{group: error below which its best quarter lies}. With many beams none is higher than with few. Groups without
+    a true reference have none."""
     found = {}
-    for name, group in grouped(all_outcomes, runs.Run.group).items():
+    judged = [one for one in all_outcomes if one.run.log.name not in runs.WITHOUT_TRUTH]
+    for name, group in grouped(judged, runs.Run.group).items():
         errors = sorted(one.error for one in group if one.error is not None)
         if errors:
             found[name] = min(errors[(len(errors) - 1) // 4], attainable_m(group[0].run.log.name, name))
@@ -147,7 +148,8 @@ def worst_first(broken, limits):
     def by_how_much(one):
         if one.failed:
             return math.inf
-        return max(one.ratio / OVER_ODOMETRY, one.error / limits[one.run.group()] / OVER_QUARTER)
+        quarter = limits.get(one.run.group(), math.inf)
+        return max(one.ratio / OVER_ODOMETRY, one.error / quarter / OVER_QUARTER)
 
     return sorted(broken, key=by_how_much, reverse=True)
 
@@ -157,8 +159,9 @@ def broken_lines(all_outcomes, limits):
     def cells(one):
         if one.failed:
             return [one.run.title(), one.failed, "", ""]
-        quarter = limits[one.run.group()]
-        return [one.run.title(), f"{one.error:.3f}", f"{one.error / quarter:.2f}", f"{one.ratio:.2f}"]
+        quarter = limits.get(one.run.group())
+        over = f"{one.error / quarter:.2f}" if quarter else NONE
+        return [one.run.title(), f"{one.error:.3f}", over, f"{one.ratio:.2f}"]
 
     broken = worst_first([one for one in all_outcomes if breaks_out(one, limits)], limits)
     return page.table(["run", "error:", "over quarter:", "over odometry:"], [cells(one) for one in broken])
@@ -292,8 +295,9 @@ A run **breaks out** if its error exceeds {OVER_QUARTER:g} times the error that 
 numbers of beams stay below (or with fewer beams, or that is known to be attainable), or if it is worse than dead
 reckoning by more than {OVER_ODOMETRY - 1:.0%}. Errors are those of [evaluation](../evaluation.md): the mean
 translational error of relations, the RMSE against a true path; where there is no truth, the number of distinct cells
-with returns over that of dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). "Ratio" is the error
-over that of dead reckoning in the same run. The interval is Wilson's.
+with returns over that of dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). The reference of
+{" and ".join(sorted(runs.WITHOUT_TRUTH))} is another program's estimate: there a run breaks out only where dead
+reckoning is nearer to it. "Ratio" is the error over that of dead reckoning in the same run. The interval is Wilson's.
 
 ## Break-outs
 

@@ -47,6 +47,7 @@ class Ensemble:
     screened: int  # runs of the screening ensemble
     window: tuple[float, float] = (0.0, 1.0)  # shares of the log that the screening ensemble takes
     is_laser: bool = True
+    is_true: bool = True  # the reference; else it is an estimate of another program
 
 
 def laser(name, file, reference, *rest, **choices):
@@ -65,7 +66,7 @@ ENSEMBLES = [
     Ensemble(accuracy_runs.ACES, LOOPS, 36, 4),
     Ensemble(accuracy_runs.INTEL, LOOPS, 36, 4, (0.0, 0.3)),
     Ensemble(accuracy_runs.KILLIAN, LOOPS, 36, 4, (0.0, 0.25)),
-    laser("FR079", "radish/fr079.clf.gz", "radish/fr079_dense.tum", LOOPS, 36, 4, (0.0, 0.4)),
+    laser("FR079", "radish/fr079.clf.gz", "radish/fr079.relations", LOOPS, 36, 4, (0.0, 0.4)),
     laser("FR clinic", "radish/fr-clinic.clf.gz", "radish/fr-clinic.relations", NO_LOOPS, 36, 4, (0.0, 0.4)),
     flight(accuracy_runs.OLSSON, FLIGHT, 24, 4, (0.3, 1.0)),
     flight(accuracy_runs.RICE, FLIGHT, 24, 4),
@@ -75,9 +76,10 @@ ENSEMBLES = [
     laser("Duke loop", "more/loop5.clf.gz", None, NO_LOOPS, 16, 2),
     laser("Malaga", "more/sena.clf.gz", None, NO_LOOPS, 16, 2),
     *(laser(f"Mines {n}", f"more/tinyslam_exp{n}.clf.gz", None, NO_LOOPS, 10, 2) for n in range(1, 5)),
-    laser("FHW", "more/kf_fhw.clf.gz", "more/kf_fhw_gfs.tum", NO_LOOPS, 20, 3),
-    laser("Acapulco", "more/kf_acapulco.clf.gz", "more/kf_acapulco_gfs.tum", NO_LOOPS, 20, 3),
+    laser("FHW", "more/kf_fhw.clf.gz", "more/kf_fhw_gfs.tum", NO_LOOPS, 20, 3, is_true=False),
+    laser("Acapulco", "more/kf_acapulco.clf.gz", "more/kf_acapulco_gfs.tum", NO_LOOPS, 20, 3, is_true=False),
 ]
+WITHOUT_TRUTH = {ensemble.log.name for ensemble in ENSEMBLES if not ensemble.is_true}
 
 
 @dataclasses.dataclass(frozen=True)

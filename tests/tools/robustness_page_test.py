@@ -13,8 +13,8 @@ import robustness_page as rates  # noqa: E402
 import robustness_runs as runs  # noqa: E402
 from changed_log import Change  # noqa: E402
 
-LOG, FR079 = (next(ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name == name)
-              for name in ("Robot 4", "FR079"))
+LOG, FR079, FHW = (next(ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name == name)
+                   for name in ("Robot 4", "FR079", "FHW"))
 REPORT = {"mean_per_scan_ms": 0.2, "backend_max_ms": 30.0}
 
 
@@ -46,6 +46,18 @@ class RobustnessPage(unittest.TestCase):
     def test_a_log_on_which_every_run_is_bad_has_break_outs(self):
         group = made([5.0, 5.0], log=FR079)
         self.assertTrue(all(rates.breaks_out(one, rates.quarters(group)) for one in group))
+
+    def test_fr079_is_held_against_the_relations_and_what_is_attainable_by_them(self):
+        self.assertEqual(FR079.reference, "radish/fr079.relations")
+        few, many = made([0.119, 0.121], log=FR079), made([0.082, 0.083], beams=11, log=FR079)
+        limits = rates.quarters(few + many)
+        self.assertEqual([rates.breaks_out(one, limits) for one in few + many], [False, True, False, True])
+
+    def test_where_the_reference_is_an_estimate_only_dead_reckoning_counts(self):
+        group = made([0.1, 0.1, 0.5, 0.6], odometry=0.55, log=FHW)
+        limits = rates.quarters(group)
+        self.assertEqual([rates.breaks_out(one, limits) for one in group], [False, False, False, True])
+        self.assertIn("seed 3, +0 ms | 0.600 | – | 1.09 |", rates.tables(group))
 
     def test_a_run_worse_than_dead_reckoning_breaks_out(self):
         limits = {run(0).group(): 1.0}
