@@ -3,12 +3,16 @@
 #include "core/sensing/lost_sign.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
 namespace swiftlet {
 namespace {
+
+constexpr double kAlikeM = 1e-6;
+constexpr std::size_t kComparedAtOnce = 64;  // paths: bits of a view
 
 Point2 operator+(const Point2& a, const Point2& b) { return {a.x_m + b.x_m, a.y_m + b.y_m}; }
 Point2 operator-(const Point2& a, const Point2& b) { return {a.x_m - b.x_m, a.y_m - b.y_m}; }
@@ -35,8 +39,10 @@ Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp, const
 
 LostSign::LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning)
     : tuning_(tuning),
+      variance2_m2_(2.0 * tuning.sigma_m * tuning.sigma_m),
       max_range_m_(sensor.max_range_m),
-      beam_step_((beams.count + tuning.max_beams - 1) / tuning.max_beams) {
+      beam_step_(std::max<std::size_t>(1, (beams.count + kMaxRays - 1) / kMaxRays)),
+      rays_(static_cast<Eigen::Index>((beams.count + beam_step_ - 1) / beam_step_)) {
   for (std::size_t i = 0; i < beams.count; ++i)
     direction_[i] = {std::cos(beams.bearing_rad[i]), std::sin(beams.bearing_rad[i])};
 }
@@ -77,8 +83,7 @@ void LostSign::on_direction(double forward_m) {
 /// What was seen before does not lie in this frame.
 void LostSign::begin_segment(const RangeSample& sample) {
   scans_.clear();
-  reported_.scan_offsets.clear();
-  for (Path& path : paths_) path.scan_offsets.clear();
+  for_each_path([](Path& path) { path.scan_offsets.clear(); });
   speed_m_per_s_ = speed_before_m_per_s_ = 0.0;
   judge(sample);
 }
@@ -108,102 +113,156 @@ void LostSign::branch() {
 void LostSign::judge(const RangeSample& sample) {
   while (!scans_.empty() && scans_.front().path_m < path_m_ - tuning_.memory_m) {
     scans_.pop_front();
-    reported_.scan_offsets.pop_front();
-    for (Path& path : paths_) path.scan_offsets.pop_front();
+    for_each_path([](Path& path) { path.scan_offsets.pop_front(); });
   }
   Scan scan = scan_of(sample);
-  const auto take_into = [&](Path& path) {
-    path.cost += cost_of(scan, path);
-    path.scan_offsets.push_back(path.offset);
-  };
-  take_into(reported_);
-  for (Path& path : paths_) take_into(path);
+  // Costs count by their differences: a path that is as reported within memory has none.
+  if (paths_.size() > 1 || paths_.front().reversed || !is_settled(paths_.front())) add_costs(scan);
+  for_each_path([](Path& path) { path.scan_offsets.push_back(path.offset); });
   scans_.push_back(std::move(scan));
   prune();
 }
 
 LostSign::Scan LostSign::scan_of(const RangeSample& sample) const {
-  const Pose2& T_odom_body = sample.T_odom_body;
-  Scan scan{path_m_, T_odom_body.yaw_rad(), {}};
-  for (std::size_t i = 0; i < sample.beam_count; i += beam_step_) {
-    const bool is_hit = sample.status[i] == RangeStatus::kHit;
-    Ray ray;
-    ray.status = sample.status[i];
-    ray.length_m = is_hit ? double{sample.distance_m[i]} : max_range_m_;
-    ray.from = T_odom_body.position();
-    ray.end = T_odom_body * (ray.length_m * direction_[i]);
-    ray.direction = (1.0 / ray.length_m) * (ray.end - ray.from);
-    if (is_hit) ray.jump_cost = jump_cost(scan.rays.size(), ray.length_m);
-    scan.rays.push_back(ray);
+  Scan scan{path_m_, sample.T_odom_body.yaw_rad(), sample.T_odom_body.position()};
+  const Pose2 turned(0.0, 0.0, scan.yaw_rad);
+  std::size_t i = 0;
+  for (Eigen::Index ray = 0; ray < rays_; ++ray, i += beam_step_) {
+    const RangeStatus status = sample.status[i];
+    if (status == RangeStatus::kInvalid) continue;
+    const double length_m = status == RangeStatus::kHit ? double{sample.distance_m[i]} : max_range_m_;
+    const Point2 direction = turned * direction_[i];
+    scan.status[ray] = status;
+    scan.length_m[ray] = static_cast<float>(length_m);
+    scan.direction.x[ray] = static_cast<float>(direction.x_m);
+    scan.direction.y[ray] = static_cast<float>(direction.y_m);
+    scan.reach_m[ray] = static_cast<float>(length_m - tuning_.before_m);
+    if (status != RangeStatus::kHit) continue;
+    scan.hit_m.x[ray] = static_cast<float>(length_m * direction.x_m);
+    scan.hit_m.y[ray] = static_cast<float>(length_m * direction.y_m);
   }
   return scan;
 }
 
+void LostSign::add_costs(const Scan& scan) {
+  std::vector<Path*> paths;
+  for_each_path([&paths](Path& path) { paths.push_back(&path); });
+  for (std::size_t begin = 0; begin < paths.size(); begin += kComparedAtOnce)
+    add_costs(scan, std::span(paths).subspan(begin, std::min(kComparedAtOnce, paths.size() - begin)));
+}
+
+void LostSign::add_costs(const Scan& scan, std::span<Path* const> paths) const {
+  const std::vector<View> views = views_of(scan, paths);
+  std::vector<Encounter> met(paths.size());
+  const double weight = std::min(1.0, tuning_.scan_weight / static_cast<double>(rays_));
+  for (Eigen::Index ray = 0; ray < rays_; ++ray) {
+    if (scan.status[ray] == RangeStatus::kInvalid) continue;
+    const bool is_hit = scan.status[ray] == RangeStatus::kHit;
+    const double jump = jump_cost(scan, ray);
+    meet(scan, ray, views, met);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const double misfit = is_hit ? met[i].nearest2_m2 / variance2_m2_ : 0.0;
+      paths[i]->cost.misfit += misfit;
+      paths[i]->cost.contradiction +=
+          weight * (met[i].contradicts ? tuning_.outlier_cost : std::min(misfit, jump));
+    }
+  }
+}
+
+/// Paths with the same signs since an earlier scan see it alike: it is met once for all of them.
+std::vector<LostSign::View> LostSign::views_of(const Scan& scan, std::span<Path* const> paths) const {
+  std::vector<View> views;
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    const auto first = static_cast<std::ptrdiff_t>(views.size());
+    for (std::size_t path = 0; path < paths.size(); ++path) {
+      const Point2 from = scan.from + paths[path]->offset - paths[path]->scan_offsets[i] - scans_[i].from;
+      auto same = std::find_if(views.begin() + first, views.end(),
+                               [&](const View& v) { return length2(v.from - from) < kAlikeM * kAlikeM; });
+      if (same == views.end()) same = views.insert(same, {&scans_[i], from, 0});
+      same->paths |= std::uint64_t{1} << path;
+    }
+  }
+  return views;
+}
+
+/// `met`: of each path.
+void LostSign::meet(const Scan& scan, Eigen::Index ray, const std::vector<View>& views,
+                    std::vector<Encounter>& met) const {
+  std::fill(met.begin(), met.end(), Encounter{tuning_.outlier_cost * variance2_m2_, false});
+  std::uint64_t contradicted = 0;
+  for (const View& view : views) {
+    const Encounter one = encounter(scan, ray, view, (view.paths & ~contradicted) != 0);
+    if (one.contradicts) contradicted |= view.paths;
+    for (std::uint64_t paths = view.paths; paths != 0; paths &= paths - 1) {
+      double& nearest2_m2 = met[static_cast<std::size_t>(std::countr_zero(paths))].nearest2_m2;
+      nearest2_m2 = std::min(nearest2_m2, one.nearest2_m2);
+    }
+  }
+  for (std::size_t path = 0; path < met.size(); ++path)
+    met[path].contradicts = (contradicted >> path & 1) != 0;
+}
+
+LostSign::Encounter LostSign::encounter(const Scan& scan, Eigen::Index ray, const View& view,
+                                        bool is_open) const {
+  const Scan& earlier = *view.earlier;
+  const auto x_m = static_cast<float>(view.from.x_m);
+  const auto y_m = static_cast<float>(view.from.y_m);
+  const Planar<float> hit_m{x_m + scan.hit_m.x[ray], y_m + scan.hit_m.y[ray]};
+  Encounter found;
+  found.nearest2_m2 =
+      ((earlier.hit_m.x - hit_m.x).square() + (earlier.hit_m.y - hit_m.y).square()).minCoeff();
+  if (!is_open) return found;
+  const Planar<float> direction{scan.direction.x[ray], scan.direction.y[ray]};
+  const Planar<Lanes> earlier_hit_m{earlier.hit_m.x - x_m, earlier.hit_m.y - y_m};
+  const Lanes here_m = outside(earlier.direction, earlier.reach_m, hit_m);
+  const Lanes there_m = outside(direction, scan.reach_m[ray], earlier_hit_m);
+  found.contradicts = here_m.min(there_m).minCoeff() < 0.0F;
+  return found;
+}
+
+/// Rays pass through hits, as seen from the origin of the rays, where this is negative: one ray and many
+/// hits, or many rays and one hit.
+template <typename Rays, typename Hits>
+LostSign::Lanes LostSign::outside(const Planar<Rays>& direction, const Rays& reach_m,
+                                  const Planar<Hits>& hits) const {
+  const Lanes along_m = hits.x * direction.x + hits.y * direction.y;
+  const Lanes across_m = (hits.x * direction.y - hits.y * direction.x).abs();
+  return (across_m - static_cast<float>(tuning_.beside_m)).max(-along_m).max(along_m - reach_m);
+}
+
 /// Ranges go on as they were or as they changed; whatever the vehicle does, this says nothing on its signs.
-double LostSign::jump_cost(std::size_t beam, double length_m) const {
+double LostSign::jump_cost(const Scan& scan, Eigen::Index ray) const {
   const auto length_before = [&](std::size_t scans) -> std::optional<double> {
     if (scans_.size() < scans) return std::nullopt;
-    const Ray& ray = scans_[scans_.size() - scans].rays[beam];
-    if (ray.status != RangeStatus::kHit) return std::nullopt;
-    return ray.length_m;
+    const Scan& before = scans_[scans_.size() - scans];
+    if (before.status[ray] != RangeStatus::kHit) return std::nullopt;
+    return before.length_m[ray];
   };
   const std::optional<double> last_m = length_before(1);
   if (!last_m) return tuning_.outlier_cost;
+  const double length_m = scan.length_m[ray];
   double jump_m = std::abs(length_m - *last_m);
   if (const std::optional<double> second_m = length_before(2))
     jump_m = std::min(jump_m, std::abs(length_m - 2.0 * *last_m + *second_m));
-  return std::min(tuning_.outlier_cost, jump_m * jump_m / (2.0 * tuning_.sigma_m * tuning_.sigma_m));
+  return std::min(tuning_.outlier_cost, jump_m * jump_m / variance2_m2_);
 }
 
-LostSign::Cost LostSign::cost_of(const Scan& scan, const Path& path) const {
-  Cost sum;
-  for (const Ray& ray : scan.rays)
-    if (ray.status != RangeStatus::kInvalid) sum += cost_of(ray, path);
-  if (!scan.rays.empty())
-    sum.contradiction *= std::min(1.0, tuning_.scan_weight / static_cast<double>(scan.rays.size()));
-  return sum;
-}
-
-LostSign::Cost LostSign::cost_of(const Ray& ray, const Path& path) const {
-  const bool is_hit = ray.status == RangeStatus::kHit;
-  const double variance2 = 2.0 * tuning_.sigma_m * tuning_.sigma_m;
-  double nearest2 = tuning_.outlier_cost * variance2;
-  bool contradicts = false;
-  for (std::size_t i = 0; i < scans_.size(); ++i) {
-    const Point2 moved = path.offset - path.scan_offsets[i];
-    const Point2 end = ray.end + moved;
-    for (const Ray& earlier : scans_[i].rays) {
-      if (earlier.status == RangeStatus::kInvalid) continue;
-      const bool was_hit = earlier.status == RangeStatus::kHit;
-      if (is_hit && was_hit) nearest2 = std::min(nearest2, length2(end - earlier.end));
-      if (contradicts) continue;
-      contradicts =
-          (is_hit && passes_through(earlier, end)) || (was_hit && passes_through(ray, earlier.end - moved));
-    }
-  }
-  Cost cost;
-  if (is_hit) cost.misfit = nearest2 / variance2;
-  cost.contradiction = contradicts ? tuning_.outlier_cost : std::min(cost.misfit, ray.jump_cost);
-  return cost;
-}
-
-bool LostSign::passes_through(const Ray& ray, const Point2& hit) const {
-  const Point2 seen = hit - ray.from;
-  const double along_m = seen.x_m * ray.direction.x_m + seen.y_m * ray.direction.y_m;
-  const double across_m = seen.x_m * ray.direction.y_m - seen.y_m * ray.direction.x_m;
-  return std::abs(across_m) < tuning_.beside_m && along_m > 0.0 && along_m < ray.length_m - tuning_.before_m;
+bool LostSign::is_settled(const Path& path) const {
+  return path.changes.empty() || path.changed_at_m < path_m_ - tuning_.memory_m;
 }
 
 /// Paths with the same signs within memory have the same future: the best of them is kept (Viterbi 1967).
+/// Those that lag by more than a stretch can gain are not.
 void LostSign::prune() {
   std::sort(paths_.begin(), paths_.end(),
             [](const Path& a, const Path& b) { return a.cost.misfit < b.cost.misfit; });
+  const double least = paths_.front().cost.misfit;
   std::array<bool, 2> settled{};
   std::vector<Path> kept;
   for (Path& path : paths_) {
     if (kept.size() == tuning_.max_paths) break;
-    const bool is_settled = path.changed_at_m < path_m_ - tuning_.memory_m || path.changes.empty();
-    if (is_settled && std::exchange(settled[path.reversed ? 1 : 0], true)) continue;
+    if (path.cost.misfit > least + tuning_.most_gain) break;
+    if (is_settled(path) && std::exchange(settled[path.reversed ? 1 : 0], true)) continue;
     kept.push_back(std::move(path));
   }
   paths_ = std::move(kept);

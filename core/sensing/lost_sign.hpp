@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,10 +27,9 @@ struct LostSignTuning {
   double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once
   double scan_spacing_m = 0.05;        ///< half of sigma_m: scans closer together say the same again ...
   double scan_spacing_rad = 0.1;       ///< ... unless they look elsewhere
-  double memory_m = 3.0;       ///< a scan is compared with those of this way: dead reckoning drifts less than
-                               ///< sigma_m over it
-  std::size_t max_beams = 16;  ///< of a scan, evenly chosen: time grows with their square
-  double sigma_m = 0.1;  ///< from a hit to the nearest earlier one: their spacing along a wall, and drift
+  double memory_m = 3.0;  ///< a scan is compared with those of this way: dead reckoning drifts less than
+                          ///< sigma_m over it
+  double sigma_m = 0.1;   ///< from a hit to the nearest earlier one: their spacing along a wall, and drift
   double outlier_cost = 2.0;  ///< of a hit at two sigma_m or more, and of one that contradicts an earlier ray
   double begin_cost = 5.0;    ///< for a standstill to begin a stretch with the other sign: one in 150 does
   double end_cost = 2.0;      ///< for one to end it: one in 7 does
@@ -37,7 +38,7 @@ struct LostSignTuning {
   double scan_weight = 4.0;   ///< rays of a scan err together: more than these don't add to the gain
   double stretch_doubt = 10.0;   ///< what slips and lags gain without any lost sign: 9 per stretch at most on
                                  ///< the laser logs, mostly less than nothing; lost signs gain 28 to 47
-  double most_gain = 30.0;       ///< that counts of one stretch ...
+  double most_gain = 30.0;       ///< that counts of one stretch; paths that lag by more are given up ...
   double least_evidence = 50.0;  ///< ... so that one or two are no evidence
   std::size_t max_paths = 8;     ///< hypotheses kept: three standstills within memory_m
   std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
@@ -78,28 +79,31 @@ class LostSign {
   [[nodiscard]] double evidence() const;
 
  private:
-  /// One beam of a scan, in the odometry's frame.
-  struct Ray {
-    RangeStatus status = RangeStatus::kInvalid;
-    double length_m = 0.0;
-    Point2 from;
-    Point2 direction;
-    Point2 end;
-    double jump_cost = 0.0;  ///< of its range after those of the same beam before
+  static constexpr std::size_t kMaxRays = 16;  // of a scan, evenly chosen: time grows with their square
+  static constexpr float kNowhereM = 1e6F;
+  /// A figure of each ray of a scan.
+  using Lanes = Eigen::Array<float, kMaxRays, 1>;
+  template <typename Values>
+  struct Planar {
+    Values x;
+    Values y;
   };
+  /// Seen from where it was taken, along the odometry's axes. Rays that tell nothing pass through nothing,
+  /// and what is no hit lies where nothing comes near.
   struct Scan {
     double path_m = 0.0;
     double yaw_rad = 0.0;
-    std::vector<Ray> rays;
+    Point2 from;
+    Eigen::Array<RangeStatus, kMaxRays, 1> status =
+        Eigen::Array<RangeStatus, kMaxRays, 1>::Constant(RangeStatus::kInvalid);
+    Lanes length_m = Lanes::Zero();
+    Planar<Lanes> direction{Lanes::Zero(), Lanes::Zero()};
+    Lanes reach_m = Lanes::Constant(-1.0F);  ///< so far it passes through what lies beside it
+    Planar<Lanes> hit_m{Lanes::Constant(kNowhereM), Lanes::Constant(kNowhereM)};
   };
   struct Cost {
     double misfit = 0.0;         ///< chooses
     double contradiction = 0.0;  ///< judges
-    Cost& operator+=(const Cost& other) {
-      misfit += other.misfit;
-      contradiction += other.contradiction;
-      return *this;
-    }
   };
   struct Change {
     std::uint64_t sample = 0;  ///< the first with the other sign
@@ -114,11 +118,24 @@ class LostSign {
     std::deque<Point2> scan_offsets;  ///< ... and at each scan in memory
     std::vector<Change> changes{};    ///< begins and ends of stretches in reverse, in turn
   };
+  /// An earlier scan for some of the paths.
+  struct View {
+    const Scan* earlier = nullptr;
+    Point2 from;              ///< where the scan was taken that looks back, seen from there
+    std::uint64_t paths = 0;  ///< a bit each
+  };
+  /// Of a ray with earlier ones.
+  struct Encounter {
+    double nearest2_m2 = 0.0;  ///< to the nearest hit, squared
+    bool contradicts = false;
+  };
 
   LostSignTuning tuning_;
+  double variance2_m2_;
   double max_range_m_;
   std::array<Point2, kMaxBeams> direction_{};
-  std::size_t beam_step_ = 1;
+  std::size_t beam_step_;
+  Eigen::Index rays_;
 
   std::deque<RangeSample> held_;
   std::uint64_t added_ = 0;
@@ -148,6 +165,11 @@ class LostSign {
   double reversed_m_ = 0.0;
   std::vector<MendedPositions> mended_;
 
+  template <typename Visitor>
+  void for_each_path(Visitor visit) {
+    visit(reported_);
+    for (Path& path : paths_) visit(path);
+  }
   void follow(const RangeSample& sample);
   void on_direction(double forward_m);
   void begin_segment(const RangeSample& sample);
@@ -155,10 +177,17 @@ class LostSign {
   void branch();
   void judge(const RangeSample& sample);
   [[nodiscard]] Scan scan_of(const RangeSample& sample) const;
-  [[nodiscard]] double jump_cost(std::size_t beam, double length_m) const;
-  [[nodiscard]] Cost cost_of(const Scan& scan, const Path& path) const;
-  [[nodiscard]] Cost cost_of(const Ray& ray, const Path& path) const;
-  [[nodiscard]] bool passes_through(const Ray& ray, const Point2& hit) const;
+  void add_costs(const Scan& scan);
+  void add_costs(const Scan& scan, std::span<Path* const> paths) const;
+  [[nodiscard]] std::vector<View> views_of(const Scan& scan, std::span<Path* const> paths) const;
+  void meet(const Scan& scan, Eigen::Index ray, const std::vector<View>& views,
+            std::vector<Encounter>& met) const;
+  [[nodiscard]] Encounter encounter(const Scan& scan, Eigen::Index ray, const View& view, bool is_open) const;
+  template <typename Rays, typename Hits>
+  [[nodiscard]] Lanes outside(const Planar<Rays>& direction, const Rays& reach_m,
+                              const Planar<Hits>& hits) const;
+  [[nodiscard]] double jump_cost(const Scan& scan, Eigen::Index ray) const;
+  [[nodiscard]] bool is_settled(const Path& path) const;
   void prune();
   [[nodiscard]] const Path& best() const;
   [[nodiscard]] bool is_reversed(std::uint64_t sample) const;
