@@ -40,7 +40,6 @@ struct CorrelativeMatcherTuning {
   double floor_sigma_yaw_rad = 0.015;  ///< likewise
   double min_spread_m = 1.0;           ///< around the optimum the scores are evaluated as far as the window
   double max_spread_m = 4.0;           ///< reaches, within these bounds
-  int spread_stride_cells = 2;         ///< between positions evaluated: enough under a kernel of three
   int yaw_spread_steps = 4;            ///< either way
   double min_known_share = 0.6;  ///< of the points on ground that the submap knows, or there is no match: one
                                  ///< wall of a corridor on the other would score better than both in place
@@ -55,7 +54,6 @@ struct CorrelativeMatcherTuning {
       {"floor_sigma_yaw_rad", &CorrelativeMatcherTuning::floor_sigma_yaw_rad},
       {"min_spread_m", &CorrelativeMatcherTuning::min_spread_m},
       {"max_spread_m", &CorrelativeMatcherTuning::max_spread_m},
-      {"spread_stride_cells", &CorrelativeMatcherTuning::spread_stride_cells},
       {"yaw_spread_steps", &CorrelativeMatcherTuning::yaw_spread_steps},
       {"min_known_share", &CorrelativeMatcherTuning::min_known_share},
       {"edge_of_window", &CorrelativeMatcherTuning::edge_of_window},

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kTileLevel = 3;  // blocks of which are tried pose by pose, for they are one tile
 static_assert(1 << kTileLevel == TiledByteGrid::kSide);
+constexpr int kSpreadStrideCells = 2;  // between positions evaluated: enough under a kernel of three
 
 double farthest_m(std::span<const Point2> points, double at_least_m) {
   double farthest = at_least_m;
@@ -243,8 +244,8 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
 void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_score,
                                        MatchResult& result) const {
   const double cell_m = grid_.resolution_m;
-  const int stride = tuning_.spread_stride_cells;
-  const double reach_m = std::clamp(window_.radius_m, tuning_.min_spread_m, tuning_.max_spread_m);
+  const int stride = kSpreadStrideCells;
+  const double reach_m = std::min(std::max(window_.radius_m, tuning_.min_spread_m), tuning_.max_spread_m);
   const int reach = stride * static_cast<int>(std::lround(reach_m / (stride * cell_m)));
   const int yaw_low = std::max(-yaw_steps_, best.steps_yaw - tuning_.yaw_spread_steps);
   const int yaw_high = std::min(yaw_steps_, best.steps_yaw + tuning_.yaw_spread_steps);

@@ -107,10 +107,11 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.submap = submap.get();
     c.window.T_submap_scan = T_query_submap.inverse();
     const double sigma_m = std::sqrt(std::max(P(0, 0), P(1, 1)));
-    c.window.radius_m =
-        std::clamp(tuning.search_sigmas * sigma_m, tuning.min_search_radius_m, widest_search_m(*config_));
-    c.window.angle_rad = std::clamp(tuning.search_sigmas * std::sqrt(P(2, 2)), tuning.min_search_angle_rad,
-                                    config_->search_angle_rad);
+    c.window.radius_m = std::min(std::max(tuning.search_sigmas * sigma_m, tuning.min_search_radius_m),
+                                 widest_search_m(*config_));
+    c.window.angle_rad =
+        std::min(std::max(tuning.search_sigmas * std::sqrt(P(2, 2)), tuning.min_search_angle_rad),
+                 config_->search_angle_rad);
     c.overlap = share_within(points_query, c.window, *submap);
     if (c.overlap >= lowest_score(*config_)) found.push_back(c);
   }
