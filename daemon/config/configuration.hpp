@@ -150,7 +150,7 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
 /// docs/configuration.md, whole.
 [[nodiscard]] std::string configuration_reference();
 
-/// All tuning of `config` as a configuration file has it: for experiments.
+/// All tuning of `config` as a configuration file has it, each with its range: for experiments.
 [[nodiscard]] std::string tuning_text(const Configuration& config);
 
 }  // namespace swiftlet

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "daemon/config/configuration.hpp"
+#include "daemon/config/tuning_range.hpp"
 
 namespace swiftlet {
 namespace {
@@ -53,6 +54,17 @@ std::string_view type_of(const std::size_t&) { return "a whole number, not negat
 std::string_view type_of(const double&) { return "a number"; }
 std::string_view type_of(const std::optional<double>&) { return "a number"; }
 std::string_view type_of(const std::string&) { return "a text in quotes"; }
+
+/// Empty, or what is wrong.
+template <typename Value>
+std::string tuning_problem(std::string_view part, std::string_view key, const Value& value,
+                           const Value& default_value) {
+  const TuningRange range = tuning_range(key, default_value);
+  const auto number = static_cast<double>(value);
+  if (number >= range.lowest && number <= range.highest) return {};
+  return fmt::format("tuning.{}.{} = {}: must lie between {} and {}", part, key, shortest_text(number),
+                     shortest_text(range.lowest), shortest_text(range.highest));
+}
 
 /// Reads one file into one configuration and remembers all that is wrong with it.
 class Loader {
@@ -141,11 +153,13 @@ class Loader {
     const auto* value = std::ranges::find(Tuning::kValues, key.str(), &TuningValue<Tuning>::name);
     if (value == std::end(Tuning::kValues))
       return note(key.source(), fmt::format("unknown key \"{}\"", name));
-    const auto read = [&](auto member) {
-      if (!assign(node, tuning.*member))
-        note(key.source(), fmt::format("{} must be {}", name, type_of(tuning.*member)));
+    const auto read = [&](auto member) -> std::string {
+      if (assign(node, tuning.*member))
+        return tuning_problem(part, key.str(), tuning.*member, Tuning{}.*member);
+      return fmt::format("{} must be {}", name, type_of(tuning.*member));
     };
-    std::visit(read, value->member);
+    if (const std::string problem = std::visit(read, value->member); !problem.empty())
+      note(key.source(), problem);
   }
 
   template <typename Section>

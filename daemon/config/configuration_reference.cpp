@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "daemon/config/configuration.hpp"
+#include "daemon/config/tuning_range.hpp"
 
 namespace swiftlet {
 namespace {
@@ -41,6 +42,14 @@ std::string range_text(const Value&, double lowest, double highest) {
   return fmt::format("{:.6g} to {:.6g}", lowest, highest);
 }
 
+/// As TOML has it: a real number is never written as a whole one.
+template <typename Value>
+std::string number_text(const Value& value) {
+  std::string text = shortest_text(static_cast<double>(value));
+  if (std::is_floating_point_v<Value> && text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
 template <typename Section>
 std::string row(const Section& defaults, const Setting<Section>& setting) {
   return std::visit(
@@ -69,8 +78,12 @@ std::string tuning_text(const Configuration& config) {
   for_each_tuning(config, [&text](std::string_view part, const auto& tuning) {
     text += fmt::format("[tuning.{}]\n", part);
     for (const auto& value : tuning.kValues) {
-      const auto number = [&tuning](auto member) { return static_cast<double>(tuning.*member); };
-      text += fmt::format("{} = {}\n", value.name, shortest_text(std::visit(number, value.member)));
+      const auto line = [&](auto member) {
+        const TuningRange range = tuning_range(value.name, std::remove_cvref_t<decltype(tuning)>{}.*member);
+        return fmt::format("{} = {}  # {} to {}\n", value.name, number_text(tuning.*member),
+                           shortest_text(range.lowest), shortest_text(range.highest));
+      };
+      text += std::visit(line, value.member);
     }
   });
   return text;

@@ -103,11 +103,16 @@ TEST(TuningTables, EachValueIsSetByItsName) {
     using Tuning = std::remove_cvref_t<decltype(tuning)>;
     for (const TuningValue<Tuning>& value : Tuning::kValues) {
       ++next;
-      std::visit(
-          [&](auto member) {
-            tuning.*member = static_cast<std::remove_cvref_t<decltype(tuning.*member)>>(next);
-          },
-          value.member);
+      const auto change = [&](auto member) {
+        auto& changed_value = tuning.*member;
+        using Value = std::remove_cvref_t<decltype(changed_value)>;
+        if constexpr (std::is_integral_v<Value>) {
+          changed_value += static_cast<Value>(1 + next % 20);
+        } else {
+          changed_value *= 0.5 + next / 1000.0;
+        }
+      };
+      std::visit(change, value.member);
     }
   });
   const TemporaryFile file(tuning_text(changed));
@@ -115,6 +120,12 @@ TEST(TuningTables, EachValueIsSetByItsName) {
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(tuning_text(*config), tuning_text(changed));
   EXPECT_EQ(config->backend.tuning.matcher.edge_penalty, changed.backend.tuning.matcher.edge_penalty);
+}
+
+TEST(TuningTables, TellRealNumbersFromCountsAndGiveTheirRange) {
+  EXPECT_THAT(tuning_text({}),
+              HasSubstr("\nreach_m = 30.0  # 0.3 to 3000\nmax_waiting = 100  # 1 to 10000\n"));
+  EXPECT_THAT(tuning_text({}), HasSubstr("= 1e-05  # "));
 }
 
 TEST(ConfigurationTables, NameEachMemberOnce) {
@@ -264,6 +275,22 @@ TEST(LoadConfiguration, RefusesUnknownTuningAndItsWrongTypesWithFileAndLine) {
               AllOf(HasSubstr(".toml:2:"), HasSubstr("unknown key \"tuning.map_drawing.follow\"")));
   EXPECT_THAT(refusal_of("[tuning]\nmap_drawing.max_returns_moved = -1\n"),
               HasSubstr("tuning.map_drawing.max_returns_moved must be a whole number, not negative"));
+}
+
+TEST(LoadConfiguration, RefusesImpossibleTuningWithFileAndLine) {
+  const auto refusal = [](const std::string& value) { return refusal_of("[tuning]\n" + value + "\n"); };
+  EXPECT_THAT(refusal("backend_matcher.floor_sigma_m = -0.05"),
+              AllOf(HasSubstr(".toml:2:"), HasSubstr("tuning.backend_matcher.floor_sigma_m = -0.05: must lie "
+                                                     "between 0.0005 and 5")));
+  for (const char* number : {"0", "nan", "inf", "1e9", "1e-9"})
+    EXPECT_THAT(refusal(std::string("backend_matcher.floor_sigma_m = ") + number),
+                HasSubstr("must lie between"));
+  EXPECT_THAT(refusal("backend_groups.min_members = 0"), HasSubstr("must lie between 1 and 600"));
+  EXPECT_THAT(refusal("frontend_axis.other_axis_keyframes = -1"), HasSubstr("must lie between 1 and 2400"));
+  EXPECT_THAT(refusal("backend_groups.max_rival_share = 1.1"), HasSubstr("between 0.005 and 1"));
+  EXPECT_THAT(refusal("map_walls.occupied_percent = 130"), HasSubstr("between 1 and 100"));
+  EXPECT_EQ(refusal("backend_groups.max_rival_share = 1.0"), "accepted");
+  EXPECT_EQ(refusal("backend_matcher.floor_sigma_m = 0.1"), "accepted");
 }
 
 TEST(LoadConfiguration, RefusesARepeatedKeyWithFileAndLine) {
