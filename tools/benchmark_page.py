@@ -64,7 +64,6 @@ def table(columns, rows):
     return "\n".join([texts[0], "|" + "|".join(marks) + "|", *texts[1:]])
 
 
-def record(name, text):
-    """Writes docs/results/NAME."""
-    RESULTS.mkdir(parents=True, exist_ok=True)
-    (RESULTS / name).write_text(text, encoding="utf-8")
+def record(name, text, folder=RESULTS):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / name).write_text(text, encoding="utf-8")

@@ -11,6 +11,7 @@ import re
 import shutil
 import sys
 import tempfile
+import threading
 from pathlib import Path
 
 import benchmark_page as page
@@ -51,6 +52,33 @@ def configuration(settings):
                    for section, keys in settings.items())
 
 
+def available(name, runs):
+    """Those whose data exist; names what is missing on stderr. `name`: of the program. Raises LookupError if there are
+    none."""
+    for file in sorted({file for run in runs for file in run.log.missing()}):
+        print(f"{name}: left out, missing: {DATASETS / file}", file=sys.stderr)
+    there = [run for run in runs if not run.log.missing()]
+    if not there:
+        raise LookupError("no run: no such log, or its data are missing; set SWIFTLET_DATASETS to their folder")
+    return there
+
+
+def kept_program(swiftlet, folder):
+    """A copy, named by the hash of its content: a new build does not disturb these runs. `swiftlet`: its path, or the
+    name of an earlier copy. Raises OSError."""
+    if not swiftlet.exists() and (folder / swiftlet.name).exists():
+        return folder / swiftlet.name
+    content = swiftlet.read_bytes()
+    kept = folder / hashlib.sha256(content).hexdigest()[:12]
+    if not kept.exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        begun = kept.with_suffix(f".{os.getpid()}")
+        begun.write_bytes(content)
+        begun.chmod(0o755)
+        begun.replace(kept)
+    return kept
+
+
 def is_laser_log(file):
     return str(file).endswith((".clf", ".clf.gz"))
 
@@ -78,11 +106,48 @@ def changed_copy(run, folder):
     target = folder / "changed.clf"
     recording = changed_log.read(source, run.log.lines_ahead)
     changed_log.write(recording, run.change, target)
-    return target, lambda trajectory: changed_log.lead_back(trajectory, recording, run.change, trajectory)
+    ends = [(stamp, []) for stamp, _ in (recording.scans[0], recording.scans[-1])]
+    timing = dataclasses.replace(recording, poses=[], scans=ends)  # what lead_back() needs, of all the readings
+    return target, lambda trajectory: changed_log.lead_back(trajectory, timing, run.change, trajectory)
 
 
-def execute(run, swiftlet, picture=None):
-    """Maps and evaluates. `picture`: where the map's is kept. Raises OSError, EOFError, ValueError or
+class Copies:
+    """Makes changed copies as changed_copy() does, each once, and keeps them in a folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.lock = threading.Lock()
+        self.made = {}  # (log, change): Future
+
+    def __call__(self, run, _folder):
+        key = run.log, run.change
+        with self.lock:
+            is_first = key not in self.made
+            made = self.made.setdefault(key, concurrent.futures.Future())
+            if is_first:
+                folder = self.folder / str(len(self.made))
+        if is_first:
+            try:
+                folder.mkdir()
+                made.set_result(changed_copy(run, folder))
+            except BaseException as error:
+                made.set_exception(error)
+        return made.result()
+
+
+def digest_of(folder):
+    """Of all files of a run, but for the report: it has times."""
+    files = sorted(file for file in folder.rglob("*") if file.is_file() and file.name != "report.json")
+    content = hashlib.sha256()
+    for file in files:
+        content.update(f"{file.relative_to(folder)} {file.stat().st_size}\n".encode())
+        content.update(file.read_bytes())
+    return content.hexdigest()
+
+
+def execute(run, swiftlet, picture=None, copied=changed_copy, known=lambda digest: None, which=tuple(TRAJECTORIES)):
+    """Maps and evaluates. `picture`: where the map's is kept. `copied`: changed_copy() or Copies. `known`: what output
+    with this digest was judged, or None. `which`: trajectories to judge. Raises OSError, EOFError, ValueError or
     subprocess.CalledProcessError."""
     with tempfile.TemporaryDirectory() as name:
         output = Path(name, "out")
@@ -90,18 +155,21 @@ def execute(run, swiftlet, picture=None):
         config.write_text(run.configuration(), encoding="utf-8")
         source = run.log.source if run.log.reference is None else DATASETS / run.log.source
         if run.change is not None:
-            source, lead_back = changed_copy(run, Path(name))
+            source, lead_back = copied(run, Path(name))
         beams = [] if run.beams is None else ["--beams", str(run.beams)]
         report = whole_runs.run(swiftlet, [str(source), *beams, "--config", str(config)], output)
+        digest = digest_of(output)
+        if (judged := known(digest)) is not None:
+            return {"report": report, "digest": digest, **judged}
         if run.change is not None:
             for trajectory in output.glob("*.tum"):
                 lead_back(trajectory)
         reference = output / "ground_truth.tum" if run.log.reference is None else DATASETS / run.log.reference
-        judged = {which: judge(swiftlet, output / file, reference) for which, file in TRAJECTORIES.items()}
+        judged = {name: judge(swiftlet, output / TRAJECTORIES[name], reference) for name in which}
         if picture is not None:
             picture.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(output / "map.png", picture)
-    return {"report": report, **judged}
+    return {"report": report, "digest": digest, **judged}
 
 
 class Results:

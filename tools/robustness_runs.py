@@ -183,15 +183,18 @@ class Results(mapped_runs.Results):
     def picture(self, run):
         return self.file(run).with_suffix(".png")
 
+    def mapped(self, run):
+        result = mapped_runs.execute(run, self.swiftlet, self.picture(run))
+        return {**result, "report": figures_of(result["report"])}
+
     def executed(self, run):
         try:
-            result = mapped_runs.execute(run, self.swiftlet, self.picture(run))
+            return self.mapped(run)
         except subprocess.CalledProcessError as error:
             if error.returncode in STOPPED:
                 raise
             said = (error.stderr or "").strip().splitlines()
             return {"failed": f"exit code {error.returncode}" + (f": {said[-1]}" if said else "")}
-        return {**result, "report": figures_of(result["report"])}
 
 
 def figures_of(report):
