@@ -126,6 +126,9 @@ TEST_F(SwiftletCommand, NamesTheConfigurationThatCannotBeUsed) {
   EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/none.toml"), refuses_with("none.toml"));
   write("bad.toml", "[map]\nresolution_m = -1.0\n");
   EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/bad.toml"), refuses_with("bad.toml"));
+  write("tuning.toml", "[tuning.backend_matcher]\nfloor_sigma_m = nan\n");
+  EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/tuning.toml"),
+              refuses_with("floor_sigma_m = nan: must lie"));
 }
 
 TEST_F(SwiftletCommand, NamesTheOutputDirectoryThatCannotBeWritten) {
