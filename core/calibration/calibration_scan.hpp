@@ -9,20 +9,23 @@
 #include "core/geometry/pose2.hpp"
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
+#include "core/sensing/systematic_motion.hpp"
 
 namespace swiftlet {
 
 /// A scan as input of a calibration.
-struct CalibrationScan {
-  DeviceTime measured_at{};  ///< when its ranges were measured, by the assumed range age
-  Pose2 T_odom_body;         ///< the dead reckoning of that time, as measured
-  bool starts_segment = false;
+struct CalibrationScan : TimedOdometry {
   std::vector<Point2> hits_body;
 };
 
 /// Allocates.
 [[nodiscard]] std::vector<CalibrationScan> calibration_scans(std::span<const RangeSample> samples,
                                                              const BeamLayout& beams);
+
+/// Without the hits. Allocates.
+[[nodiscard]] inline std::vector<TimedOdometry> odometry_of(std::span<const CalibrationScan> scans) {
+  return {scans.begin(), scans.end()};
+}
 
 /// Amounts of motion, by dead reckoning, from which systematic errors are estimated.
 struct MotionSummary {

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/calibration/wall_patches.hpp"
+#include "core/backend/refinement/wall_patches.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
@@ -153,7 +153,7 @@ JointProblem::JointProblem(std::span<const CalibrationScan> scans, const SensorM
       scans_(scans),
       noise_(sensor.odometry),
       min_wall_sigma_m_(sensor.range_sigma_m),
-      motion_(scans, tuning.motion),
+      motion_(odometry_of(scans), tuning.motion),
       prior_sigma_(prior_sigmas(yaw_goes_with_travel(sensor.odometry), motion_.shows_time_offset(), tuning)),
       node_of_(scans.size()),
       in_node_(scans.size()),
@@ -506,7 +506,7 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
   problem.summarize(estimate);
   if (Status status = add_noise_uncertainty(tuning, problem, estimate); !status) return status.error();
   add_convergence_uncertainty(halfway, estimate);
-  add_sampling_uncertainty(tuning.sampling_share * usual_interval_s(scans), estimate);
+  add_sampling_uncertainty(tuning.sampling_share * usual_interval_s(odometry_of(scans)), estimate);
   return estimate;
 }
 

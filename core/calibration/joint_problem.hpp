@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "core/backend/refinement/wall_patches.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/calibration_scan.hpp"
-#include "core/calibration/systematic_motion.hpp"
-#include "core/calibration/wall_patches.hpp"
+#include "core/sensing/systematic_motion.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {

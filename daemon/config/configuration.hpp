@@ -136,6 +136,8 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
   visit("backend_walls", backend.walls);
   visit("backend_graph", backend.graph);
   visit("backend_refinement", backend.refinement);
+  visit("backend_joint", backend.joint);
+  visit("backend_patches", backend.patches);
   visit("backend_online", backend.online);
   visit("backend_index", backend.index);
   visit("backend_pruning", backend.pruning);

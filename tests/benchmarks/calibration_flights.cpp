@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/calibration/systematic_motion.hpp"
+#include "core/sensing/systematic_motion.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/simulation/link.hpp"
 #include "firmware_link/simulation/ranger.hpp"

@@ -194,6 +194,50 @@ struct RefinementTuning {
       {"tie_sigma_rad", &RefinementTuning::tie_sigma_rad}};
 };
 
+struct WallPatchesTuning {
+  double cell_m = 0.5;       ///< a patch lies in one cell
+  double neighbour_m = 0.3;  ///< how far around a return its wall is looked for
+  std::size_t min_neighbours = 6;
+  double min_length_m2 = 0.003;  ///< variance along the wall: shorter stretches have no direction
+  double max_ratio = 0.35;       ///< variance across to variance along: more is clutter
+  double max_off_m = 0.12;       ///< of a return from its patch
+  double min_agreement = 0.9;    ///< cosine between two normals of one patch
+  std::size_t min_returns = 8;
+
+  static constexpr TuningValue<WallPatchesTuning> kValues[] = {
+      {"cell_m", &WallPatchesTuning::cell_m},
+      {"neighbour_m", &WallPatchesTuning::neighbour_m},
+      {"min_neighbours", &WallPatchesTuning::min_neighbours},
+      {"min_length_m2", &WallPatchesTuning::min_length_m2},
+      {"max_ratio", &WallPatchesTuning::max_ratio},
+      {"max_off_m", &WallPatchesTuning::max_off_m},
+      {"min_agreement", &WallPatchesTuning::min_agreement},
+      {"min_returns", &WallPatchesTuning::min_returns}};
+};
+
+/// Poses and walls in one problem.
+struct JointRefinementTuning {
+  int associations = 4;  ///< of returns with patches
+  int steps_per_association = 2;
+  double robust_sigmas = 1.5;         ///< scale of the Geman-McClure kernel
+  double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
+  double patch_distance_sigma_m =
+      1.0;                            ///< ties a patch to where it was found, as far as returns leave it free
+  double patch_turn_sigma_rad = 0.3;  ///< likewise
+  double age_sigma_s = 0.02;          ///< of the ranges' age: what the estimate before the run leaves
+  double closure_weight = 0.08;       ///< on information: six queries see each return, against two submaps
+
+  static constexpr TuningValue<JointRefinementTuning> kValues[] = {
+      {"associations", &JointRefinementTuning::associations},
+      {"steps_per_association", &JointRefinementTuning::steps_per_association},
+      {"robust_sigmas", &JointRefinementTuning::robust_sigmas},
+      {"min_incidence_cosine", &JointRefinementTuning::min_incidence_cosine},
+      {"patch_distance_sigma_m", &JointRefinementTuning::patch_distance_sigma_m},
+      {"patch_turn_sigma_rad", &JointRefinementTuning::patch_turn_sigma_rad},
+      {"age_sigma_s", &JointRefinementTuning::age_sigma_s},
+      {"closure_weight", &JointRefinementTuning::closure_weight}};
+};
+
 /// What a step of the online refinement may cost, and where it takes place.
 struct OnlineRefinementTuning {
   std::size_t max_window_scans = 300;       ///< scans refined at once
@@ -263,6 +307,8 @@ struct BackendTuning {
   WallAxisTuning walls;  ///< that the building's axis is estimated from
   KeyframeGraphTuning graph;
   RefinementTuning refinement;
+  JointRefinementTuning joint;
+  WallPatchesTuning patches;
   OnlineRefinementTuning online;
   TraversalIndexTuning index;
   PruningTuning pruning;

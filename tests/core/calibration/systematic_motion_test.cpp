@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/calibration/systematic_motion.hpp"
+#include "core/sensing/systematic_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr double kPeriodS = 0.1;
 
 /// Largest difference between corrected and true steps, metres or radians.
 double largest_error(const FlownScans& flown, double age_s, const SystematicErrors& errors) {
-  SystematicMotion motion(flown.scans);
+  SystematicMotion motion(odometry_of(flown.scans));
   const std::span<const CorrectedStep> steps = motion.correct(errors);
   double largest = 0.0;
   for (std::size_t i = 8; i + 8 < flown.scans.size(); ++i) {
@@ -69,12 +69,12 @@ TEST(SystematicMotion, KnowsHowItsStepsChangeWithTheErrors) {
   const FlownScans flown = fly(flight);
   SystematicErrors errors;
   errors << 0.13, 0.05, -0.1, 0.02, 0.03, 0.004;
-  SystematicMotion motion(flown.scans);
+  SystematicMotion motion(odometry_of(flown.scans));
   const std::vector<CorrectedStep> steps(motion.correct(errors).begin(), motion.correct(errors).end());
   for (Eigen::Index k = 0; k < errors.size(); ++k) {
     const double nudge = 1e-4;
-    SystematicMotion less(flown.scans);
-    SystematicMotion more(flown.scans);
+    SystematicMotion less(odometry_of(flown.scans));
+    SystematicMotion more(odometry_of(flown.scans));
     const auto before = less.correct(errors - nudge * SystematicErrors::Unit(k));
     const auto after = more.correct(errors + nudge * SystematicErrors::Unit(k));
     for (std::size_t i = 8; i + 8 < steps.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(SystematicMotion, KnowsHowItsStepsChangeWithTheErrors) {
 TEST(SystematicMotion, StampsInBunchesMakeNoVelocity) {
   FlownScans flown = fly(noiseless());
   flown.scans[50].measured_at = flown.scans[49].measured_at + from_seconds(0.0005);
-  SystematicMotion motion(flown.scans);
+  SystematicMotion motion(odometry_of(flown.scans));
   const Pose2 step = motion.correct(aged(0.05))[50].T_previous_this;
   EXPECT_LT((step.vector() - motion.measured(50).vector()).norm(), 1e-12);
 }
@@ -99,12 +99,12 @@ TEST(SystematicMotion, AVehicleThatStandsMissesNothing) {
   flown.scans[50].T_odom_body = flown.scans[49].T_odom_body;
   SystematicErrors errors = SystematicErrors::Zero();
   errors(index_of(SystematicError::kYawPerSecond)) = 0.1;
-  EXPECT_EQ(SystematicMotion(flown.scans).correct(errors)[50].T_previous_this.vector(),
+  EXPECT_EQ(SystematicMotion(odometry_of(flown.scans)).correct(errors)[50].T_previous_this.vector(),
             Eigen::Vector3d::Zero());
 }
 
 TEST(UsualInterval, IsTheMiddleOne) {
-  EXPECT_NEAR(usual_interval_s(fly(noiseless()).scans), 0.1, 1e-9);
+  EXPECT_NEAR(usual_interval_s(odometry_of(fly(noiseless()).scans)), 0.1, 1e-9);
   EXPECT_EQ(usual_interval_s({}), 0.0);
 }
 

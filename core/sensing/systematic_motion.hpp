@@ -7,10 +7,18 @@
 #include <span>
 #include <vector>
 
-#include "core/calibration/calibration_scan.hpp"
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
+
+/// The dead reckoning of a scan.
+struct TimedOdometry {
+  DeviceTime measured_at{};  ///< when its ranges were measured, by the assumed range age
+  Pose2 T_odom_body;         ///< the dead reckoning of that time, as measured
+  bool starts_segment = false;
+};
 
 /// The estimated errors, in the order of SystematicErrors.
 enum class SystematicError : std::size_t {
@@ -34,7 +42,7 @@ constexpr Eigen::Index index_of(SystematicError error) { return static_cast<Eige
 inline bool yaw_goes_with_travel(const OdometryNoise& noise) { return noise.drift_yaw_per_metre_rad > 0.0; }
 
 /// Median of the times from one scan to the next; 0 for fewer than two scans.
-[[nodiscard]] double usual_interval_s(std::span<const CalibrationScan> scans);
+[[nodiscard]] double usual_interval_s(std::span<const TimedOdometry> scans);
 
 /// Stamps that come in bunches give no velocity: both intervals around a scan must be near the usual one.
 struct SystematicMotionTuning {
@@ -55,9 +63,8 @@ struct CorrectedStep {
 /// intervals around the scan are unusual.
 class SystematicMotion {
  public:
-  /// Allocates here only. `scans` must outlive it.
-  explicit SystematicMotion(std::span<const CalibrationScan> scans,
-                            const SystematicMotionTuning& tuning = {});
+  /// Allocates here only.
+  explicit SystematicMotion(std::vector<TimedOdometry> scans, const SystematicMotionTuning& tuning = {});
 
   /// Whether the step from scan `i - 1` to scan `i` was measured; i >= 1.
   [[nodiscard]] bool is_known(std::size_t i) const { return !scans_[i].starts_segment; }
@@ -79,7 +86,7 @@ class SystematicMotion {
   [[nodiscard]] CorrectedStep corrected(std::size_t i, const Earlier& before, const Earlier& here,
                                         const SystematicErrors& errors) const;
 
-  std::span<const CalibrationScan> scans_;
+  std::vector<TimedOdometry> scans_;
   std::vector<bool> is_usual_;           // the interval before each scan
   std::vector<bool> has_twist_;          // each scan: the intervals around it are usual
   std::vector<Eigen::Vector3d> twists_;  // m/s, m/s, rad/s in the body frame; zero where unknown

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/calibration/wall_patches.hpp"
+#include "core/backend/refinement/wall_patches.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/calibration/systematic_motion.hpp"
+#include "core/sensing/systematic_motion.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "core/sensing/odometry_calibration.hpp"
 
 namespace swiftlet {
 namespace {
 
-double seconds_between(const CalibrationScan& before, const CalibrationScan& after) {
+double seconds_between(const TimedOdometry& before, const TimedOdometry& after) {
   return to_seconds(after.measured_at - before.measured_at);
 }
 
 /// Central difference in the body frame of `here`.
-Eigen::Vector3d twist_between(const CalibrationScan& before, const CalibrationScan& here,
-                              const CalibrationScan& after) {
+Eigen::Vector3d twist_between(const TimedOdometry& before, const TimedOdometry& here,
+                              const TimedOdometry& after) {
   return (between(here.T_odom_body, after.T_odom_body).vector() -
           between(here.T_odom_body, before.T_odom_body).vector()) /
          seconds_between(before, after);
@@ -61,7 +62,7 @@ double value_in(const SensorModel& sensor, SystematicError error) {
   return 0.0;
 }
 
-double usual_interval_s(std::span<const CalibrationScan> scans) {
+double usual_interval_s(std::span<const TimedOdometry> scans) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < scans.size(); ++i) intervals.push_back(seconds_between(scans[i - 1], scans[i]));
   if (intervals.empty()) return 0.0;
@@ -70,22 +71,21 @@ double usual_interval_s(std::span<const CalibrationScan> scans) {
   return *middle;
 }
 
-SystematicMotion::SystematicMotion(std::span<const CalibrationScan> scans,
-                                   const SystematicMotionTuning& tuning)
-    : scans_(scans),
-      is_usual_(scans.size(), false),
-      has_twist_(scans.size(), false),
-      twists_(scans.size(), Eigen::Vector3d::Zero()),
-      corrected_(scans.size()) {
-  const double usual_s = usual_interval_s(scans);
-  for (std::size_t i = 1; i < scans.size(); ++i) {
-    const double interval_s = seconds_between(scans[i - 1], scans[i]);
-    is_usual_[i] = !scans[i].starts_segment && interval_s > tuning.min_share * usual_s &&
+SystematicMotion::SystematicMotion(std::vector<TimedOdometry> scans, const SystematicMotionTuning& tuning)
+    : scans_(std::move(scans)),
+      is_usual_(scans_.size(), false),
+      has_twist_(scans_.size(), false),
+      twists_(scans_.size(), Eigen::Vector3d::Zero()),
+      corrected_(scans_.size()) {
+  const double usual_s = usual_interval_s(scans_);
+  for (std::size_t i = 1; i < scans_.size(); ++i) {
+    const double interval_s = seconds_between(scans_[i - 1], scans_[i]);
+    is_usual_[i] = !scans_[i].starts_segment && interval_s > tuning.min_share * usual_s &&
                    interval_s < tuning.max_share * usual_s;
   }
-  for (std::size_t i = 1; i + 1 < scans.size(); ++i) has_twist_[i] = is_usual_[i] && is_usual_[i + 1];
-  for (std::size_t i = 1; i + 1 < scans.size(); ++i)
-    if (has_twist_[i]) twists_[i] = twist_between(scans[i - 1], scans[i], scans[i + 1]);
+  for (std::size_t i = 1; i + 1 < scans_.size(); ++i) has_twist_[i] = is_usual_[i] && is_usual_[i + 1];
+  for (std::size_t i = 1; i + 1 < scans_.size(); ++i)
+    if (has_twist_[i]) twists_[i] = twist_between(scans_[i - 1], scans_[i], scans_[i + 1]);
 }
 
 bool SystematicMotion::shows_time_offset() const {

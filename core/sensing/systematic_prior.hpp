@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/sensing/systematic_motion.hpp"
+
+namespace swiftlet {
+
+using SystematicCovariance = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
+
+/// Standard deviations of the systematic errors of an input of which nothing else is known.
+struct SystematicPrior {
+  double range_age_s = 0.1;      ///< about a scan period
+  double scale = 0.03;           ///< of odometry
+  double scales_apart = 0.01;    ///< forward and sideways: one flow sensor measures both, at one height
+  double yaw_per_radian = 0.01;  ///< of a gyro; that of wheels is learnt by the frontend
+  double yaw_per_second_rad = 0.002;
+};
+
+/// Zero where an error is none: wheels do not move sideways, and the frontend learns their yaw.
+[[nodiscard]] SystematicCovariance covariance_of(const SystematicPrior& prior, bool has_wheels);
+
+}  // namespace swiftlet
