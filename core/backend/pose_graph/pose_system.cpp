@@ -11,11 +11,11 @@
 namespace swiftlet {
 namespace {
 
-std::vector<BlockSystem3::BlockIndex> pattern_of(std::span<const RelativePoseFactor<PoseIndex>> factors) {
+std::vector<BlockSystem3::BlockIndex> pattern_of(std::span<const PosePair> pairs) {
   std::vector<BlockSystem3::BlockIndex> pattern;
-  for (const RelativePoseFactor<PoseIndex>& f : factors) {
-    const std::uint32_t low = std::min(index_of(f.from), index_of(f.to));
-    const std::uint32_t high = std::max(index_of(f.from), index_of(f.to));
+  for (const PosePair& pair : pairs) {
+    const std::uint32_t low = std::min(index_of(pair.from), index_of(pair.to));
+    const std::uint32_t high = std::max(index_of(pair.from), index_of(pair.to));
     if (low > 0) pattern.push_back({high - 1, low - 1});
   }
   return pattern;
@@ -44,8 +44,15 @@ Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_m
 }
 
 Status PoseSystem::prepare(std::size_t pose_count, std::span<const RelativePoseFactor<PoseIndex>> factors) {
+  std::vector<PosePair> pairs;
+  pairs.reserve(factors.size());
+  for (const RelativePoseFactor<PoseIndex>& f : factors) pairs.push_back({f.from, f.to});
+  return prepare_pairs(pose_count, pairs);
+}
+
+Status PoseSystem::prepare_pairs(std::size_t pose_count, std::span<const PosePair> pairs) {
   SWIFTLET_CHECK(pose_count >= 2, "there is a pose to move");
-  std::vector<BlockSystem3::BlockIndex> pattern = pattern_of(factors);
+  std::vector<BlockSystem3::BlockIndex> pattern = pattern_of(pairs);
   if (analyzed_poses_ == pose_count && same(pattern, analyzed_pattern_)) return {};
   analyzed_poses_ = 0;
   system_ = BlockSystem3(pose_count - 1, pattern, kFirstFree);
@@ -57,17 +64,14 @@ Status PoseSystem::prepare(std::size_t pose_count, std::span<const RelativePoseF
 
 void PoseSystem::add(const RelativePoseFactor<PoseIndex>& factor, double weight,
                      const std::vector<Pose2>& T_map_pose) {
-  const std::uint32_t i = index_of(factor.from);
-  const std::uint32_t j = index_of(factor.to);
-  const PoseResidual r = pose_residual(factor.T_from_to, T_map_pose[i], T_map_pose[j]);
+  const PoseResidual r =
+      pose_residual(factor.T_from_to, T_map_pose[index_of(factor.from)], T_map_pose[index_of(factor.to)]);
   const Eigen::Matrix3d W = weight * factor.information;
   const Eigen::Matrix3d A = r.J_from.transpose() * W;
   const Eigen::Matrix3d B = r.J_to.transpose() * W;
   add(factor.from, A * r.J_from, -A * r.error);
   add(factor.to, B * r.J_to, -B * r.error);
-  if (i == 0 || j == 0) return;
-  const Eigen::Matrix3d H = j > i ? Eigen::Matrix3d(B * r.J_from) : Eigen::Matrix3d(A * r.J_to);
-  system_.add(std::max(i, j) - 1, std::min(i, j) - 1, H.data());
+  add(factor.to, factor.from, B * r.J_from);
 }
 
 void PoseSystem::add(const HeadingFactor<PoseIndex>& factor, double weight,
@@ -82,6 +86,14 @@ void PoseSystem::add(PoseIndex pose, const Eigen::Matrix3d& H, const Eigen::Vect
   const std::uint32_t block = index_of(pose) - 1;
   system_.add(block, block, H.data());
   for (std::uint32_t k = 0; k < 3; ++k) system_.rhs[3 * block + k] += rhs[static_cast<Eigen::Index>(k)];
+}
+
+void PoseSystem::add(PoseIndex a, PoseIndex b, const Eigen::Matrix3d& H_ab) {
+  const std::uint32_t i = index_of(a);
+  const std::uint32_t j = index_of(b);
+  if (i == 0 || j == 0) return;
+  const Eigen::Matrix3d H = i > j ? H_ab : Eigen::Matrix3d(H_ab.transpose());
+  system_.add(std::max(i, j) - 1, std::min(i, j) - 1, H.data());
 }
 
 Result<double> PoseSystem::step(std::vector<Pose2>& T_map_pose) {

@@ -17,6 +17,12 @@ namespace swiftlet {
 /// Errors: kSolver where one is not finite; the poses are then as they were.
 Result<double> move_poses(std::span<const double> steps, std::vector<Pose2>& T_map_pose);
 
+/// Two poses that a factor joins.
+struct PosePair {
+  PoseIndex from{};
+  PoseIndex to{};
+};
+
 /// One Gauss-Newton step over a list of poses, the first of which is held as gauge: gathers the normal
 /// equations of factors and of anything else that pulls at a pose, and solves them. The symbolic analysis
 /// is kept while the factors join the same pairs. Allocates. One thread at a time.
@@ -25,6 +31,8 @@ class PoseSystem {
   /// Sets up for `pose_count` poses joined by these factors. Precondition: pose_count >= 2. Errors:
   /// kSolver.
   Status prepare(std::size_t pose_count, std::span<const RelativePoseFactor<PoseIndex>> factors);
+  /// The same for poses joined like this; pairs may repeat.
+  Status prepare_pairs(std::size_t pose_count, std::span<const PosePair> pairs);
 
   void set_zero() { system_.set_zero(); }
   /// Adds a factor at the present poses, its information times `weight`.
@@ -32,6 +40,8 @@ class PoseSystem {
   void add(const HeadingFactor<PoseIndex>& factor, double weight, const std::vector<Pose2>& T_map_pose);
   /// Adds to one pose alone: H of its block and -g.
   void add(PoseIndex pose, const Eigen::Matrix3d& H, const Eigen::Vector3d& rhs);
+  /// Adds to the block of two poses that are joined, rows of `a`, columns of `b`.
+  void add(PoseIndex a, PoseIndex b, const Eigen::Matrix3d& H_ab);
 
   /// Solves and moves the poses. Returns the largest component of the step, in metres or radians. Errors:
   /// kSolver, also where the step is not finite; the poses are then as they were.

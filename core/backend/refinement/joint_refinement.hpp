@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/backend/config/backend_tuning.hpp"
+#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/refinement_problem.hpp"
+#include "core/backend/store/scan_store.hpp"
+#include "core/base/result.hpp"
+#include "core/sensing/sensor_model.hpp"
+
+namespace swiftlet {
+
+/// One least-squares problem over the poses of all scans and the walls that they see. Batch refinement holds
+/// the walls of one round while the poses move: what only a whole stretch of walls and poses could do
+/// together, as a corridor that is bent or too long, it approaches over hundreds of rounds. Here a wall is a
+/// patch, half a metre of one face, whose place and direction are unknowns like the poses. Patches are found
+/// again as the poses converge. Held-out returns take no part.
+///
+/// The age of the ranges and the scales of the odometry are unknowns, too, near those assumed: whole walls
+/// show them best.
+///
+/// `factors`: dead reckoning from each scan to the next, then closures; in and out, the dead reckoning less
+/// what was found of age and scales. `headings`: of scans. `T_map_body`: one pose per scan, in and out, the
+/// first one is held; traversals over one wall must lie within a decimetre. Errors: kSolver; all is then as
+/// it was. Allocates. Repeatable. Precondition: two scans.
+[[nodiscard]] Status refine_jointly(const ScanStore& scans, const SensorModel& sensor,
+                                    std::span<const PlacedReturn> returns,
+                                    std::span<const HeadingFactor<PoseIndex>> headings,
+                                    const BackendTuning& tuning,
+                                    std::vector<RelativePoseFactor<PoseIndex>>& factors,
+                                    std::vector<Pose2>& T_map_body);
+
+}  // namespace swiftlet
