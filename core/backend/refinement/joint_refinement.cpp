@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/backend/pose_graph/pose_system.hpp"
@@ -112,6 +113,7 @@ class PosesAndWalls {
   }
   [[nodiscard]] PoseIndex errors_index() const { return make_id<PoseIndex>(T_map_pose_.size() - 1); }
   [[nodiscard]] double wall_sigma_m() const;
+  std::vector<PosePair> find_walls();
   void correct_motions();
   void add_motions();
   void add_walls();
@@ -132,10 +134,17 @@ class PosesAndWalls {
   std::vector<PlacedReturn> returns_;  // but the held-out ones
   std::vector<WallReturn> walls_;
   Eigen::Vector3d errors_ = Eigen::Vector3d::Zero();
-  PoseSystem system_;
+  std::optional<PoseSystem> system_;
 };
 
 Status PosesAndWalls::associate() {
+  system_.reset();  // before the next is built: it is the most that a run ever holds
+  const std::vector<PosePair> pairs = find_walls();
+  return system_.emplace().prepare_pairs(T_map_pose_.size(), pairs);
+}
+
+/// Finds patches and the returns on them. Returns which unknowns are joined.
+std::vector<PosePair> PosesAndWalls::find_walls() {
   T_map_pose_.resize(scans_);
   std::vector<DrawnReturn> drawn;
   drawn.reserve(returns_.size());
@@ -153,6 +162,7 @@ Status PosesAndWalls::associate() {
   T_map_pose_.emplace_back(errors_(0), errors_(1), errors_(2));
   walls_.clear();
   std::vector<PosePair> pairs;
+  pairs.reserve(factors_.size() + scans_ + returns_.size());
   for (const Factor& f : factors_) pairs.push_back({f.from, f.to});
   for (std::size_t i = 0; i < scans_; ++i) pairs.push_back({make_id<PoseIndex>(i), errors_index()});
   for (std::size_t k = 0; k < returns_.size(); ++k) {
@@ -163,7 +173,7 @@ Status PosesAndWalls::associate() {
     walls_.push_back({returns_[k].pose, make_id<PoseIndex>(scans_ + found.patch_of[k]), returns_[k].p_body});
     pairs.push_back({walls_.back().scan, walls_.back().patch});
   }
-  return system_.prepare_pairs(T_map_pose_.size(), pairs);
+  return pairs;
 }
 
 /// The returns' robust scatter around their walls.
@@ -198,7 +208,7 @@ void PosesAndWalls::correct_motions() {
 void PosesAndWalls::add_motions() {
   for (std::size_t i = 0; i < measured_.size(); ++i) {
     const Factor& f = factors_[i];
-    system_.add(f, 1.0, T_map_pose_);
+    system_->add(f, 1.0, T_map_pose_);
     const PoseResidual r =
         pose_residual(f.T_from_to, T_map_pose_[index_of(f.from)], T_map_pose_[index_of(f.to)]);
     const Pose2 T_to_from = f.T_from_to.inverse();
@@ -206,9 +216,9 @@ void PosesAndWalls::add_motions() {
     const Eigen::Matrix3d J =
         jacobian_compose_first(T_to_from, moved) * jacobian_inverse(f.T_from_to) * by_errors_[i];
     const Eigen::Matrix3d W = J.transpose() * f.information;
-    system_.add(errors_index(), W * J, -W * r.error);
-    system_.add(errors_index(), f.from, W * r.J_from);
-    system_.add(errors_index(), f.to, W * r.J_to);
+    system_->add(errors_index(), W * J, -W * r.error);
+    system_->add(errors_index(), f.from, W * r.J_from);
+    system_->add(errors_index(), f.to, W * r.J_to);
   }
 }
 
@@ -219,9 +229,9 @@ void PosesAndWalls::add_walls() {
     const double scaled = r.error_m / (tuning_.robust_sigmas * sigma_m);
     const double robust = 1.0 / ((1.0 + scaled * scaled) * (1.0 + scaled * scaled));  // Geman-McClure
     const double weight = robust / (sigma_m * sigma_m);
-    system_.add(wall.scan, weight * r.by_scan * r.by_scan.transpose(), -weight * r.error_m * r.by_scan);
-    system_.add(wall.patch, weight * r.by_patch * r.by_patch.transpose(), -weight * r.error_m * r.by_patch);
-    system_.add(wall.patch, wall.scan, weight * r.by_patch * r.by_scan.transpose());
+    system_->add(wall.scan, weight * r.by_scan * r.by_scan.transpose(), -weight * r.error_m * r.by_scan);
+    system_->add(wall.patch, weight * r.by_patch * r.by_patch.transpose(), -weight * r.error_m * r.by_patch);
+    system_->add(wall.patch, wall.scan, weight * r.by_patch * r.by_scan.transpose());
   }
 }
 
@@ -235,21 +245,21 @@ void PosesAndWalls::tie() {
     const Pose2& T = T_map_pose_[scans_ + m];
     const Eigen::Vector3d moved(T.x_m() - found_[m].x_m(), T.y_m() - found_[m].y_m(),
                                 wrap_angle(T.yaw_rad() - found_[m].yaw_rad()));
-    system_.add(make_id<PoseIndex>(scans_ + m), information.asDiagonal(), -information.cwiseProduct(moved));
+    system_->add(make_id<PoseIndex>(scans_ + m), information.asDiagonal(), -information.cwiseProduct(moved));
   }
-  system_.add(errors_index(), prior_information_, -prior_information_ * errors_);
+  system_->add(errors_index(), prior_information_, -prior_information_ * errors_);
 }
 
 Result<double> PosesAndWalls::step() {
-  system_.set_zero();
+  system_->set_zero();
   correct_motions();
   add_motions();
   for (std::size_t i = measured_.size(); i < factors_.size(); ++i)
-    system_.add(factors_[i], tuning_.closure_weight, T_map_pose_);
-  for (const HeadingFactor<PoseIndex>& f : headings_) system_.add(f, 1.0, T_map_pose_);
+    system_->add(factors_[i], tuning_.closure_weight, T_map_pose_);
+  for (const HeadingFactor<PoseIndex>& f : headings_) system_->add(f, 1.0, T_map_pose_);
   add_walls();
   tie();
-  const Result<double> largest = system_.step(T_map_pose_);
+  const Result<double> largest = system_->step(T_map_pose_);
   errors_ = T_map_pose_.back().vector();
   correct_motions();
   return largest;
