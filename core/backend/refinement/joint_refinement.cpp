@@ -259,7 +259,7 @@ Result<double> PosesAndWalls::step() {
   for (const HeadingFactor<PoseIndex>& f : headings_) system_->add(f, 1.0, T_map_pose_);
   add_walls();
   tie();
-  const Result<double> largest = system_->step(T_map_pose_);
+  Result<double> largest = system_->step(T_map_pose_);
   errors_ = T_map_pose_.back().vector();
   correct_motions();
   return largest;
