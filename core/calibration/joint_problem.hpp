@@ -12,8 +12,8 @@
 #include "core/backend/refinement/wall_patches.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/calibration_scan.hpp"
-#include "core/sensing/systematic_motion.hpp"
 #include "core/sensing/sensor_model.hpp"
+#include "core/sensing/systematic_motion.hpp"
 
 namespace swiftlet {
 
