@@ -106,6 +106,7 @@ CarmenSampleSource::CarmenSampleSource(CarmenLog log, const SampleSourceOptions&
   report_.counters.frames = log_.lines;
   report_.counters.duplicates = log_.duplicate_scans;
   report_.problems = log_.problems;
+  report_.shows_age = uses_odometry_lines_;
   report_.notes.push_back(describe_odometry(log_, uses_odometry_lines_, sensor_.range_age));
   if (!uses_odometry_lines_ && !options.range_age && log_.pose_scan_lag.runs_a_line_ahead())
     report_.notes.push_back(describe_lag(log_.pose_scan_lag, sensor_.range_age));

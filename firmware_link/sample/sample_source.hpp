@@ -24,6 +24,8 @@ struct InputReport {
   InputCounters counters;
   std::vector<std::string> notes;     ///< remarks (e.g. layout taken from a side file)
   std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
+  bool shows_age =
+      true;  ///< false: scan and pose come in one line with one stamp, which has no age of its own
   double reversed_m = 0.0;  ///< way that the odometry reported as forward, taken as driven in reverse
 };
 

@@ -149,7 +149,7 @@ TrueAge true_age(const WatchedFlight& flight) {
 OdometryCalibration true_odometry(const WatchedFlight& flight) {
   const std::vector<CalibrationScan> scans = calibration_scans(flight.run.samples, flight.run.beams);
   const std::vector<Pose2>& T_world_body = flight.T_world_body;
-  const SystematicMotion motion(scans);
+  const SystematicMotion motion(odometry_of(scans));
   Eigen::Vector2d true_true = Eigen::Vector2d::Zero();
   Eigen::Vector2d true_measured = Eigen::Vector2d::Zero();
   Eigen::Matrix2d yaw_normal = Eigen::Matrix2d::Zero();

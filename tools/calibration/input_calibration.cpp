@@ -21,20 +21,24 @@ Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorM
   if (samples.size() < 2) return Error{ErrorCode::kInvalidInput, "too few samples"};
   const Result<JointEstimate> estimate = estimate_from_stretches(samples, expected, source.beams());
   if (!estimate) return estimate.error();
-  return calibrated_by(weighed(*estimate, expected), expected);
+  SystematicPrior prior;
+  if (!source.report().shows_age) prior.range_age_s = 0.0;
+  return calibrated_by(weighed(*estimate, expected, prior), expected);
 }
 
 std::string calibration_note(const InputCalibration& calibration) {
-  const auto text = [&](SystematicError error, const char* name, const char* unit) {
+  std::string note = "by the input itself: ";
+  const auto add = [&](SystematicError error, const char* name, const char* unit) {
     const double sigma = calibration.sigma(index_of(error));
-    if (sigma == 0.0) return std::string();
-    return fmt::format("{} {:.3f} +- {:.3f}{} ({:.3f} expected)", name, value_in(calibration.found, error),
-                       sigma, unit, value_in(calibration.expected, error));
+    if (sigma == 0.0) return;
+    if (!note.ends_with(": ")) note += ", ";
+    note += fmt::format("{} {:.3f} +- {:.3f}{} ({:.3f} expected)", name, value_in(calibration.found, error),
+                        sigma, unit, value_in(calibration.expected, error));
   };
-  std::string note = "by the input itself: " + text(SystematicError::kRangeAge, "age of the ranges", " s") +
-                     ", " + text(SystematicError::kForwardScale, "scale of the odometry", "");
-  const std::string sideways = text(SystematicError::kSidewaysScale, "sideways", "");
-  return sideways.empty() ? note : note + ", " + sideways;
+  add(SystematicError::kRangeAge, "age of the ranges", " s");
+  add(SystematicError::kForwardScale, "scale of the odometry", "");
+  add(SystematicError::kSidewaysScale, "sideways", "");
+  return note;
 }
 
 }  // namespace swiftlet

@@ -49,6 +49,7 @@ TEST(CarmenSampleSource, TakesOdometryLinesAtTheTimeOfTheRangesWhenTheirStampsAr
   EXPECT_EQ(samples[0].stamp, HostTime(std::chrono::milliseconds(10'150)));
   EXPECT_EQ((*source)->sensor().range_age, std::chrono::milliseconds(100));
   EXPECT_THAT((*source)->report().notes, ElementsAre(HasSubstr("from the ODOM lines, 100 ms before")));
+  EXPECT_TRUE((*source)->report().shows_age);
   EXPECT_EQ((*source)->progress(), 1.0);
 }
 
@@ -63,6 +64,7 @@ TEST(CarmenSampleSource, TakesThePoseInTheScanWhenOdometryStampsGoBack) {
   EXPECT_DOUBLE_EQ(samples[0].T_odom_body.x_m(), 7.0);
   EXPECT_EQ((*source)->sensor().range_age, Duration::zero());
   EXPECT_THAT((*source)->report().notes, ElementsAre(HasSubstr("go back 1 times")));
+  EXPECT_FALSE((*source)->report().shows_age) << "one stamp for scan and pose";
 }
 
 TEST(CarmenSampleSource, TakesThePoseInTheScanWhenThereIsNoOdometryOrTooLittle) {
