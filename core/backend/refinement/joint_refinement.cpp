@@ -49,6 +49,9 @@ WallResidual wall_residual(const Pose2& T_map_body, const Pose2& T_map_patch, co
           {-nx, -ny, nx * off.y_m - ny * off.x_m}};
 }
 
+constexpr double kWallSigmasOfReading = 2.0;  // at least: a wall is no plane, and the error of a scan's pose
+                                              // is in all of its returns
+
 /// The three systematic errors that walls show best: age of the ranges in seconds, scales forward and
 /// sideways.
 constexpr std::array<SystematicError, 3> kShown{SystematicError::kRangeAge, SystematicError::kForwardScale,
@@ -92,7 +95,7 @@ class PosesAndWalls {
         factors_(factors),
         by_errors_(measured_.size(), Eigen::Matrix3d::Zero()),
         prior_information_(prior_information(sensor, motion_.shows_time_offset(), tuning.joint)),
-        min_wall_sigma_m_(sensor.range_sigma_m),
+        min_wall_sigma_m_(kWallSigmasOfReading * sensor.range_sigma_m),
         tuning_(tuning.joint),
         patches_tuning_(tuning.patches),
         scans_(scans.size()),
