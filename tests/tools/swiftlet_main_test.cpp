@@ -307,7 +307,8 @@ TEST_F(SwiftletCommand, UsesACaptureUpToTheDamageAndReportsIt) {
   const Outcome outcome = run("map {}/cut.pcap -o {}/out --no-calibrate");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("swiftlet: "), HasSubstr("byte")));
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  // Before it there may be a note on what so short a map follows.
+  EXPECT_LE(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2);
   EXPECT_THAT(text_of(file("out/report.json")), HasSubstr("byte"));
   EXPECT_GT(fs::file_size(file("out/trajectory.tum")), 1000U);
 }

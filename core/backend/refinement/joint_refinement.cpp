@@ -49,7 +49,7 @@ WallResidual wall_residual(const Pose2& T_map_body, const Pose2& T_map_patch, co
           {-nx, -ny, nx * off.y_m - ny * off.x_m}};
 }
 
-constexpr double kWallSigmasOfReading = 2.0;  // at least: a wall is no plane, and the error of a scan's pose
+constexpr double kWallSigmasOfReading = 1.7;  // at least: a wall is no plane, and the error of a scan's pose
                                               // is in all of its returns
 
 /// The three systematic errors that walls show best: age of the ranges in seconds, scales forward and
