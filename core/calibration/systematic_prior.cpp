@@ -7,6 +7,7 @@
 #include <cmath>
 
 namespace swiftlet {
+
 JointEstimate weighed(JointEstimate measured, const SensorModel& sensor, const SystematicPrior& prior,
                       double sigma_factor) {
   const SystematicCovariance before = covariance_of(prior, yaw_goes_with_travel(sensor.odometry));

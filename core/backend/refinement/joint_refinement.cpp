@@ -102,6 +102,7 @@ class PosesAndWalls {
         T_map_pose_(T_map_body) {
     std::copy_if(returns.begin(), returns.end(), std::back_inserter(returns_),
                  [](const PlacedReturn& r) { return !r.held_out; });
+    correct_motions();
   }
 
   Status associate();
@@ -255,7 +256,6 @@ void PosesAndWalls::tie() {
 
 Result<double> PosesAndWalls::step() {
   system_->set_zero();
-  correct_motions();
   add_motions();
   for (std::size_t i = measured_.size(); i < factors_.size(); ++i)
     system_->add(factors_[i], tuning_.closure_weight, T_map_pose_);
