@@ -6,8 +6,11 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include "firmware_link/laser_log/line_times.hpp"
 
 namespace swiftlet {
 namespace {
@@ -27,23 +30,25 @@ bool trusts_odometry_lines(const CarmenLog& log) {
 }
 
 /// Median of the times from one scan to the next; 0 for fewer than two.
-Duration usual_interval(const std::vector<CarmenOdometry>& scans) {
+Duration usual_interval(std::span<const DeviceTime> times) {
   std::vector<Duration> intervals;
-  for (std::size_t i = 1; i < scans.size(); ++i) intervals.push_back(scans[i].stamp - scans[i - 1].stamp);
+  for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
   if (intervals.empty()) return Duration::zero();
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
   return *middle;
 }
 
-Duration range_age(const CarmenLog& log, bool uses_odometry_lines) {
-  if (uses_odometry_lines) return kAgeAgainstOdometryLines;
-  return log.pose_scan_lag.runs_a_line_ahead() ? usual_interval(log.scans) : Duration::zero();
+/// `scan_times`: empty where dead reckoning comes from the ODOM lines.
+Duration range_age(const CarmenLog& log, std::span<const DeviceTime> scan_times) {
+  if (scan_times.empty()) return kAgeAgainstOdometryLines;
+  return log.pose_scan_lag.runs_a_line_ahead() ? usual_interval(scan_times) : Duration::zero();
 }
 
-SensorModel sensor_model(const CarmenLog& log, bool uses_odometry_lines, const SampleSourceOptions& options) {
+SensorModel sensor_model(const CarmenLog& log, std::span<const DeviceTime> scan_times,
+                         const SampleSourceOptions& options) {
   SensorModel sensor = SensorModel::carmen_laser();
-  sensor.range_age = range_age(log, uses_odometry_lines);
+  sensor.range_age = range_age(log, scan_times);
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
   if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
@@ -56,7 +61,7 @@ AssemblyConfig assembly_config(const CarmenLog& log, const SensorModel& sensor) 
   config.sensor = sensor;
   // Wheels count on while nothing is logged, and stamps of such logs come in bunches: only a jump breaks the
   // run.
-  config.continuity.longest_interpolation = std::chrono::seconds(5);
+  config.continuity.longest_interpolation = kLongestLineInterval;
   config.continuity.longest_silence = Duration::max();
   config.continuity.jump_slack_m = 2.0;
   config.continuity.top_turn_rate_rad_per_s = std::numeric_limits<double>::infinity();
@@ -101,7 +106,8 @@ Result<std::unique_ptr<SampleSource>> CarmenSampleSource::open(const std::string
 CarmenSampleSource::CarmenSampleSource(CarmenLog log, const SampleSourceOptions& options)
     : log_(std::move(log)),
       uses_odometry_lines_(trusts_odometry_lines(log_)),
-      sensor_(sensor_model(log_, uses_odometry_lines_, options)),
+      scan_times_(uses_odometry_lines_ ? std::vector<DeviceTime>() : regular_times(log_.scans)),
+      sensor_(sensor_model(log_, scan_times_, options)),
       assembler_(assembly_config(log_, sensor_), report_.counters) {
   report_.counters.frames = log_.lines;
   report_.counters.duplicates = log_.duplicate_scans;
@@ -152,7 +158,7 @@ void CarmenSampleSource::feed_scan() {
   Reading reading;
   reading.stream = kScanStream;
   // Two different scans with one stamp are both used; the assembler requires ascending times.
-  reading.at = device_time(scan.stamp);
+  reading.at = uses_odometry_lines_ ? device_time(scan.stamp) : scan_times_[next_scan_];
   if (next_scan_ > 0) reading.at = std::max(reading.at, last_scan_at_ + Duration(1));
   last_scan_at_ = reading.at;
   reading.received = scan.stamp;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.hpp"
 #include "firmware_link/laser_log/carmen_log.hpp"
@@ -16,7 +17,8 @@ namespace swiftlet {
 
 /// Range samples from a CARMEN laser log. Dead reckoning comes from the ODOM lines, taken 0.1 s before the
 /// scan, when their stamps can be trusted (they never go back and span the scans), else from the pose in each
-/// FLASER line; report().notes names the choice. Stamps are the ipc_timestamps as logged. One thread at a
+/// FLASER line; report().notes names the choice. Stamps are the ipc_timestamps as logged; where a scan and
+/// its pose share one, an age of the ranges is applied in regular times (line_times.hpp). One thread at a
 /// time.
 class CarmenSampleSource final : public SampleSource {
  public:
@@ -39,6 +41,7 @@ class CarmenSampleSource final : public SampleSource {
 
   CarmenLog log_;
   bool uses_odometry_lines_;
+  std::vector<DeviceTime> scan_times_;  // of scans that carry their poses
   SensorModel sensor_;
   InputReport report_;
   SampleAssembler assembler_;
