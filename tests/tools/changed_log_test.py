@@ -139,6 +139,16 @@ class ChangedLog(unittest.TestCase):
             self.assertAlmostEqual(copy.poses[straight][1][0], (straight + 0.5) * STEP_M, places=4)
             self.assert_same_pose(copy.poses[-1][1], self.recording.poses[-1][1])
 
+    def test_stamps_in_bunches_are_spread_evenly_before_a_lead(self):
+        bunched = [float(i // 3 * 3) + i % 3 * 1e-3 for i in range(60)]
+        times = changed.regular_times(bunched)
+        self.assertTrue(all(0.8 < now - before < 1.2 for before, now in zip(times[11:48], times[12:49])))
+
+    def test_regular_stamps_and_pauses_stay(self):
+        stamps = [i * 0.2 + (60.0 if i >= 20 else 0.0) for i in range(40)]
+        for time, stamp in zip(changed.regular_times(stamps), stamps):
+            self.assertAlmostEqual(time, stamp, places=9)
+
     def test_a_cut_copy_has_the_scans_of_its_part_and_the_poses_around_them(self):
         scans = len(self.recording.scans)
         for self.recording in (self.recording, self.only_scans(0)):
