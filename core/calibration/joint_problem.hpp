@@ -9,7 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/refinement/wall_patches.hpp"
+#include "core/backend/refinement/poses_and_walls.hpp"
+#include "core/backend/refinement/rigid_nodes.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/calibration_scan.hpp"
 #include "core/sensing/sensor_model.hpp"
@@ -30,33 +31,21 @@ struct JointProblemTuning {
   int associations = 5;
   int steps_per_association = 3;
   int steps_per_noise = 3;
-  double settled = 0.05;  ///< of a standard deviation
-  double robust_sigmas = 1.5;
-  double first_wall_sigma_m = 0.05;
-  double patch_distance_sigma_m = 1.0;
-  double patch_turn_sigma_rad = 0.3;
-  double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
-  double sampling_share = 0.05;       ///< of an interval; as seen in simulated flights
-  /// A node of rigid dead reckoning ends before the first of these is exceeded.
-  double node_way_m = 0.25;
-  double node_turn_rad = 0.25;
-  Duration node_duration = std::chrono::seconds(1);
-  double noise_factor = 2.0;  ///< the odometry's noise may be so many times larger or smaller
+  double settled = 0.05;         ///< of a standard deviation
+  double sampling_share = 0.05;  ///< of an interval; as seen in simulated flights
+  double noise_factor = 2.0;     ///< the odometry's noise may be so many times larger or smaller
   Duration stretch = std::chrono::seconds(10);
   /// What is possible at all, in the order of SystematicError.
   std::array<double, kSystematicErrors> prior_sigma{0.3, 0.3, 0.3, radians(20.0), 0.3, radians(2.0)};
-  WallPatchesTuning patches;
-  SystematicMotionTuning motion;
+  RigidNodesTuning nodes{.way_m = 0.25};  ///< three numbers of the whole input need no finer path
+  PosesAndWalls::Tuning problem;
 };
 
 /// Called between steps of long work with the share done, 0 to 1; false stops the work.
 using GoOn = std::function<bool(double done)>;
 
-/// One least-squares problem over all unknowns together: the path, distance and direction of each wall patch,
-/// and the systematic errors. The path is a chain of nodes, a few tenths of a metre each, within which the
-/// dead reckoning less its systematic errors is taken as it is. The factors join returns with patches, and
-/// neighbouring nodes by dead reckoning less its systematic errors. So a motion that walls and ranges do not
-/// determine adds no false information. Patches are found again as the path converges.
+/// From the path, the walls and the systematic errors as unknowns of one problem (PosesAndWalls). Patches are
+/// found again as the path converges.
 ///
 /// Standard deviations follow from the scatter of the gradients of stretches of ten seconds (a sandwich
 /// estimate with clusters, Liang & Zeger 1986), which allows any correlation within a stretch; never less

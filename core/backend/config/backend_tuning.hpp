@@ -215,25 +215,42 @@ struct WallPatchesTuning {
       {"min_returns", &WallPatchesTuning::min_returns}};
 };
 
-/// Poses and walls in one problem.
+/// A node of rigid dead reckoning ends before the first of these is exceeded: dead reckoning errs by then
+/// about as much as one reading, 2 cm across and at the end of a beam.
+struct RigidNodesTuning {
+  double way_m = 0.15;
+  double turn_rad = 0.25;
+  double duration_s = 1.0;
+
+  static constexpr TuningValue<RigidNodesTuning> kValues[] = {{"way_m", &RigidNodesTuning::way_m},
+                                                              {"turn_rad", &RigidNodesTuning::turn_rad},
+                                                              {"duration_s", &RigidNodesTuning::duration_s}};
+};
+
+/// Returns and the patches that they lie on, whose places are unknown.
+struct PosesAndWallsTuning {
+  double robust_sigmas = 1.5;         ///< scale of the Geman-McClure kernel
+  double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
+  double patch_distance_sigma_m = 1.0;  ///< ties a patch to where it was found, where returns leave it free
+  double patch_turn_sigma_rad = 0.3;    ///< likewise
+
+  static constexpr TuningValue<PosesAndWallsTuning> kValues[] = {
+      {"robust_sigmas", &PosesAndWallsTuning::robust_sigmas},
+      {"min_incidence_cosine", &PosesAndWallsTuning::min_incidence_cosine},
+      {"patch_distance_sigma_m", &PosesAndWallsTuning::patch_distance_sigma_m},
+      {"patch_turn_sigma_rad", &PosesAndWallsTuning::patch_turn_sigma_rad}};
+};
+
+/// Poses and walls of a whole run in one problem.
 struct JointRefinementTuning {
   int associations = 4;  ///< of returns with patches
   int steps_per_association = 2;
-  double robust_sigmas = 1.5;         ///< scale of the Geman-McClure kernel
-  double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
-  double patch_distance_sigma_m =
-      1.0;                            ///< ties a patch to where it was found, as far as returns leave it free
-  double patch_turn_sigma_rad = 0.3;  ///< likewise
-  double age_sigma_s = 0.02;          ///< of the ranges' age: what the estimate before the run leaves
-  double closure_weight = 0.08;       ///< on information: six queries see each return, against two submaps
+  double age_sigma_s = 0.02;     ///< of the ranges' age: what the estimate before the run leaves
+  double closure_weight = 0.08;  ///< on information: six queries see each return, against two submaps
 
   static constexpr TuningValue<JointRefinementTuning> kValues[] = {
       {"associations", &JointRefinementTuning::associations},
       {"steps_per_association", &JointRefinementTuning::steps_per_association},
-      {"robust_sigmas", &JointRefinementTuning::robust_sigmas},
-      {"min_incidence_cosine", &JointRefinementTuning::min_incidence_cosine},
-      {"patch_distance_sigma_m", &JointRefinementTuning::patch_distance_sigma_m},
-      {"patch_turn_sigma_rad", &JointRefinementTuning::patch_turn_sigma_rad},
       {"age_sigma_s", &JointRefinementTuning::age_sigma_s},
       {"closure_weight", &JointRefinementTuning::closure_weight}};
 };
@@ -308,6 +325,8 @@ struct BackendTuning {
   KeyframeGraphTuning graph;
   RefinementTuning refinement;
   JointRefinementTuning joint;
+  PosesAndWallsTuning poses_and_walls;
+  RigidNodesTuning nodes;
   WallPatchesTuning patches;
   OnlineRefinementTuning online;
   TraversalIndexTuning index;

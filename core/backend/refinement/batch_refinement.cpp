@@ -120,10 +120,8 @@ Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorM
   const Result<int> rounds = alternate(problem, factors, headings_of_poses, config, tuning, T);
   if (!rounds) return rounds.error();
   report.iterations = *rounds;
-  if (Status status =
-          refine_jointly(scans, sensor, problem.returns(), headings_of_poses, config.tuning, factors, T);
-      !status)
-    return status.error();
+  report.moved_walls =
+      refine_jointly(scans, sensor, problem.returns(), headings_of_poses, config.tuning, factors, T).ok();
   Judged after = judge(scans, problem, std::span(factors).first(motions), T, tuning);
   report.judge(before.held_out_m, after.held_out_m);
   report.share_on_walls = report.accepted ? after.share_on_walls : before.share_on_walls;

@@ -17,6 +17,7 @@ namespace swiftlet {
 
 struct RefinementReport : HeldOutVerdict {
   int iterations = 0;
+  bool moved_walls = false;     ///< false: refine_jointly() had no solution; the poses are those before it
   double share_on_walls = 0.0;  ///< of the held-out returns: that lie on walls of other traversals
   /// By traversal, in order: minus the log likelihood of the poses returned, but for a constant. Of the
   /// held-out returns (distance over wall sigma) and of the dead reckoning (half chi-square). Comparable

@@ -130,6 +130,7 @@ bool RunRefinement::try_refine(Hypothesis& hypothesis, const PoseGraph& graph) {
     ++counters_.solver_failures;
     return false;
   }
+  if (!report->moved_walls) ++counters_.solver_failures;
   hypothesis.report = std::move(*report);
   RefinementReport& r = hypothesis.report;
   if (is_odometry && gain_sigmas(r.misfit, r.misfit_at_start) < tuning.refined_gain_sigmas) {

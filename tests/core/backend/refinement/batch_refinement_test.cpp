@@ -272,6 +272,19 @@ TEST(Refinement, TurnsAndShiftsEachScanOntoTheWallsOfTheOthers) {
   EXPECT_LE(off, 2);
 }
 
+TEST(Refinement, WhereWallsCannotMovePosesDo) {
+  const LooksAtARoom looks = looks_at_a_room();
+  BackendConfig config;
+  config.tuning.poses_and_walls.patch_turn_sigma_rad = std::nan("");
+  std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
+  const Result<RefinementReport> report =
+      refine_scan_poses(looks.scans, looks.sensor, {}, {}, config, T_map_body);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_FALSE(report->moved_walls);
+  EXPECT_TRUE(report->accepted);
+  EXPECT_LT(report->held_out_after_m, 0.5 * report->held_out_before_m);
+}
+
 TEST(Refinement, ATenthOfTheReturnsHasNoSay) {
   const auto refined = [](const LooksAtARoom& looks) {
     std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
