@@ -48,6 +48,7 @@ Result<VehicleModel> model_for(const SimCommand& command, const SimulatedWorld& 
   model.battery_endurance = from_seconds(60.0 * command.battery_minutes.value_or(kLapMinutes * command.laps));
   model.link_timeout = kRadioLinkTimeout;
   model.prints_boot_text = true;
+  model.is_steered = command.steered;
   for (const std::string& name : command.missing_decks) {
     const Result<SimulatedDeck> deck = parse_deck(name);
     if (!deck) return deck.error();

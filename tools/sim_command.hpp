@@ -22,6 +22,7 @@ struct SimCommand {
   double loss_percent = 0.0;               ///< of packets, each way
   double delay_ms = 0.0;                   ///< of what the vehicle sends
   double duplicates_percent = 0.0;         ///< of what the vehicle sends
+  bool steered = false;                    ///< by its client's setpoints
   std::vector<std::string> missing_decks;  ///< flow, multiranger
 };
 

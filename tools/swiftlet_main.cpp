@@ -86,6 +86,7 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
       ->check(CLI::Range(0.0, 60'000.0));
   sim->add_option("--duplicates", command.duplicates_percent, "Percent of packets from the vehicle doubled")
       ->check(CLI::Range(0.0, 100.0));
+  sim->add_flag("--steered", command.steered, "Fly by a client's hover setpoints, not by the world's script");
   sim->add_option("--missing-deck", command.missing_decks, "flow or multiranger; may be given twice");
   sim->footer(worlds_text());
   return sim;

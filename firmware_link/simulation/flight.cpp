@@ -13,12 +13,9 @@ namespace {
 
 constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
 constexpr int kTakeOffSteps = 200;
-constexpr double kLookAheadM = 0.35;         // how far ahead of the vehicle the pilot aims
-constexpr double kArrivedM = 0.1;            // near enough to a place with an action
-constexpr double kVelocityResponseS = 0.3;   // velocity follows the stick with this time constant
-constexpr double kMaxAcceleration = 1.2;     // m/s^2
-constexpr double kYawGain = 2.0;             // 1/s
-constexpr double kMaxYawAcceleration = 4.0;  // rad/s^2
+constexpr double kLookAheadM = 0.35;  // how far ahead of the vehicle the pilot aims
+constexpr double kArrivedM = 0.1;     // near enough to a place with an action
+constexpr double kYawGain = 2.0;      // 1/s
 
 double limited(double value, double magnitude) { return std::clamp(value, -magnitude, magnitude); }
 
@@ -59,9 +56,8 @@ SimulatedFlight::SimulatedFlight(const SimulatedWorld& world, const PilotModel& 
       wander_yaw_(model.wander_yaw_rad, 3.0),
       wander_speed_(model.wander_speed_share, 5.0),
       aim_(script_[0].position),
-      nose_rad_(bearing(aim_, script_[1].position)) {
-  state_.T_world_body = Pose2(aim_.x_m, aim_.y_m, nose_rad_);
-}
+      nose_rad_(bearing(aim_, script_[1].position)),
+      motion_(Pose2(aim_.x_m, aim_.y_m, nose_rad_)) {}
 
 void SimulatedFlight::step() {
   if (take_off_steps_ < kTakeOffSteps) {
@@ -85,13 +81,13 @@ void SimulatedFlight::follow_script() {
 
 /// One step in place, at that height.
 void SimulatedFlight::hover(double height_m) {
-  state_.height_m = height_m;
-  apply(0.0, 0.0, 0.0);
+  motion_.set_height(height_m);
+  motion_.step(0.0, 0.0, 0.0);
 }
 
 /// Keeps the aim kLookAheadM ahead on the scripted lines; at a spin it waits for the vehicle.
 void SimulatedFlight::move_aim() {
-  const Point2 here = state_.T_world_body.position();
+  const Point2 here = motion_.state().T_world_body.position();
   while (!arrived() && spin_left_rad_ == 0.0 && hover_left_s_ == 0.0 &&
          distance_m(here, aim_) < kLookAheadM) {
     const Waypoint target = script_[next_];
@@ -114,46 +110,23 @@ void SimulatedFlight::move_aim() {
 
 void SimulatedFlight::look_around() {
   const double rate = std::copysign(model_.turn_rate_rad_s, spin_left_rad_);
-  apply(0.0, 0.0, rate);
-  const double turned = state_.yaw_rate_rad_s * kStepS;
+  motion_.step(0.0, 0.0, rate);
+  const double turned = motion_.state().yaw_rate_rad_s * kStepS;
   spin_left_rad_ = std::abs(turned) >= std::abs(spin_left_rad_) ? 0.0 : spin_left_rad_ - turned;
-  nose_rad_ = state_.T_world_body.yaw_rad();
+  nose_rad_ = motion_.state().T_world_body.yaw_rad();
 }
 
 /// Towards the aim, slowly while the nose points elsewhere.
 void SimulatedFlight::steer(double wander_yaw_rad) {
-  const Point2 here = state_.T_world_body.position();
+  const Point2 here = motion_.state().T_world_body.position();
   const Point2 aim{aim_.x_m + wander_x_.step(noise_), aim_.y_m + wander_y_.step(noise_)};
-  const double nose_error = wrap_angle(nose_rad_ + wander_yaw_rad - state_.T_world_body.yaw_rad());
+  const double nose_error = wrap_angle(nose_rad_ + wander_yaw_rad - motion_.state().T_world_body.yaw_rad());
   const double readiness = std::clamp(std::cos(nose_error), 0.1, 1.0);
   const double nearness = std::min(1.0, distance_m(here, aim) / kLookAheadM);
   const double speed = model_.speed_m_s * readiness * nearness * (1.0 + wander_speed_.step(noise_));
   const double course = bearing(here, aim);
-  apply(speed * std::cos(course), speed * std::sin(course),
-        limited(kYawGain * nose_error, model_.turn_rate_rad_s));
-}
-
-/// Lets the vehicle follow the commanded velocity (world frame) and yaw rate for one step.
-void SimulatedFlight::apply(double vx_m_s, double vy_m_s, double yaw_rate_rad_s) {
-  double ax = (vx_m_s - vx_m_s_) / kVelocityResponseS;
-  double ay = (vy_m_s - vy_m_s_) / kVelocityResponseS;
-  const double excess = std::hypot(ax, ay) / kMaxAcceleration;
-  if (excess > 1.0) {
-    ax /= excess;
-    ay /= excess;
-  }
-  vx_m_s_ += ax * kStepS;
-  vy_m_s_ += ay * kStepS;
-  state_.yaw_rate_rad_s += limited(yaw_rate_rad_s - state_.yaw_rate_rad_s, kMaxYawAcceleration * kStepS);
-  const Pose2& was = state_.T_world_body;
-  state_.T_world_body = Pose2(was.x_m() + vx_m_s_ * kStepS, was.y_m() + vy_m_s_ * kStepS,
-                              was.yaw_rad() + state_.yaw_rate_rad_s * kStepS);
-  const double c = state_.T_world_body.cos_yaw();
-  const double s = state_.T_world_body.sin_yaw();
-  state_.vx_body_m_s = c * vx_m_s_ + s * vy_m_s_;
-  state_.vy_body_m_s = -s * vx_m_s_ + c * vy_m_s_;
-  state_.ax_body_m_s2 = c * ax + s * ay;
-  state_.ay_body_m_s2 = -s * ax + c * ay;
+  motion_.step(speed * std::cos(course), speed * std::sin(course),
+               limited(kYawGain * nose_error, model_.turn_rate_rad_s));
 }
 
 }  // namespace swiftlet

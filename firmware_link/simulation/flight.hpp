@@ -9,6 +9,7 @@
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 #include "firmware_link/simulation/random.hpp"
+#include "firmware_link/simulation/vehicle_motion.hpp"
 #include "firmware_link/simulation/world.hpp"
 
 namespace swiftlet {
@@ -26,20 +27,6 @@ struct PilotModel {
   double wander_speed_share = 0.06;  ///< of the speed
   int laps = 1;                      ///< how often the script is flown before landing
 };
-
-/// The true motion at one instant.
-struct FlightState {
-  Pose2 T_world_body;
-  double vx_body_m_s = 0.0;
-  double vy_body_m_s = 0.0;
-  double yaw_rate_rad_s = 0.0;
-  double ax_body_m_s2 = 0.0;
-  double ay_body_m_s2 = 0.0;
-  double height_m = 0.0;  ///< above the floor
-};
-
-/// Between two states of a flight.
-inline constexpr Duration kFlightStep = std::chrono::milliseconds(10);
 
 /// A script that is repeated without being stored more than once: from its end on, or back along it if it
 /// does not end where it began.
@@ -68,7 +55,7 @@ class SimulatedFlight {
   /// On the ground, in the first state. Allocates.
   SimulatedFlight(const SimulatedWorld& world, const PilotModel& pilot, std::uint64_t seed);
 
-  [[nodiscard]] const FlightState& state() const { return state_; }
+  [[nodiscard]] const FlightState& state() const { return motion_.state(); }
   /// Whether it has landed: this is the last state.
   [[nodiscard]] bool is_over() const { return landing_steps_left_ == 0; }
   /// Advances to the state kFlightStep later; the last one stays.
@@ -94,7 +81,6 @@ class SimulatedFlight {
   void move_aim();
   void look_around();
   void steer(double wander_yaw_rad);
-  void apply(double vx_m_s, double vy_m_s, double yaw_rate_rad_s);
 
   RepeatedScript script_;
   PilotModel model_;
@@ -103,7 +89,6 @@ class SimulatedFlight {
   Wander wander_y_;
   Wander wander_yaw_;
   Wander wander_speed_;
-  FlightState state_;
   int take_off_steps_ = 0;
   int landing_steps_left_ = kLandingSteps;
   Point2 aim_;            // the point on the scripted lines that the pilot steers to
@@ -111,8 +96,7 @@ class SimulatedFlight {
   double nose_rad_;       // where the nose should point
   double spin_left_rad_ = 0.0;
   double hover_left_s_ = 0.0;
-  double vx_m_s_ = 0.0;  // in the world frame
-  double vy_m_s_ = 0.0;
+  VehicleMotion motion_;
 };
 
 }  // namespace swiftlet

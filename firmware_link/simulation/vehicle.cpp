@@ -25,7 +25,15 @@ constexpr double kBootMaxS = 4.0;
 constexpr double kMaxPosition = 100.0;  // m, kalman.maxPos
 constexpr double kAliasMaxM = 1.3;      // readings without the status filter alias to short wrong ranges
 
-enum Port : std::uint8_t { kParam = 2, kMemory = 4, kLog = 5, kSupervisor = 9, kPlatform = 13, kLink = 15 };
+enum Port : std::uint8_t {
+  kParam = 2,
+  kMemory = 4,
+  kLog = 5,
+  kGenericSetpoint = 7,
+  kSupervisor = 9,
+  kPlatform = 13,
+  kLink = 15
+};
 constexpr std::uint8_t kComplementary = 1;  // stabilizer.estimator
 constexpr std::uint8_t kKalman = 2;
 
@@ -82,7 +90,19 @@ SimulatedVehicle::SimulatedVehicle(SimulatedWorld world, const VehicleModel& mod
   next_range_read_ = now_ + std::chrono::duration_cast<Milliseconds>(phase * model_.range_period);
   set_up_parameters();
   if (model_.prints_boot_text) print_boot_text();
-  show(flight_.state(now_));
+  if (model_.is_steered) steered_.emplace(flight_.state(now_).T_world_body, now_);
+  show(truth());
+}
+
+Pose2 SimulatedVehicle::T_world_body(DeviceTime at) {
+  const Duration since_start = at.time_since_epoch();
+  return steered_ ? steered_->T_world_body(since_start) : flight_.T_world_body(since_start);
+}
+
+FlightState SimulatedVehicle::truth() {
+  if (!steered_) return flight_.state(now_);
+  steered_->advance(now_);
+  return steered_->state();
 }
 
 std::vector<PacketBytes> SimulatedVehicle::handle(std::span<const std::uint8_t> packet) {
@@ -90,7 +110,7 @@ std::vector<PacketBytes> SimulatedVehicle::handle(std::span<const std::uint8_t> 
   is_linked_ = true;
   last_received_ = now_;
   const std::optional<PacketBytes> reply = answer(packet);
-  if (log_.has_running_block()) flight_.go(now_);
+  if (log_.has_running_block() && !steered_) flight_.go(now_);
   return reply ? std::vector<PacketBytes>{*reply} : std::vector<PacketBytes>{};
 }
 
@@ -109,6 +129,9 @@ std::optional<PacketBytes> SimulatedVehicle::answer(std::span<const std::uint8_t
       return answer_platform_service(packet);
     case kLink:
       return answer_echo(packet);
+    case kGenericSetpoint:
+      if (const auto setpoint = read_setpoint(packet); setpoint && steered_) steered_->take(*setpoint, now_);
+      return std::nullopt;
     default:
       return std::nullopt;
   }
@@ -169,7 +192,7 @@ void SimulatedVehicle::reboot() {
 
 void SimulatedVehicle::boot() {
   boots_at_.reset();
-  if (is_off_) battery_.replace(flight_.flown(now_));
+  if (is_off_) battery_.replace(flown());
   is_off_ = false;
   params_.boot();
   set_up_parameters();
@@ -177,7 +200,7 @@ void SimulatedVehicle::boot() {
   begin_estimate();
   ranges_frozen_until_ = now_;
   next_range_read_ = now_ + whole_milliseconds(model_.range_period);
-  show(flight_.state(now_));
+  show(truth());
   print_boot_text();
 }
 
@@ -245,11 +268,11 @@ void SimulatedVehicle::unplug(SimulatedDeck deck) {
 
 /// One kFlightStep of flight or standing.
 void SimulatedVehicle::move() {
-  const FlightState truth = flight_.state(now_);
-  tilt_.step(truth.height_m > 0.0 ? tilt_by(truth) : Tilt());
-  odometry_.step(truth, model_.has_flow_deck && params_.number(ids().disable_flow) == 0.0);
-  if (truth.height_m <= 0.0) odometry_.pull_yaw(bounded(ids().initial_yaw));
-  show(truth);
+  const FlightState state = truth();
+  tilt_.step(state.height_m > 0.0 ? tilt_by(state) : Tilt());
+  odometry_.step(state, model_.has_flow_deck && params_.number(ids().disable_flow) == 0.0);
+  if (state.height_m <= 0.0) odometry_.pull_yaw(bounded(ids().initial_yaw));
+  show(state);
 }
 
 void SimulatedVehicle::show(const FlightState& truth) {
@@ -309,7 +332,7 @@ double SimulatedVehicle::filtered_range_mm(std::optional<double> range_m) {
 }
 
 void SimulatedVehicle::update_battery() {
-  battery_.update(now_, flight_.flown(now_), state_.is_flying,
+  battery_.update(now_, flown(), state_.is_flying,
                   {params_.number(ids().low_voltage), params_.number(ids().critical_voltage)});
   state_.battery_v = battery_.volts();
   state_.battery_percent = battery_.percent();

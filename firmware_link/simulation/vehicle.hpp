@@ -19,6 +19,7 @@
 #include "firmware_link/simulation/odometry.hpp"
 #include "firmware_link/simulation/params.hpp"
 #include "firmware_link/simulation/ranger.hpp"
+#include "firmware_link/simulation/steered_flight.hpp"
 #include "firmware_link/simulation/tilt.hpp"
 #include "firmware_link/simulation/world.hpp"
 
@@ -45,6 +46,7 @@ struct VehicleModel {
   Duration link_timeout{0};
   bool has_flow_deck = true;
   bool has_multiranger = true;
+  bool is_steered = false;        ///< flies by its client's hover setpoints, not its world's script
   bool prints_boot_text = false;  ///< the console text of its first boot waits for the first packet received
 };
 
@@ -56,7 +58,8 @@ struct SentPacket {
 
 /// A Crazyflie with flow and Multiranger deck, seen through its radio: CRTP packets in, CRTP packets out;
 /// time advances by advance() only. It stands on the ground until a log block runs, then flies its world's
-/// script and lands. The same seed and calls give the same bytes. One thread at a time; allocates.
+/// script and lands; or it flies by setpoints. The same seed and calls give the same bytes. One thread at a
+/// time; allocates.
 class SimulatedVehicle {
  public:
   /// Noise sources: "pilot", "flow", "gyro", "slip", "yaw_jump", "tilt", "range_phase", "range_front" ..
@@ -69,12 +72,12 @@ class SimulatedVehicle {
   /// Of the flight, 0 to 1.
   [[nodiscard]] double progress() const { return flight_.progress(now_); }
   /// Whether it has landed again.
-  [[nodiscard]] bool is_finished() const { return flight_.is_over(now_); }
+  [[nodiscard]] bool is_finished() const { return !steered_ && flight_.is_over(now_); }
   [[nodiscard]] bool is_flying() const { return is_on_air() && state_.is_flying; }
   /// The truth, of the last minute in the air (FlightSchedule::kRemembered). Before take-off the starting
   /// place, after landing the last. Once the flight has begun, times up to a minute ahead are known; until
   /// then they count as on the ground.
-  [[nodiscard]] Pose2 T_world_body(DeviceTime at) { return flight_.T_world_body(at.time_since_epoch()); }
+  [[nodiscard]] Pose2 T_world_body(DeviceTime at);
 
   /// Whether it answers at all (a radio gets acknowledgements): not while it boots, nor once its battery is
   /// empty, until reboot().
@@ -118,6 +121,8 @@ class SimulatedVehicle {
   [[nodiscard]] Milliseconds clock() const { return now_ - booted_at_; }
   [[nodiscard]] std::optional<PacketBytes> answer(std::span<const std::uint8_t> packet);
   [[nodiscard]] std::optional<PacketBytes> answer_echo(std::span<const std::uint8_t> packet);
+  [[nodiscard]] FlightState truth();
+  [[nodiscard]] Duration flown() const { return steered_ ? steered_->flown() : flight_.flown(now_); }
   void tick();
   [[nodiscard]] std::vector<PacketBytes> send_due();
   void boot();
@@ -138,6 +143,7 @@ class SimulatedVehicle {
   SimulatedWorld world_;
   VehicleModel model_;
   FlightSchedule flight_;
+  std::optional<SteeredFlight> steered_;
   FlowOdometry odometry_;
   SimulatedTilt tilt_;
   std::array<Ranger, 4> rangers_;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <chrono>
+
+#include "core/base/time.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// The true motion at one instant.
+struct FlightState {
+  Pose2 T_world_body;
+  double vx_body_m_s = 0.0;
+  double vy_body_m_s = 0.0;
+  double yaw_rate_rad_s = 0.0;
+  double ax_body_m_s2 = 0.0;
+  double ay_body_m_s2 = 0.0;
+  double height_m = 0.0;  ///< above the floor
+};
+
+/// Between two states of a flight.
+inline constexpr Duration kFlightStep = std::chrono::milliseconds(10);
+
+/// How a vehicle follows what it is told: velocities with a lag, accelerations within limits.
+class VehicleMotion {
+ public:
+  /// At rest on the ground.
+  explicit VehicleMotion(const Pose2& T_world_body) { state_.T_world_body = T_world_body; }
+
+  [[nodiscard]] const FlightState& state() const { return state_; }
+  void set_height(double height_m) { state_.height_m = height_m; }
+  /// One kFlightStep towards that velocity, in the world frame, and that yaw rate.
+  void step(double vx_m_s, double vy_m_s, double yaw_rate_rad_s);
+
+ private:
+  FlightState state_;
+  double vx_m_s_ = 0.0;  // in the world frame
+  double vy_m_s_ = 0.0;
+};
+
+}  // namespace swiftlet
