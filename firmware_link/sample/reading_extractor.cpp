@@ -23,16 +23,19 @@ std::optional<bool> is_flying(double value, unsigned mask) {
 
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
+  const auto offers_position = [](const Slots& of) { return of.position != PositionKind::kNone; };
+  const auto offers_yaw = [](const Slots& of) { return of.yaw != YawKind::kNone; };
+  const auto offers_ranges = [](const Slots& of) { return of.has_ranges; };
   Reading reading;
   reading.stream = record.block_id;
   reading.boot = record.boot;
   reading.at = record.at;
   reading.received = record.received;
-  if (slots.position != PositionKind::kNone && take_from(position_source_, record))
+  if (offers_position(slots) && take_from(position_source_, record, offers_position))
     reading.position_odom = read_position(record, slots);
-  if (slots.yaw != YawKind::kNone && take_from(yaw_source_, record))
+  if (offers_yaw(slots) && take_from(yaw_source_, record, offers_yaw))
     reading.yaw_odom_rad = read_yaw_rad(record, slots);
-  if (slots.has_ranges && take_from(range_source_, record)) {
+  if (offers_ranges(slots) && take_from(range_source_, record, offers_ranges)) {
     for (const Slot& slot : slots.ranges) {
       const double distance_m = slot ? record.value(*slot) * 1e-3 : std::numeric_limits<double>::quiet_NaN();
       static_cast<void>(reading.distance_m.try_push_back(static_cast<float>(distance_m)));
@@ -141,9 +144,36 @@ ReadingExtractor::Slot ReadingExtractor::find(const LogRecord& record, std::stri
   return std::nullopt;
 }
 
-bool ReadingExtractor::take_from(std::optional<Source>& source, const LogRecord& record) {
-  if (!source) source = Source{record.block_id, record.block->period};
+template <typename Offers>
+bool ReadingExtractor::take_from(std::optional<Source>& source, const LogRecord& record, Offers offers) {
+  if (!source) source = source_for(record, offers);
   return source->block_id == record.block_id;
+}
+
+/// Whatever another program logs beside it, a flight is mapped from the same block.
+template <typename Offers>
+ReadingExtractor::Source ReadingExtractor::source_for(const LogRecord& record, Offers offers) {
+  if (!record.described) {
+    for (std::uint8_t id = 0; id < record.block_id; ++id) {
+      const LogBlock& block = session_.blocks()[id];
+      const bool sends = block.running && block.period > Duration::zero();
+      if (sends && offers(slots_of_running(id))) return {id, block.period};
+    }
+  }
+  return {record.block_id, record.block->period};
+}
+
+/// Before its first data, which may not hold all of it.
+const ReadingExtractor::Slots& ReadingExtractor::slots_of_running(std::uint8_t block_id) {
+  Slots& slots = slots_[block_id];
+  if (slots.resolved) return slots;
+  LogRecord record;
+  record.block_id = block_id;
+  record.block = &session_.blocks()[block_id];
+  record.entry_count = record.block->entries.size();
+  resolve(record, slots);
+  slots.resolved = false;
+  return slots;
 }
 
 Duration ReadingExtractor::period_of(const std::optional<Source>& source) {

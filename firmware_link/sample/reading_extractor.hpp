@@ -24,7 +24,8 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 /// Extracts from the vehicle's log records what samples need, by the names of the variables, from any blocks:
 /// the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or stateEstimateZ.x/y);
 /// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ). Each of the three is
-/// taken from the first block that offers it. Names are resolved when a layout changes, not per packet: fixed
+/// taken from one block: of those that run, the one with the lowest number; of blocks whose start was not
+/// seen, the first one received. Names are resolved when a layout changes, not per packet: fixed
 /// storage. One thread at a time; `session` must outlive it.
 class ReadingExtractor {
  public:
@@ -69,6 +70,7 @@ class ReadingExtractor {
   };
 
   const Slots& slots_of(const LogRecord& record);
+  const Slots& slots_of_running(std::uint8_t block_id);
   void resolve(const LogRecord& record, Slots& slots) const;
   void resolve_position(const LogRecord& record, Slots& slots) const;
   void resolve_yaw(const LogRecord& record, Slots& slots) const;
@@ -77,7 +79,10 @@ class ReadingExtractor {
   bool find_all(const LogRecord& record, std::span<const std::string_view> names,
                 std::span<Slot> slots) const;
   [[nodiscard]] Slot find(const LogRecord& record, std::string_view name) const;
-  static bool take_from(std::optional<Source>& source, const LogRecord& record);
+  template <typename Offers>
+  bool take_from(std::optional<Source>& source, const LogRecord& record, Offers offers);
+  template <typename Offers>
+  [[nodiscard]] Source source_for(const LogRecord& record, Offers offers);
   static Duration period_of(const std::optional<Source>& source);
   Point2 read_position(const LogRecord& record, const Slots& slots);
   static double read_yaw_rad(const LogRecord& record, const Slots& slots);

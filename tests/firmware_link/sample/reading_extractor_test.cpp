@@ -121,6 +121,28 @@ TEST_F(ReadingExtractorTest, KeepsToTheFirstBlockThatOffersAPosition) {
   EXPECT_TRUE(extract(LogPacket(1, 20).f32(0.5F).f32(0.F)).has_value());
 }
 
+TEST_F(ReadingExtractorTest, OfRunningBlocksTakesThePositionFromTheLowestWhoeverIsFirst) {
+  const auto learn = [this](const LinkFrame& frame) { static_cast<void>(session_.on_frame(frame)); };
+  learn(received(toc_item_reply(0, LogType::kFloat, "stateEstimate", "x")));
+  learn(received(toc_item_reply(1, LogType::kFloat, "stateEstimate", "y")));
+  const auto make = [&learn](std::uint8_t block, bool starts) {
+    learn(sent({0x5D, 6, block, 7, 0, 0, 7, 1, 0}));
+    learn(received({0x5D, 6, block, 0}));
+    if (!starts) return;
+    learn(sent({0x5D, 3, block, 10}));
+    learn(received({0x5D, 3, block, 0}));
+  };
+  make(1, false);
+  make(2, true);
+  make(16, true);
+  EXPECT_FALSE(extract(LogPacket(16, 100).f32(5.F).f32(5.F)));
+  EXPECT_TRUE(extract(LogPacket(2, 110).f32(1.F).f32(1.F)));
+  EXPECT_FALSE(extract(LogPacket(16, 120).f32(5.F).f32(5.F)));
+  learn(sent({0x5D, 2, 2}));
+  learn(received({0x5D, 2, 2, 0}));
+  EXPECT_TRUE(extract(LogPacket(16, 130).f32(5.F).f32(5.F)));
+}
+
 TEST_F(ReadingExtractorTest, UnwrapsMillimetresBeyondSixteenBits) {
   describe(1, {{"stateEstimateZ.x", LogType::kInt16}, {"stateEstimateZ.y", LogType::kInt16}});
   EXPECT_NEAR(extract(LogPacket(1, 10).i16(32'700).i16(-32'700))->position_odom->x_m, 32.7, 1e-12);
