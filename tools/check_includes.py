@@ -20,7 +20,7 @@ CORE = SLAM + BACKEND + ["core/mapping", "core/mapping/picture", "core/evaluatio
 LINK = ["firmware_link/crtp", "firmware_link/link"]
 SESSION = LINK + ["firmware_link/session"]
 SAMPLE = SESSION + ["firmware_link/sample", "firmware_link/file"]
-FIRMWARE_LINK = SAMPLE + ["firmware_link/capture", "firmware_link/laser_log", "firmware_link/simulation",
+FIRMWARE_LINK = SAMPLE + ["firmware_link/sharing", "firmware_link/capture", "firmware_link/laser_log", "firmware_link/simulation",
                           "firmware_link/input"]
 STAGES = ["daemon/config", "daemon/system", "daemon/workers"]
 DAEMON = STAGES + ["daemon/publish", "daemon/recording", "daemon/outputs", "daemon"]
@@ -45,6 +45,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "firmware_link/session": SENSING + LINK,
     "firmware_link/file": SENSING,
     "firmware_link/sample": SENSING + SESSION,
+    "firmware_link/sharing": SENSING + SESSION,
     "firmware_link/capture": SENSING + SESSION + ["firmware_link/file"],
     "firmware_link/laser_log": SENSING + ["firmware_link/file", "firmware_link/sample"],
     "firmware_link/simulation": SENSING + LINK,

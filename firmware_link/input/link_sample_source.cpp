@@ -102,7 +102,7 @@ void LinkSampleSource::on_frame(const LinkFrame& frame) {
   if (frame.direction == LinkDirection::kFromVehicle) received_at_ = frame.at;
   if (input_.recording != nullptr) input_.recording->take(frame);
   const std::optional<LogRecord> record = session_.on_frame(frame);
-  if (live_ && frame.direction == LinkDirection::kFromVehicle) {
+  if (live_ && frame.is_ours && frame.direction == LinkDirection::kFromVehicle) {
     live_->on_frame(frame, record);
     on_cached_toc(frame.at);
     if (live_->failure()) end_ = live_->failure();
@@ -196,12 +196,16 @@ MonotonicTime LinkSampleSource::arrived_at() const {
 
 std::optional<LiveStatus> LinkSampleSource::live_status() const {
   if (!live_) return std::nullopt;
-  return LiveStatus{input_.link->statistics(), live_->round_trip(), live_->health()};
+  return LiveStatus{.link = input_.link->statistics(),
+                    .round_trip = live_->round_trip(),
+                    .vehicle = live_->health(),
+                    .sharing = input_.shared == nullptr ? SharingStatus{} : input_.shared->sharing()};
 }
 
 std::optional<VehicleEvent> LinkSampleSource::take_event() {
   if (!live_) return std::nullopt;
-  const std::optional<VehicleEvent> event = live_->take_event();
+  std::optional<VehicleEvent> event = live_->take_event();
+  if (!event && input_.shared != nullptr) event = input_.shared->take_event();
   const auto is_of_its_kind = [&event](const VehicleEvent& other) { return other.kind == event->kind; };
   if (event && is_warning(*event) && std::none_of(noted_.begin(), noted_.end(), is_of_its_kind))
     static_cast<void>(noted_.try_push_back(*event));
@@ -209,6 +213,7 @@ std::optional<VehicleEvent> LinkSampleSource::take_event() {
 }
 
 void LinkSampleSource::end() {
+  if (input_.shared != nullptr) input_.shared->end_sharing();
   for (const VehicleEvent& event : noted_) report_.notes.push_back(describe(event));
   noted_.clear();
 }

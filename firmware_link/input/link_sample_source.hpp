@@ -25,6 +25,7 @@
 #include "firmware_link/session/log_session.hpp"
 #include "firmware_link/session/toc_cache.hpp"
 #include "firmware_link/session/vehicle_event.hpp"
+#include "firmware_link/sharing/shared_link.hpp"
 
 namespace swiftlet {
 
@@ -41,6 +42,7 @@ struct LinkInput {
       clock;                        ///< of a live link; without a clock the stamps of the frames are the time
   std::shared_ptr<UsbBus> usb_bus;  ///< used by the link, or nullptr
   std::unique_ptr<Link> link;
+  SharedLink* shared = nullptr;  ///< the link, if a client may share it
   SensorModel sensor = SensorModel::crazyflie();
   bool starts_logging = false;            ///< request the log from the vehicle; otherwise only receive
   std::filesystem::path cache_directory;  ///< of tables of contents; empty: kept in memory only

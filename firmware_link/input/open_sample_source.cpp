@@ -12,6 +12,8 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
+#include "firmware_link/sharing/client_socket.hpp"
+#include "firmware_link/sharing/shared_link.hpp"
 
 namespace swiftlet {
 namespace {
@@ -83,6 +85,15 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   return CarmenSampleSource::open(path, options);
 }
 
+Status share(LinkInput& input, const UdpAddress& address) {
+  Result<std::unique_ptr<ClientSocket>> socket = ClientSocket::open(address);
+  if (!socket) return socket.error();
+  auto shared = std::make_unique<SharedLink>(std::move(input.link), std::move(socket).value(), *input.clock);
+  input.shared = shared.get();
+  input.link = std::move(shared);
+  return {};
+}
+
 Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const InputUri& uri,
                                                 const SampleSourceOptions& options) {
   Result<LinkInput> opened = uri.kind->open(uri.address);
@@ -90,6 +101,8 @@ Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const I
   LinkInput input = std::move(opened).value();
   input.name = name;
   if (const Status applied = apply(options, input); !applied) return applied.error();
+  if (options.share)
+    if (const Status shared = share(input, *options.share); !shared) return shared.error();
   input.recording = options.recording;
   input.starts_logging = true;
   if (uri.is(InputNature::kVehicle)) input.cache_directory = TocCache::default_directory();
@@ -104,6 +117,8 @@ Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
   if (!checked) return checked.error();
   const Result<InputUri> parsed = parse_input_uri(uri);
   if (!parsed) return parsed.error();
+  if (options.share && !parsed->is(InputNature::kVehicle))
+    return Error{ErrorCode::kInvalidInput, uri + ": only the link to a live vehicle can be shared"};
   if (const auto* file = parsed->as<InputFile>()) return open_file(file->path, options);
   return open_link(uri, *parsed, options);
 }

@@ -13,6 +13,8 @@
 
 namespace swiftlet {
 
+class ClientUplink;
+
 enum class LinkDirection : std::uint8_t { kToVehicle, kFromVehicle };
 
 /// One CRTP packet of a link: header byte and up to 30 data bytes.
@@ -20,6 +22,7 @@ struct LinkFrame {
   HostTime at{};  ///< when the host received it (sent it, for kToVehicle)
   LinkDirection direction = LinkDirection::kFromVehicle;
   std::uint8_t size = 0;
+  bool is_ours = true;  ///< false: a request of another program that shares the link, or an answer to one
   std::array<std::uint8_t, 31> bytes{};
 
   [[nodiscard]] std::span<const std::uint8_t> packet() const { return {bytes.data(), size}; }
@@ -44,6 +47,9 @@ class Link {
   /// sent; a packet without room is dropped: requests are repeated anyway. A recording ignores it.
   [[nodiscard]] virtual Status send(std::span<const std::uint8_t> packet) = 0;
   [[nodiscard]] virtual LinkStatistics statistics() const { return {}; }
+  /// From now on sends another program's packets, too. False: it is no live link. `client` must outlive the
+  /// link's next receive().
+  [[nodiscard]] virtual bool share_with(ClientUplink& /*client*/) { return false; }
 };
 
 }  // namespace swiftlet

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <poll.h>
 #include <chrono>
+#include <ctime>
 #include <thread>
 
 #include "core/base/monotonic_time.hpp"
@@ -29,6 +31,8 @@ class LinkClock {
     return std::chrono::steady_clock::now();
   }
   virtual void sleep_for(Duration duration) = 0;
+  /// Sleeps for that long, or until there is something to read. Simulated time passes whole.
+  virtual void sleep_until_readable(int /*file*/, Duration duration) { sleep_for(duration); }
 };
 
 /// Unix time as it was at the start, continued by the monotonic clock: a correction of the machine's clock
@@ -46,6 +50,13 @@ class SystemLinkClock final : public LinkClock {
     return steady_start_ + (at.time_since_epoch() - unix_start_);
   }
   void sleep_for(Duration duration) override { std::this_thread::sleep_for(duration); }
+  void sleep_until_readable(int file, Duration duration) override {
+    const auto whole = std::chrono::floor<std::chrono::seconds>(duration);
+    const timespec longest{.tv_sec = whole.count(),
+                           .tv_nsec = (duration - whole) / std::chrono::nanoseconds(1)};
+    pollfd watched{.fd = file, .events = POLLIN, .revents = 0};
+    static_cast<void>(::ppoll(&watched, 1, &longest, nullptr));
+  }
 
  private:
   MonotonicTime steady_start_ = std::chrono::steady_clock::now();

@@ -49,6 +49,7 @@ Result<LinkFrame> RadioLink::receive(Duration timeout) {
   HostTime now = clock_.now();
   const HostTime deadline = now + timeout;
   for (;;) {
+    client_waits_ = uplink_.client_waits();
     if (to_deliver_.empty() && now - pause() >= acted_at_) {
       acted_at_ = now;
       if (!silent_ && now - received_at_ >= kSilence) fall_silent();
@@ -63,14 +64,14 @@ Result<LinkFrame> RadioLink::receive(Duration timeout) {
     now = clock_.now();
     if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};  // short: not on the heap
     const HostTime next = std::min(deadline, acted_at_ + pause());
-    if (next > now) clock_.sleep_for(next - now);
+    if (next > now) uplink_.sleep_for(next - now, clock_);
     now = std::max(now, clock_.now());
   }
 }
 
 Status RadioLink::send(std::span<const std::uint8_t> packet) {
   if (unacknowledged_ && has_content(packet) && is_same_packet(bytes_of(*unacknowledged_), packet)) return {};
-  return requests_.push(packet);
+  return uplink_.push(packet);
 }
 
 void RadioLink::open(HostTime now) {
@@ -100,11 +101,17 @@ Duration RadioLink::pause() const {
     pause = ReopenSchedule::kCheckPeriod;
   else if (silent_)
     pause = kSilentPause;
-  else if (was_acknowledged_ && (has_more_ || mode_ == Mode::kAsking || !requests_.empty()))
+  else if (client_waits_ || is_repeating_for_client() ||
+           (was_acknowledged_ && (has_more_ || mode_ == Mode::kAsking || uplink_.request_waits())))
     pause = Duration::zero();
   else if (acted_at_ - kIdleAfter >= active_at_)
     pause = kIdlePause;
   return radio_ ? std::max(pause, pause_between(address_.rate_limit_hz)) : pause;
+}
+
+/// A packet of the client does not wait for the next poll to be sent again.
+bool RadioLink::is_repeating_for_client() const {
+  return !sent_is_ours_ && unacknowledged_ && has_content(bytes_of(*unacknowledged_));
 }
 
 void RadioLink::exchange() {
@@ -118,7 +125,11 @@ void RadioLink::exchange() {
   if (!answer.may_go_on() || failures_in_a_row_ >= kMaxFailuresInARow) return lose_dongle(answer.outcome);
   ++statistics_.packets_sent;
   if (answer.outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
-  if (sent_ == Sent::kRequest) hand_back(frame_of(LinkDirection::kToVehicle, now, bytes_of(packet)));
+  if (sent_ == Sent::kRequest) {
+    LinkFrame sent = frame_of(LinkDirection::kToVehicle, now, bytes_of(packet));
+    sent.is_ours = sent_is_ours_;
+    hand_back(sent);
+  }
   if (answer.acknowledged)
     on_frame(answer, clock_.now());
   else if (answer.outcome == UsbOutcome::kDone && statistics_.condition != LinkCondition::kConnected)
@@ -131,7 +142,7 @@ void RadioLink::fall_silent() {
   if (statistics_.condition == LinkCondition::kConnected)
     statistics_.condition =
         last_outcome_ == UsbOutcome::kDone ? LinkCondition::kSilent : condition_of(last_outcome_);
-  requests_.clear();
+  uplink_.clear_requests();
   ask_for_safelink();
 }
 
@@ -155,9 +166,12 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
     sent_ = Sent::kPoll;  // a request among them was delivered already
     return *unacknowledged_;
   }
-  sent_ = requests_.empty() || silent_ ? Sent::kPoll : Sent::kRequest;
-  if (sent_ == Sent::kRequest) active_at_ = now;
-  CrtpPacket packet = sent_ == Sent::kRequest ? requests_.pop() : packet_of(kPollPacket);
+  std::optional<UplinkQueue::Packet> waiting;
+  if (!silent_) waiting = uplink_.next();
+  sent_ = waiting ? Sent::kRequest : Sent::kPoll;
+  if (waiting) active_at_ = now;
+  sent_is_ours_ = !waiting || waiting->is_ours;
+  CrtpPacket packet = waiting ? waiting->bytes : packet_of(kPollPacket);
   if (mode_ == Mode::kSafelink) {
     packet[0] = safelink_.header(packet[0]);
     unacknowledged_ = packet;

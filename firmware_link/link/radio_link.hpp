@@ -17,8 +17,8 @@
 #include "firmware_link/link/link_statistics.hpp"
 #include "firmware_link/link/radio_address.hpp"
 #include "firmware_link/link/reopen_schedule.hpp"
-#include "firmware_link/link/request_queue.hpp"
 #include "firmware_link/link/safelink.hpp"
+#include "firmware_link/link/uplink_queue.hpp"
 #include "firmware_link/link/usb_device.hpp"
 
 namespace swiftlet {
@@ -44,6 +44,10 @@ class RadioLink final : public Link {
   /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet (those switch the vehicle's radio, also off).
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
   [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
+  [[nodiscard]] bool share_with(ClientUplink& client) override {
+    uplink_.share_with(client);
+    return true;
+  }
 
  private:
   enum class Mode { kPlain, kAsking, kSafelink };
@@ -52,6 +56,7 @@ class RadioLink final : public Link {
   void open(HostTime now);
   void lose_dongle(UsbOutcome failure);
   [[nodiscard]] Duration pause() const;
+  [[nodiscard]] bool is_repeating_for_client() const;
   void exchange();
   void fall_silent();
   void ask_for_safelink();
@@ -71,7 +76,9 @@ class RadioLink final : public Link {
   UsbOutcome last_outcome_ = UsbOutcome::kDone;  ///< of an exchange
   LinkStatistics statistics_;
 
-  RequestQueue requests_;
+  UplinkQueue uplink_;
+  bool client_waits_ = false;             ///< a client that shares the link has a packet to send
+  bool sent_is_ours_ = true;              ///< the last kRequest
   FixedVector<LinkFrame, 2> to_deliver_;  ///< one exchange yields a request and its acknowledgement's payload
   HostTime acted_at_ = HostTime::min();   ///< the last exchange or attempt to open
   HostTime received_at_;                  ///< any acknowledgement

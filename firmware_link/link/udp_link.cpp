@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "firmware_link/crtp/crtp_packet.hpp"
 #include "firmware_link/link/link_packet.hpp"
@@ -96,7 +97,7 @@ Result<UdpLink::Peer> UdpLink::find(const std::string& host, std::uint16_t port)
 
 UdpLink::~UdpLink() { ::close(socket_); }
 
-Status UdpLink::send(std::span<const std::uint8_t> packet) { return requests_.push(packet); }
+Status UdpLink::send(std::span<const std::uint8_t> packet) { return uplink_.push(packet); }
 
 Result<LinkFrame> UdpLink::receive(Duration timeout) {
   HostTime now = clock_.now();
@@ -104,8 +105,13 @@ Result<LinkFrame> UdpLink::receive(Duration timeout) {
   for (;;) {
     note_silence(now);
     keep_alive(now);
-    if (const std::optional<LinkFrame> frame = send_next(now)) return *frame;
+    // A client that sends without end must not keep what arrives waiting.
+    const bool listens_first = std::exchange(has_just_sent_, false);
+    if (!listens_first)
+      if (const std::optional<LinkFrame> frame = send_next(now)) return *frame;
     if (const std::optional<LinkFrame> frame = take_datagrams()) return *frame;
+    if (listens_first)
+      if (const std::optional<LinkFrame> frame = send_next(now)) return *frame;
     now = clock_.now();
     // A text this short needs no memory.
     if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};
@@ -140,11 +146,14 @@ void UdpLink::keep_alive(HostTime now) {
 }
 
 std::optional<LinkFrame> UdpLink::send_next(HostTime now) {
-  while (!requests_.empty()) {
-    const CrtpPacket request = requests_.pop();
-    if (!transmit(bytes_of(request), now)) continue;
+  static_cast<void>(uplink_.client_waits());
+  while (const std::optional<UplinkQueue::Packet> packet = uplink_.next()) {
+    if (!transmit(bytes_of(packet->bytes), now)) continue;
     delivered_at_ = std::max(delivered_at_, now);
-    return frame_of(LinkDirection::kToVehicle, delivered_at_, bytes_of(request));
+    LinkFrame sent = frame_of(LinkDirection::kToVehicle, delivered_at_, bytes_of(packet->bytes));
+    sent.is_ours = packet->is_ours;
+    has_just_sent_ = !packet->is_ours;
+    return sent;
   }
   return std::nullopt;
 }
@@ -172,8 +181,9 @@ std::optional<LinkFrame> UdpLink::take_datagrams() {
 
 void UdpLink::wait_until(HostTime wake_at, HostTime now) const {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::max(wake_at - now, Duration::zero()));
-  pollfd watched{.fd = socket_, .events = POLLIN, .revents = 0};
-  static_cast<void>(::poll(&watched, 1, static_cast<int>(left.count())));
+  std::array<pollfd, 2> watched{{{.fd = socket_, .events = POLLIN, .revents = 0},
+                                 {.fd = uplink_.arrivals(), .events = POLLIN, .revents = 0}}};
+  static_cast<void>(::poll(watched.data(), watched.size(), static_cast<int>(left.count())));
 }
 
 /// Whether the system accepted it.

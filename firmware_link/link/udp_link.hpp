@@ -12,7 +12,7 @@
 
 #include "firmware_link/link/link.hpp"
 #include "firmware_link/link/link_clock.hpp"
-#include "firmware_link/link/request_queue.hpp"
+#include "firmware_link/link/uplink_queue.hpp"
 
 namespace swiftlet {
 
@@ -39,6 +39,10 @@ class UdpLink final : public Link {
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
   /// As of the last receive().
   [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
+  [[nodiscard]] bool share_with(ClientUplink& client) override {
+    uplink_.share_with(client);
+    return true;
+  }
 
  private:
   struct Peer {
@@ -62,7 +66,8 @@ class UdpLink final : public Link {
   LinkClock& clock_;
   HostTime delivered_at_{};  // stamp of the last frame: they never go back
   bool associated_ = false;  // with the peer: a route to it is known
-  RequestQueue requests_;
+  UplinkQueue uplink_;
+  bool has_just_sent_ = false;           // the last frame was a packet of the client
   std::optional<HostTime> received_at_;  // since when it is not silent
   HostTime registers_at_{};              // while silent
   HostTime sent_at_{};

@@ -30,6 +30,9 @@ constexpr std::uint16_t kToRadio = 0;
 constexpr Duration kControlTimeout = std::chrono::seconds(1);
 constexpr Duration kOutTimeout = std::chrono::milliseconds(100);
 constexpr Duration kMaxRead = std::chrono::milliseconds(100);
+// A client that shares the link does not wait longer for its packets to be sent.
+constexpr Duration kShortestRead = std::chrono::milliseconds(1);
+constexpr Duration kMaxSharedRead = std::chrono::milliseconds(2);
 constexpr Duration kSilence = std::chrono::seconds(1);
 constexpr int kMaxFailuresInARow = 10;
 
@@ -59,18 +62,22 @@ Result<LinkFrame> UsbCableLink::receive(Duration timeout) {
     HostTime now = clock_.now();
     watch_silence(now);
     if (!vehicle_) open(now);
-    if (vehicle_ && !requests_.empty()) {
+    const bool something_waits = uplink_.client_waits() || uplink_.request_waits();
+    // A client that sends without end must not keep what arrives waiting.
+    const bool listens_first = std::exchange(has_just_sent_, false);
+    if (vehicle_ && something_waits && !listens_first) {
       if (const std::optional<LinkFrame> sent = send_next(now)) return *sent;
     } else if (vehicle_) {
-      if (const std::optional<LinkFrame> received = listen(deadline - now)) return *received;
+      const Duration longest = something_waits ? kShortestRead : deadline - now;
+      if (const std::optional<LinkFrame> received = listen(longest)) return *received;
     }
     now = clock_.now();
     if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};  // short: not on the heap
-    if (!vehicle_) clock_.sleep_for(std::min(deadline - now, ReopenSchedule::kCheckPeriod));
+    if (!vehicle_) uplink_.sleep_for(std::min(deadline - now, ReopenSchedule::kCheckPeriod), clock_);
   }
 }
 
-Status UsbCableLink::send(std::span<const std::uint8_t> packet) { return requests_.push(packet); }
+Status UsbCableLink::send(std::span<const std::uint8_t> packet) { return uplink_.push(packet); }
 
 void UsbCableLink::open(HostTime now) {
   if (!reopen_.is_due(bus_, now)) return;
@@ -106,19 +113,24 @@ void UsbCableLink::watch_silence(HostTime now) {
   if (vehicle_)
     statistics_.condition = LinkCondition::kSilent;
   else
-    requests_.clear();  // after it is plugged in again, another session begins
+    uplink_.clear_requests();  // after it is plugged in again, another session begins
 }
 
 std::optional<LinkFrame> UsbCableLink::send_next(HostTime now) {
-  const CrtpPacket packet = requests_.pop();
-  if (!check(vehicle_->bulk_out(kOut, bytes_of(packet), kOutTimeout), kOut)) return std::nullopt;
+  const std::optional<UplinkQueue::Packet> packet = uplink_.next();
+  if (!packet) return std::nullopt;
+  if (!check(vehicle_->bulk_out(kOut, bytes_of(packet->bytes), kOutTimeout), kOut)) return std::nullopt;
   ++statistics_.packets_sent;
   ++statistics_.packets_acked;
-  return frame_of(LinkDirection::kToVehicle, now, bytes_of(packet));
+  LinkFrame sent = frame_of(LinkDirection::kToVehicle, now, bytes_of(packet->bytes));
+  sent.is_ours = packet->is_ours;
+  has_just_sent_ = !packet->is_ours;
+  return sent;
 }
 
 std::optional<LinkFrame> UsbCableLink::listen(Duration timeout) {
-  const UsbTransfer transfer = vehicle_->bulk_in(kIn, buffer_, std::min(timeout, kMaxRead));
+  const UsbTransfer transfer =
+      vehicle_->bulk_in(kIn, buffer_, std::min(timeout, uplink_.is_shared() ? kMaxSharedRead : kMaxRead));
   if (transfer.outcome == UsbOutcome::kTimeout) return std::nullopt;  // it has nothing to send
   if (!check(transfer, kIn)) return std::nullopt;
   received_at_ = clock_.now();

@@ -15,7 +15,7 @@
 #include "firmware_link/link/link_clock.hpp"
 #include "firmware_link/link/link_statistics.hpp"
 #include "firmware_link/link/reopen_schedule.hpp"
-#include "firmware_link/link/request_queue.hpp"
+#include "firmware_link/link/uplink_queue.hpp"
 #include "firmware_link/link/usb_device.hpp"
 
 namespace swiftlet {
@@ -39,6 +39,10 @@ class UsbCableLink final : public Link {
   /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet.
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
   [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
+  [[nodiscard]] bool share_with(ClientUplink& client) override {
+    uplink_.share_with(client);
+    return true;
+  }
 
  private:
   void open(HostTime now);
@@ -57,7 +61,8 @@ class UsbCableLink final : public Link {
   std::unique_ptr<UsbDevice> vehicle_;
   int failures_in_a_row_ = 0;
   LinkStatistics statistics_;
-  RequestQueue requests_;
+  UplinkQueue uplink_;
+  bool has_just_sent_ = false;  ///< the last frame was a packet of the client, sent
   HostTime received_at_;
   bool silent_ = false;
   std::array<std::uint8_t, 64> buffer_{};

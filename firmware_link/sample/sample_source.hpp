@@ -12,6 +12,7 @@
 #include "core/sensing/lost_sign.hpp"
 #include "core/sensing/sensor_model.hpp"
 #include "firmware_link/link/frame_sink.hpp"
+#include "firmware_link/link/udp_address.hpp"
 #include "firmware_link/sample/input_counters.hpp"
 #include "firmware_link/sample/received_sample.hpp"
 #include "firmware_link/session/live_status.hpp"
@@ -67,6 +68,7 @@ struct SampleSourceOptions {
   std::optional<double> max_range_m;  ///< overrides the sensor model's
   std::optional<double> min_range_m;  ///< overrides the sensor model's
   FrameSink* recording = nullptr;     ///< links only: receives every frame; must outlive the source
+  std::optional<UdpAddress> share;    ///< vehicles only: where a client that shares the link connects
 };
 
 }  // namespace swiftlet

@@ -7,6 +7,7 @@
 
 #include "core/base/time.hpp"
 #include "firmware_link/link/link_statistics.hpp"
+#include "firmware_link/link/sharing_status.hpp"
 
 namespace swiftlet {
 
@@ -23,6 +24,7 @@ struct LiveStatus {
   LinkStatistics link;
   Duration round_trip{0};  ///< to the vehicle and back, the last one measured; 0 before the first
   VehicleHealth vehicle;
+  SharingStatus sharing;
 };
 static_assert(std::is_trivially_copyable_v<LiveStatus>);
 

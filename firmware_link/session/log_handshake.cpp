@@ -34,6 +34,10 @@ constexpr std::array<std::string_view, 8> kSlowBlock{
     "pm.state",           "radio.rssi",          "range.up",    "stateEstimate.z",
     "stateEstimate.roll", "stateEstimate.pitch", "kalman.varX", "kalman.varY"};
 constexpr std::uint8_t kSlowBlockId = 3;
+static_assert(kSlowBlockId <= kMaxOwnLogBlocks);
+static_assert(kPositionBlock.size() + kPositionBlockExtras.size() + kRangeBlock.size() +
+                  kRangeBlockExtras.size() + kSlowBlock.size() <=
+              kMaxOwnLogVariables);
 
 /// A variable of a known type; one of an unknown type could not be read.
 const TocItem* find_readable(const TocDownload& toc, std::string_view name) {

@@ -24,6 +24,9 @@ namespace swiftlet {
 /// The lowest CRTP protocol version with this log port, and the newest one known.
 inline constexpr int kOldestProtocol = 4;
 inline constexpr int kNewestProtocol = 12;
+/// What the handshake makes at most: blocks, numbered from 1, and variables in all of them.
+inline constexpr std::size_t kMaxOwnLogBlocks = 3;
+inline constexpr std::size_t kMaxOwnLogVariables = 25;
 
 /// Starts the log of a live vehicle: determines the next request, one outstanding, repeated after 200 ms,
 /// from the replies. Source, protocol version, reset of the log, table of contents, then creates and starts

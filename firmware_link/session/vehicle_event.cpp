@@ -6,7 +6,10 @@ namespace swiftlet {
 
 using Kind = VehicleEvent::Kind;
 
-bool is_warning(const VehicleEvent& event) { return event.kind != Kind::kConnected; }
+bool is_warning(const VehicleEvent& event) {
+  return event.kind != Kind::kConnected && event.kind != Kind::kClientConnected &&
+         event.kind != Kind::kClientGone;
+}
 
 std::string describe(const VehicleEvent& event) {
   const std::string value = std::to_string(event.value);
@@ -38,6 +41,12 @@ std::string describe(const VehicleEvent& event) {
       return "none of the ranges has changed for two seconds: a range sensor hangs, and what is mapped now "
              "is "
              "wrong; land and restart the vehicle";
+    case Kind::kClientConnected:
+      return "a client has connected from port " + value + " and has the vehicle";
+    case Kind::kClientGone:
+      return "the client is gone; its setpoints end with it, and the vehicle's own watchdog acts";
+    case Kind::kClientRefused:
+      return "a second client, from port " + value + ", is refused: one at a time";
   }
   return {};
 }

@@ -19,9 +19,12 @@ struct VehicleEvent {
     kRefused,        ///< after a reconnection, it cannot be used (the session tries again)
     kNoMultiranger,
     kNoFlowDeck,
-    kYawTrap,       ///< it is carried or pushed with its motors off
-    kBatteryLow,    ///< value: millivolts
-    kRangesFrozen,  ///< in flight none of them has changed for seconds
+    kYawTrap,          ///< it is carried or pushed with its motors off
+    kBatteryLow,       ///< value: millivolts
+    kRangesFrozen,     ///< in flight none of them has changed for seconds
+    kClientConnected,  ///< another program shares the link; value: its port
+    kClientGone,       ///< it has left, or has sent nothing for seconds
+    kClientRefused,    ///< a second one; value: its port
   };
   Kind kind = Kind::kConnected;
   std::int32_t value = 0;

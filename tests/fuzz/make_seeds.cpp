@@ -113,6 +113,31 @@ bool write_handshakes(const std::filesystem::path& folder) {
          write(folder / "half_deaf", half_deaf);
 }
 
+/// A client that connects, logs and steers while the owner does the first steps of its handshake.
+std::vector<std::uint8_t> shared_traffic() {
+  struct Step {
+    std::uint8_t whose;  ///< see client_traffic_fuzz.cpp
+    LinkFrame frame;
+  };
+  const auto clients = [](const CrtpPacket& packet) {
+    return Step{0x00, sent({packet.begin(), packet.end()})};
+  };
+  CrtpPacket create = log_block_request(LogCommand::kCreate, 1);
+  static_cast<void>(add_log_entry(create, 7, 0));
+  std::vector<std::uint8_t> bytes;
+  for (const Step& step : {Step{0x80, sent(hex("5d 05"))}, Step{0x80, received(hex("5d 05 00 00"))},
+                           clients(log_reset_request()), clients(toc_info_request(kLogTocTopic)),
+                           Step{0x80, received(hex("50 03 8b 01 8c a1 4c 71 10 80"))}, clients(create),
+                           Step{0x80, received(hex("5d 06 11 00"))}, clients(make_crtp_packet({7, 0}, {0})),
+                           Step{0x80, received(hex("52 11 01 02 03 00 00 80 3f"))},
+                           clients(log_reset_request()), Step{0x80, received(hex("5d 02 11 00"))}}) {
+    bytes.push_back(step.whose);
+    const std::vector<std::uint8_t> frame = as_fuzz_bytes({&step.frame, 1});
+    bytes.insert(bytes.end(), frame.begin(), frame.end());
+  }
+  return bytes;
+}
+
 constexpr std::string_view kDescription = R"([[block]]
 id = 1
 period_ms = 100
@@ -144,7 +169,8 @@ std::string laser_log() {
 bool write_all(const std::filesystem::path& folder) {
   const std::vector<LinkFrame> one_block = session("");
   const std::vector<LinkFrame> two_blocks = session("stateEstimate.x");
-  return write_uris(folder / "input_uri") && write_handshakes(folder / "log_handshake") &&
+  return write(folder / "client_traffic/flight", shared_traffic()) && write_uris(folder / "input_uri") &&
+         write_handshakes(folder / "log_handshake") &&
          write(folder / "log_session/one_block", as_fuzz_bytes(one_block)) &&
          write(folder / "log_session/two_blocks", as_fuzz_bytes(two_blocks)) &&
          write(folder / "log_session/compressed", as_fuzz_bytes(compressed_session())) &&

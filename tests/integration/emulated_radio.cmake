@@ -1,6 +1,10 @@
 # The live link on an emulated Crazyradio, in simulated time...
 swiftlet_add_test(emulated_radio_test LINK swiftlet_link swiftlet_emulated_radio swiftlet_log_listener)
 swiftlet_add_test(emulated_samples_test LINK swiftlet_firmware_link swiftlet_link swiftlet_emulated_radio)
+swiftlet_add_test(shared_radio_test LINK
+  swiftlet_firmware_link swiftlet_link swiftlet_emulated_radio swiftlet_flight_client)
+swiftlet_add_test(shared_flight_test TOGETHER LINK
+  swiftlet_workers swiftlet_link swiftlet_emulated_radio swiftlet_flight_client)
 
 # ...and by the real libusb in real time. A sanitizer's library must be loaded before all others, which the
 # wrapper's stands in the way of, and the wrapper is the building machine's: without it the tests skip themselves.

@@ -14,3 +14,6 @@ swiftlet_add_library(swiftlet_umockdev_dongle
 
 # Listens to a link with the least a client must do.
 swiftlet_add_library(swiftlet_log_listener SOURCES log_listener.cpp LINK swiftlet_sensing LINK_PRIVATE GTest::gtest)
+
+# Another program at a shared link.
+swiftlet_add_library(swiftlet_flight_client SOURCES flight_client.cpp LINK swiftlet_link)

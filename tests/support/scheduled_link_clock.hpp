@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <poll.h>
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -20,6 +21,13 @@ class ScheduledLinkClock final : public LinkClock {
 
   [[nodiscard]] HostTime now() override { return now_; }
   void sleep_for(Duration duration) override { advance(duration); }
+  /// In steps: what is to happen on the way may write the file.
+  void sleep_until_readable(int file, Duration duration) override {
+    constexpr Duration kStep = std::chrono::microseconds(100);
+    pollfd watched{.fd = file, .events = POLLIN, .revents = 0};
+    for (const HostTime end = now_ + duration; now_ < end && ::poll(&watched, 1, 0) == 0;)
+      advance(std::min(kStep, end - now_));
+  }
   /// Rounds up to whole microseconds.
   void advance(Duration by) {
     const HostTime end = now_ + std::chrono::ceil<std::chrono::microseconds>(std::max(by, Duration::zero()));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/firmware_link/fake_dongle.hpp"
+#include "tests/firmware_link/scripted_uplink.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace swiftlet {
@@ -121,6 +122,22 @@ std::vector<Bytes> packets_of(const std::vector<LinkFrame>& frames, LinkDirectio
     packets.back()[0] &= 0xF3;
   }
   return packets;
+}
+
+TEST_F(RadioLinkTest, AClientsPacketIsTheNextOneAndAnUnacknowledgedOneIsRepeatedAtOnce) {
+  connect();
+  ASSERT_TRUE(link().send(Bytes{0x5D, 5}).ok());
+  ScriptedUplink client({0x3C, 1}, 1);
+  ASSERT_TRUE(link().share_with(client));
+  dongle_.fates = {Fate::kPacketLost, Fate::kPacketLost};
+  const std::vector<LinkFrame> frames = listen(milliseconds(10));
+  ASSERT_GE(frames.size(), 2U);
+  EXPECT_FALSE(frames[0].is_ours);
+  EXPECT_EQ(frames[0].packet()[1], 1);
+  EXPECT_TRUE(frames[1].is_ours);
+  EXPECT_EQ(dongle_.vehicle.accepted.size(), 2U);
+  ASSERT_GE(dongle_.packets.size(), 4U);
+  EXPECT_LT(dongle_.packets[2].at - dongle_.packets[0].at, milliseconds(4));
 }
 
 TEST_F(RadioLinkTest, RequestsSafelinkAndIsConnected) {

@@ -14,6 +14,7 @@
 
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
+#include "tests/firmware_link/scripted_uplink.hpp"
 #include "tests/firmware_link/udp_peer.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/thread_cpu_time.hpp"
@@ -95,6 +96,23 @@ TEST(UdpLink, SendsANullPacketAfter100MillisecondsOfSendingNothing) {
   pair.clock.sleep_for(milliseconds(1));
   EXPECT_FALSE(pair.look().has_value());
   EXPECT_THAT(pair.received(1), ElementsAre(kNull));
+}
+
+TEST(UdpLink, AClientsPacketsGoFirstAndDoNotKeepTheVehiclesWaiting) {
+  Pair pair;
+  pair.connect();
+  ScriptedUplink client({0x3C, 1}, 1000);
+  ASSERT_TRUE(pair.link->share_with(client));
+  ASSERT_TRUE(pair.link->send(hex("5d 05")).ok());
+  for (int i = 0; i < 5; ++i) pair.peer.send(hex("52 01 00 00 00"));
+  for (int i = 0; i < 10; ++i) {
+    const std::optional<LinkFrame> frame = pair.look();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->is_ours, i % 2 == 1);
+    EXPECT_EQ(frame->direction, i % 2 == 1 ? LinkDirection::kFromVehicle : LinkDirection::kToVehicle);
+  }
+  client.left = 0;
+  EXPECT_TRUE(pair.look()->is_ours);
 }
 
 TEST(UdpLink, DeliversARequestBeforeItsAnswer) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
+#include "tests/firmware_link/scripted_uplink.hpp"
 
 namespace swiftlet {
 namespace {
@@ -134,6 +136,21 @@ class UsbCableLinkTest : public testing::Test {
   FakeCable cable_{clock_};
   std::optional<UsbCableLink> link_{std::in_place, cable_, clock_, 0};
 };
+
+TEST_F(UsbCableLinkTest, AClientsPacketsGoFirstAndDoNotKeepTheVehiclesWaiting) {
+  ScriptedUplink client({0x3C, 1}, 1000);
+  ASSERT_TRUE(link_->share_with(client));
+  ASSERT_TRUE(link_->send(hex("5d 05")).ok());
+  for (int i = 0; i < 20; ++i) cable_.waiting.push_back(hex("52 01 00 00 00"));
+  const std::vector<LinkFrame> frames = listen(milliseconds(20));
+  ASSERT_EQ(frames.size(), 40U);
+  EXPECT_EQ(std::ranges::count(frames, false, &LinkFrame::is_ours), 20);
+  EXPECT_EQ(std::ranges::count(frames, LinkDirection::kFromVehicle, &LinkFrame::direction), 20);
+  client.left = 0;
+  const std::vector<LinkFrame> after = listen(milliseconds(2));
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_TRUE(after[0].is_ours);
+}
 
 TEST_F(UsbCableLinkTest, SwitchesTheVehicleToTheCableAndBack) {
   static_cast<void>(listen(milliseconds(100)));

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sharing/client_socket.hpp"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/link/link_packet.hpp"
+
+namespace swiftlet {
+namespace {
+
+using Kind = VehicleEvent::Kind;
+
+constexpr std::array<std::uint8_t, 1> kHello{0xF3};  // also the answer to a null packet
+constexpr std::array<std::uint8_t, 1> kGoodbye{0xF4};
+constexpr std::string_view kFarewell = "swiftletd has ended\n";
+
+sockaddr* generic(sockaddr_in* address) { return std::bit_cast<sockaddr*>(address); }
+const sockaddr* generic(const sockaddr_in* address) { return std::bit_cast<const sockaddr*>(address); }
+
+bool is_same(const sockaddr_in& a, const sockaddr_in& b) {
+  return a.sin_addr.s_addr == b.sin_addr.s_addr && a.sin_port == b.sin_port;
+}
+
+bool is_byte(std::span<const std::uint8_t> packet, const std::array<std::uint8_t, 1>& byte) {
+  return packet.size() == 1 && packet[0] == byte[0];
+}
+
+Error no_socket(const std::string& where) {
+  const std::string remedy = errno == EADDRINUSE ? "; another program has it, choose another port" : "";
+  return {ErrorCode::kInvalidInput, "cannot share on udp://" + where + ": " + std::strerror(errno) + remedy};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ClientSocket>> ClientSocket::open(const UdpAddress& address) {
+  const std::string host = address.host == "localhost" ? "127.0.0.1" : address.host;
+  const std::string where = host + ":" + std::to_string(address.port);
+  sockaddr_in bound{};
+  bound.sin_family = AF_INET;
+  bound.sin_port = htons(address.port);
+  if (inet_pton(AF_INET, host.c_str(), &bound.sin_addr) != 1)
+    return Error{ErrorCode::kInvalidInput, "cannot share on udp://" + where + ": not an IPv4 address"};
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (socket < 0) return no_socket(where);
+  if (bind(socket, generic(&bound), sizeof bound) == 0)
+    return std::unique_ptr<ClientSocket>(new ClientSocket(socket));
+  const Error error = no_socket(where);
+  ::close(socket);
+  return error;
+}
+
+void ClientSocket::close() {
+  if (socket_ < 0) return;
+  std::vector<std::uint8_t> text{0x00};  // the console's header
+  text.insert(text.end(), kFarewell.begin(), kFarewell.end());
+  send(text);
+  client_.reset();
+  ::close(socket_);
+  socket_ = -1;
+}
+
+std::uint16_t ClientSocket::port() const {
+  sockaddr_in bound{};
+  socklen_t size = sizeof bound;
+  getsockname(socket_, generic(&bound), &size);
+  return ntohs(bound.sin_port);
+}
+
+ClientSocket::Arrival ClientSocket::receive(HostTime now, bool is_connected) {
+  sockaddr_in from{};
+  socklen_t from_size = sizeof from;
+  const ssize_t size = recvfrom(socket_, buffer_.data(), buffer_.size(), 0, generic(&from), &from_size);
+  if (size < 0) return {.is_any = errno == EINTR, .packet = {}};
+  const std::span<const std::uint8_t> packet(buffer_.data(), static_cast<std::size_t>(size));
+  if (packet.empty() || packet.size() > kMaxCrtpPacket) return {.is_any = true, .packet = {}};
+  if (!client_ || !is_same(*client_, from)) return on_strangers(packet, from, now, is_connected);
+  received_at_ = now;
+  return on_clients(packet, is_connected);
+}
+
+ClientSocket::Arrival ClientSocket::on_clients(std::span<const std::uint8_t> packet, bool is_connected) {
+  if (is_byte(packet, kGoodbye)) {
+    lose_client();
+    return {.is_any = true, .ended = true, .packet = {}};
+  }
+  if (!is_null_packet(packet)) return {.is_any = true, .packet = packet};
+  if (is_connected) send(kHello);
+  return {.is_any = true, .packet = {}};
+}
+
+ClientSocket::Arrival ClientSocket::on_strangers(std::span<const std::uint8_t> packet,
+                                                 const sockaddr_in& from, HostTime now, bool is_connected) {
+  const bool is_scan = is_null_packet(packet) && !is_byte(packet, kHello);
+  if (is_byte(packet, kGoodbye) || (client_ && is_scan)) return {.is_any = true, .packet = {}};
+  if (is_scan) {
+    if (is_connected) send(kHello, from);
+    return {.is_any = true, .packet = {}};
+  }
+  if (client_) {
+    refuse(from);
+    return {.is_any = true, .packet = {}};
+  }
+  client_ = from;
+  received_at_ = now;
+  report(Kind::kClientConnected, ntohs(from.sin_port));
+  return on_clients(packet, is_connected);
+}
+
+/// One line for each, not for each of its packets.
+void ClientSocket::refuse(const sockaddr_in& from) {
+  if (refused_ && is_same(*refused_, from)) return;
+  refused_ = from;
+  report(Kind::kClientRefused, ntohs(from.sin_port));
+}
+
+bool ClientSocket::has_fallen_silent(HostTime now) {
+  if (!client_ || now - received_at_ < kSilence) return false;
+  lose_client();
+  return true;
+}
+
+void ClientSocket::lose_client() {
+  client_.reset();
+  refused_.reset();
+  report(Kind::kClientGone);
+}
+
+void ClientSocket::send(std::span<const std::uint8_t> packet) {
+  if (client_) send(packet, *client_);
+}
+
+void ClientSocket::send(std::span<const std::uint8_t> packet, const sockaddr_in& to) const {
+  static_cast<void>(sendto(socket_, packet.data(), packet.size(), MSG_NOSIGNAL, generic(&to), sizeof to));
+}
+
+std::optional<VehicleEvent> ClientSocket::take_event() {
+  if (events_.empty()) return std::nullopt;
+  const VehicleEvent event = events_.front();
+  events_.erase_front(1);
+  return event;
+}
+
+void ClientSocket::report(Kind kind, std::int32_t value) {
+  static_cast<void>(events_.try_push_back({kind, value}));
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sharing/client_traffic.hpp"
+
+#include "firmware_link/link/link_packet.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::uint8_t kSetpointPort = 3;
+constexpr std::uint8_t kGenericSetpointPort = 7;
+constexpr std::uint8_t kHighLevelPort = 8;
+
+bool is_reset(std::span<const std::uint8_t> packet) {
+  return is_on(packet, kLogControlTopic) && packet.size() > 1 &&
+         packet[1] == static_cast<std::uint8_t>(LogCommand::kReset);
+}
+
+}  // namespace
+
+bool is_steering(std::span<const std::uint8_t> packet) {
+  if (packet.empty()) return false;
+  const unsigned port = packet[0] >> 4U;
+  return port == kSetpointPort || port == kGenericSetpointPort || port == kHighLevelPort;
+}
+
+void ClientTraffic::take(std::span<const std::uint8_t> packet) {
+  if (!has_content(packet)) return;
+  if (is_steering(packet)) {
+    if (!steering_.try_push(packet_of(packet))) ++counters_.steering_dropped;
+  } else if (!requests_.try_push(packet_of(packet))) {
+    ++counters_.requests_dropped;
+  }
+}
+
+bool ClientTraffic::has_packet(HostTime now) const {
+  const bool has_request = blocks_.deletion_is_due(now) || (!blocks_.is_resetting() && !requests_.empty());
+  return !steering_.empty() || (log_was_reset_ && has_request);
+}
+
+std::optional<CrtpPacket> ClientTraffic::next_packet(bool owner_waits, HostTime now) {
+  if (!steering_.empty() && steering_in_a_row_ < kMaxSteeringInARow) return next_steering();
+  steering_in_a_row_ = 0;
+  if (owner_waits && was_clients_) {
+    was_clients_ = false;
+    return std::nullopt;
+  }
+  std::optional<CrtpPacket> request = next_request(now);
+  was_clients_ = request.has_value();
+  if (!request && !owner_waits && !steering_.empty()) return next_steering();
+  return request;
+}
+
+/// Precondition: there is one.
+std::optional<CrtpPacket> ClientTraffic::next_steering() {
+  const CrtpPacket packet = steering_.front();
+  steering_.pop();
+  ++steering_in_a_row_;
+  ++counters_.steering;
+  return packet;
+}
+
+std::optional<CrtpPacket> ClientTraffic::next_request(HostTime now) {
+  if (!log_was_reset_) return std::nullopt;
+  if (const std::optional<CrtpPacket> deletion = blocks_.next_deletion(now)) return deletion;
+  while (!blocks_.is_resetting() && !requests_.empty()) {
+    const CrtpPacket packet = requests_.front();
+    requests_.pop();
+    const std::optional<CrtpPacket> translated = translate(packet);
+    if (!translated) continue;
+    ++counters_.requests;
+    open_.sent(bytes_of(*translated));
+    return translated;
+  }
+  // A reset deletes blocks first.
+  return blocks_.next_deletion(now);
+}
+
+/// nullopt: the vehicle is not asked.
+std::optional<CrtpPacket> ClientTraffic::translate(const CrtpPacket& packet) {
+  if (!is_on(bytes_of(packet), kLogControlTopic)) return packet;
+  const ClientLogBlocks::Outcome outcome = blocks_.on_request(bytes_of(packet));
+  if (outcome.answer) static_cast<void>(answers_.try_push(*outcome.answer));
+  return outcome.request;
+}
+
+void ClientTraffic::drop_steering() {
+  counters_.steering_dropped += steering_.size();
+  steering_.clear();
+}
+
+std::optional<CrtpPacket> ClientTraffic::on_frame(LinkFrame& frame) {
+  if (frame.direction == LinkDirection::kToVehicle) {
+    if (frame.is_ours) on_sent_by_owner(frame.packet());
+    return std::nullopt;
+  }
+  if (is_on(frame.packet(), kLogDataTopic)) return on_log_data(frame);
+  if (is_on(frame.packet(), kLogControlTopic)) return on_log_control(frame);
+  if (answers_a_request(frame.packet())) return on_answer(frame);
+  return packet_of(frame.packet());
+}
+
+void ClientTraffic::on_sent_by_owner(std::span<const std::uint8_t> packet) {
+  owners_open_.sent(packet);
+  if (is_reset(packet)) log_was_reset_ = false;
+}
+
+/// Only the owner resets the vehicle's log.
+std::optional<CrtpPacket> ClientTraffic::on_log_control(LinkFrame& frame) {
+  const std::span<const std::uint8_t> packet = frame.packet();
+  if (is_reset(packet)) {
+    log_was_reset_ = true;
+    blocks_.forget_all();
+    return std::nullopt;
+  }
+  frame.is_ours = packet.size() < 3 || !ClientLogBlocks::has_number(packet[2]);
+  if (frame.is_ours) return std::nullopt;
+  return blocks_.on_answer(packet);
+}
+
+std::optional<CrtpPacket> ClientTraffic::on_log_data(LinkFrame& frame) {
+  const std::span<const std::uint8_t> packet = frame.packet();
+  frame.is_ours = packet.size() < 2 || !ClientLogBlocks::has_number(packet[1]);
+  if (frame.is_ours) return std::nullopt;
+  return blocks_.on_data(packet);
+}
+
+/// To all that have asked: to the same question the vehicle has the same answer. What nobody has asked for is
+/// the owner's, who ignores it.
+std::optional<CrtpPacket> ClientTraffic::on_answer(LinkFrame& frame) {
+  const bool is_clients = open_.take_answer(frame.packet());
+  if (is_clients && is_missing_item(frame.packet())) {  // the owner asks for none that is missing
+    frame.is_ours = false;
+  } else {
+    const bool is_owners = owners_open_.take_answer(frame.packet());
+    frame.is_ours = is_owners || !is_clients;
+  }
+  if (!is_clients) return std::nullopt;
+  return packet_of(frame.packet());
+}
+
+std::optional<CrtpPacket> ClientTraffic::take_answer() {
+  if (!answers_.empty()) {
+    const CrtpPacket answer = answers_.front();
+    answers_.pop();
+    return answer;
+  }
+  return blocks_.take_reset_answer();
+}
+
+void ClientTraffic::abandon() {
+  steering_.clear();
+  requests_.clear();
+  answers_.clear();
+  open_.clear();
+  blocks_.abandon();
+}
+
+}  // namespace swiftlet

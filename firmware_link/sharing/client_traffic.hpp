@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/time.hpp"
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/link/link.hpp"
+#include "firmware_link/link/sharing_status.hpp"
+#include "firmware_link/sharing/client_log_blocks.hpp"
+#include "firmware_link/sharing/open_requests.hpp"
+#include "firmware_link/sharing/packet_ring.hpp"
+
+namespace swiftlet {
+
+/// Whether a packet steers: setpoints (port 3), generic setpoints (7) and high-level commands (8).
+[[nodiscard]] bool is_steering(std::span<const std::uint8_t> packet);
+
+/// The packets of a client that shares the link with its owner. What steers comes first, in its order; all
+/// else takes turns with the owner's requests, and waits until the owner has reset the vehicle's log. Each
+/// side gets the answers to its own requests; what the vehicle says to all goes to both. No link, no socket,
+/// no clock. Fixed storage, allocates nothing; one thread at a time.
+class ClientTraffic {
+ public:
+  static constexpr std::size_t kSteeringCapacity = 256;
+  static constexpr std::size_t kRequestCapacity = 64;
+  /// So many packets that steer, one behind the other, let one other packet through: a client that sends more
+  /// than the link carries must not end the map.
+  static constexpr int kMaxSteeringInARow = 64;
+
+  /// A packet of the client, in the order in which they came. Null packets are the link's own and are
+  /// dropped, and so is what finds no room.
+  void take(std::span<const std::uint8_t> packet);
+  /// Whether next_packet() would have one if the owner had none.
+  [[nodiscard]] bool has_packet(HostTime now) const;
+  /// As ClientUplink's.
+  [[nodiscard]] std::optional<CrtpPacket> next_packet(bool owner_waits, HostTime now);
+  /// The vehicle is not received: what steers would come too late.
+  void drop_steering();
+
+  /// The client's share of a frame that the link has delivered, if any; marks the frame where it is not the
+  /// owner's.
+  [[nodiscard]] std::optional<CrtpPacket> on_frame(LinkFrame& frame);
+  /// Answers that the vehicle is not asked for. Call until empty after next_packet() and on_frame().
+  [[nodiscard]] std::optional<CrtpPacket> take_answer();
+
+  /// The client is gone: nothing of it is sent any more, its log blocks are deleted.
+  void abandon();
+
+  [[nodiscard]] const SharingCounters& counters() const { return counters_; }
+
+ private:
+  [[nodiscard]] std::optional<CrtpPacket> next_steering();
+  [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
+  [[nodiscard]] std::optional<CrtpPacket> translate(const CrtpPacket& packet);
+  void on_sent_by_owner(std::span<const std::uint8_t> packet);
+  [[nodiscard]] std::optional<CrtpPacket> on_log_control(LinkFrame& frame);
+  [[nodiscard]] std::optional<CrtpPacket> on_log_data(LinkFrame& frame);
+  [[nodiscard]] std::optional<CrtpPacket> on_answer(LinkFrame& frame);
+
+  PacketRing<kSteeringCapacity> steering_;
+  PacketRing<kRequestCapacity> requests_;
+  PacketRing<kRequestCapacity> answers_;
+  int steering_in_a_row_ = 0;
+  bool was_clients_ = false;  ///< the last packet that did not steer
+  bool log_was_reset_ = false;
+  ClientLogBlocks blocks_;
+  OpenRequests open_;
+  OpenRequests owners_open_;
+  SharingCounters counters_;
+};
+
+}  // namespace swiftlet
