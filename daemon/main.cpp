@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "daemon/config/configuration.hpp"
@@ -27,11 +28,14 @@
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/link/udp_address.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr int kBadInput = 2;
+constexpr std::string_view kUdpScheme = "udp://";
+constexpr const char* kShareHere = "udp://127.0.0.1:19850";
 
 struct Options {
   std::string config_path;
@@ -42,6 +46,7 @@ struct Options {
   std::string output_directory;
   std::string log_file;
   RecordingWish record;
+  std::optional<std::string> share;
   bool print_reference = false;
   bool print_tuning = false;
   bool verbose = false;
@@ -67,6 +72,11 @@ void declare(CLI::App& app, Options& options) {
           ->type_name("[FILE]")
           ->expected(0, 1);
   app.add_flag("--no-record", options.record.refused, "record nothing")->excludes(record);
+  app.add_option("--share", options.share,
+                 "let one other program use the vehicle too, and fly it; without ADDRESS on this machine "
+                 "alone, on udp://127.0.0.1:19850")
+      ->type_name("[ADDRESS]")
+      ->expected(0, 1);
   app.add_option("--log-file", options.log_file,
                  "log there, not to stderr; SIGHUP opens it anew, for whoever rotates logs");
   app.add_flag("-v,--verbose", options.verbose, "log each status");
@@ -104,15 +114,43 @@ Result<std::unique_ptr<Recorder>> open_recorder(const Options& options, const Co
   return std::unique_ptr<Recorder>();
 }
 
+/// Where a client may connect. The configuration counts for live vehicles alone. Error: kInvalidInput: it is
+/// no address.
+Result<std::optional<UdpAddress>> share_address(const Options& options, const Configuration& config) {
+  std::string_view text = options.share ? *options.share : config.share.address;
+  const Result<InputUri> input = parse_input_uri(options.input_uri);
+  const bool is_live = input && input->is(InputNature::kVehicle);
+  if (text.empty() || (!options.share && !is_live)) return std::optional<UdpAddress>();
+  if (!text.starts_with(kUdpScheme))
+    return Error{ErrorCode::kInvalidInput,
+                 fmt::format("--share {}: write {}127.0.0.1:19850", text, kUdpScheme)};
+  text.remove_prefix(kUdpScheme.size());
+  Result<UdpAddress> address = parse_udp_address(text);
+  if (!address) return Error{ErrorCode::kInvalidInput, "--share: " + address.error().message};
+  return std::optional<UdpAddress>(std::move(address).value());
+}
+
+void tell_share(const UdpAddress& address) {
+  spdlog::info("shared: one client may connect to {}{}:{}", kUdpScheme, address.host, address.port);
+  if (!address.host.starts_with("127.") && address.host != "localhost")
+    spdlog::warn("shared beyond this machine: whoever reaches {}:{} can fly the vehicle", address.host,
+                 address.port);
+}
+
 Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const Configuration& config,
                                                  FrameSink* recording) {
   SampleSourceOptions source;
   source.recording = recording;
+  Result<std::optional<UdpAddress>> share = share_address(options, config);
+  if (!share) return share.error();
+  source.share = std::move(share).value();
   source.beam_count = options.beams;
   if (config.sensor.range_age_s) source.range_age = from_seconds(*config.sensor.range_age_s);
   source.max_range_m = config.sensor.max_range_m;
   source.min_range_m = config.sensor.min_range_m;
-  return open_sample_source(options.input_uri, source);
+  Result<std::unique_ptr<SampleSource>> opened = open_sample_source(options.input_uri, source);
+  if (opened && source.share) tell_share(*source.share);
+  return opened;
 }
 
 /// nullptr: the log goes to stderr.
@@ -235,6 +273,7 @@ int main_without_exceptions(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     options.record.asked = app.count("--record") > 0;
+    if (app.count("--share") > 0 && options.share.value_or("").empty()) options.share = kShareHere;
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

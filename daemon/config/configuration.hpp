@@ -55,6 +55,22 @@ struct RecordConfig {
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
+/// Whether another program flies over the daemon's link.
+struct ShareConfig {
+  std::string address;
+
+  static constexpr SettingsSection kSection{
+      "share", "Who else may use the vehicle while it is mapped: [flying](flying.md#who-flies)."};
+  static constexpr Setting<ShareConfig> kSettings[] = {
+      {"address", &ShareConfig::address, "",
+       "where one client may connect to a live vehicle, as udp://127.0.0.1:19850; empty: nowhere, unless "
+       "--share says otherwise"},
+  };
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const { return setting_problems(*this); }
+};
+
 /// What the daemon asks of the machine so that it keeps time; everything is off unless asked for.
 struct RealtimeConfig {
   double pose_deadline_s = 0.002;
@@ -96,6 +112,7 @@ struct Configuration {
   MapConfig map;
   PublishConfig publish;
   RecordConfig record;
+  ShareConfig share;
   RealtimeConfig realtime;
 
   /// All that is wrong with it, one line each; empty when usable.
@@ -112,6 +129,7 @@ void for_each_section(AnyConfiguration&& config, Visitor visit) {
   visit(config.map);
   visit(config.publish);
   visit(config.record);
+  visit(config.share);
   visit(config.realtime);
 }
 

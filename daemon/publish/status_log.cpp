@@ -48,6 +48,12 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   const InputCounters& counters = now.input.counters;
   const InputCounters& counters_before = before.input.counters;
   warn_if_grown("input: holes in the ranges", counters_before.gaps, counters.gaps);
+  const SharingCounters& sharing = now.input.live.sharing.counters;
+  const SharingCounters& sharing_before = before.input.live.sharing.counters;
+  warn_if_grown("client: setpoints dropped (vehicle not received, or more than the link carries)",
+                sharing_before.steering_dropped, sharing.steering_dropped);
+  warn_if_grown("client: requests dropped (more than the link carries)", sharing_before.requests_dropped,
+                sharing.requests_dropped);
   warn_if_grown("input: problems", before.input.problems, now.input.problems);
   if (counters_before.segments > 0)
     warn_if_grown("input: new segments (silence, restart or reset)", counters_before.segments,

@@ -21,14 +21,14 @@ from simulation import PATIENCE_S, Failed, Simulation, expect
 class Flight:
     """swiftletd on a vehicle, recording."""
 
-    def __init__(self, bench, port):
+    def __init__(self, bench, port, *options):
         self.folder, self.swiftlet = bench.folder, bench.swiftlet
         self.out, self.recording = self.folder / "out", self.folder / "flight.pcap"
         environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
         self.log = open(self.folder / "daemon.log", "w+", encoding="utf-8")
         self.process = subprocess.Popen(
             [bench.swiftletd, "--input", f"udp://127.0.0.1:{port}", "--lcm-url", "memq://", "-o", str(self.out),
-             "--record", str(self.recording)], stderr=self.log, env=environment)
+             "--record", str(self.recording), *options], stderr=self.log, env=environment)
 
     def said(self):
         return (self.folder / "daemon.log").read_text(encoding="utf-8")

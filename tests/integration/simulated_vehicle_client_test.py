@@ -17,7 +17,7 @@ import time
 from simulation import Failed, Simulation, expect
 
 PATIENCE_S = 2.0  # a real client would wait for ever
-PARAM, MEMORY, LOG, SUPERVISOR, PLATFORM, LINK = 2, 4, 5, 9, 13, 15
+PARAM, MEMORY, LOG, COMMANDER_GENERIC, SUPERVISOR, PLATFORM, LINK = 2, 4, 5, 7, 9, 13, 15
 LOG_TYPES = {1: "<B", 2: "<H", 3: "<L", 4: "<b", 5: "<h", 6: "<i", 7: "<f"}
 PARAM_TYPES = {0: "<b", 1: "<h", 2: "<i", 3: "<q", 6: "<f", 7: "<d", 8: "<B", 9: "<H", 10: "<L", 11: "<Q"}
 ENOENT = 2
