@@ -55,7 +55,7 @@ struct Options {
 void declare(CLI::App& app, Options& options) {
   app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys");
   using enum InputNature;
-  app.add_option("--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile}));
+  app.add_option("--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile, kFollowed}));
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();
@@ -141,6 +141,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const C
                                                  FrameSink* recording) {
   SampleSourceOptions source;
   source.recording = recording;
+  source.may_follow = true;
   Result<std::optional<UdpAddress>> share = share_address(options, config);
   if (!share) return share.error();
   source.share = std::move(share).value();
@@ -164,14 +165,21 @@ SignalWatcher watch_signals(LogFile* log) {
   return SignalWatcher([log] { log->reopen(); });
 }
 
-/// A live link keeps its own pace and cannot be asked to wait.
+bool is_followed(const Options& options) {
+  const Result<InputUri> input = parse_input_uri(options.input_uri);
+  return input && input->is(InputNature::kFollowed);
+}
+
+/// A live link keeps its own pace and cannot be asked to wait; a recording that is still written does and
+/// can.
 InputPolicy input_policy(const Options& options, const SampleSource& source) {
   if (source.is_live()) return {.rate = {}, .refuses_when_full = true};
+  if (is_followed(options)) return {.rate = {}};
   return {.rate = options.rate};
 }
 
 std::string input_text(const Options& options, const SampleSource& source) {
-  if (source.is_live()) return options.input_uri + " (until stopped by a signal)";
+  if (source.is_live() || is_followed(options)) return options.input_uri + " (until stopped by a signal)";
   return fmt::format("{} at {} times its pace", options.input_uri, options.rate);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <utility>
@@ -80,9 +81,10 @@ Status CaptureReader::read_file_header() {
 
 Result<CaptureRecord> CaptureReader::next() {
   for (;;) {
-    if (offset_ == size_) return Error{ErrorCode::kEndOfRecording, path_ + ": end of the capture"};
+    if (grows_) look_for_growth();
+    if (offset_ == size_) return ends({ErrorCode::kEndOfRecording, path_ + ": end of the capture"});
     std::array<std::uint8_t, kPcapRecordHeader> header{};
-    if (size_ - offset_ < header.size()) return damaged("the file ends inside a record header");
+    if (size_ - offset_ < header.size()) return ends(damaged("the file ends inside a record header"));
     const std::uint64_t record_start = offset_;
     if (!read_exactly(header)) return damaged("cannot be read");
     const std::int64_t fraction_ns = tick_ns_ * std::int64_t{load(header, 4)};
@@ -90,12 +92,14 @@ Result<CaptureRecord> CaptureReader::next() {
     std::array<std::uint8_t, kMaxKnownRecord> bytes{};
     const std::span<std::uint8_t> body(bytes.data(), std::min(length, bytes.size()));
     const char* fault = nullptr;
+    bool is_unfinished = false;
     if (length > kMaxRecord || length > load(header, 12)) {
       fault = "the length of a record is impossible";
     } else if (fraction_ns >= 1'000'000'000) {
       fault = "the time of a record is impossible";
     } else if (length > size_ - offset_) {
       fault = "the file ends inside a record";
+      is_unfinished = true;
     } else if (!read_exactly(body)) {
       fault = "cannot be read";
     } else if (length > body.size() && kind_of(body[0])) {
@@ -104,7 +108,7 @@ Result<CaptureRecord> CaptureReader::next() {
     if (fault != nullptr) {
       offset_ = record_start;
       file_.seekg(static_cast<std::streamoff>(offset_));
-      return damaged(fault);
+      return is_unfinished ? ends(damaged(fault)) : damaged(fault);
     }
     if (length > body.size()) {
       file_.seekg(static_cast<std::streamoff>(length - body.size()), std::ios::cur);
@@ -117,6 +121,20 @@ Result<CaptureRecord> CaptureReader::next() {
     }
     ++skipped_;
   }
+}
+
+Error CaptureReader::ends(const Error& otherwise) const {
+  return grows_ ? Error{ErrorCode::kTimeout, "no packet"} : otherwise;
+}
+
+/// A file that has shrunk is read as it was.
+void CaptureReader::look_for_growth() {
+  std::error_code failure;
+  const std::uint64_t size = std::filesystem::file_size(path_, failure);
+  if (failure || size <= size_) return;
+  size_ = size;
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(offset_));
 }
 
 void CaptureReader::rewind() {

@@ -28,6 +28,9 @@ class CaptureReader {
   /// The next record that holds a packet. Errors: kEndOfRecording. kDamaged: truncated or corrupt; the
   /// message names the byte offset, and every later call returns the same error.
   [[nodiscard]] Result<CaptureRecord> next();
+  /// The file is still written: where it ends at present, even inside a record, next() returns kTimeout and
+  /// reads on at the next call.
+  void follow() { grows_ = true; }
   /// Back to the first record.
   void rewind();
 
@@ -42,6 +45,8 @@ class CaptureReader {
   CaptureReader() = default;
   Status read_file_header();
   [[nodiscard]] std::uint32_t load(std::span<const std::uint8_t> bytes, std::size_t at) const;
+  [[nodiscard]] Error ends(const Error& otherwise) const;
+  void look_for_growth();
   [[nodiscard]] Error damaged(const std::string& what) const;
   bool read_exactly(std::span<std::uint8_t> bytes);
 
@@ -50,6 +55,7 @@ class CaptureReader {
   std::uint64_t size_ = 0;
   std::uint64_t offset_ = 0;
   std::uint64_t skipped_ = 0;
+  bool grows_ = false;
   bool big_endian_ = false;
   std::int64_t tick_ns_ = 1000;  ///< of the fraction in a record's time
 };

@@ -151,6 +151,11 @@ constexpr std::array kInputKinds{
               .form = "FILE",
               .example = "replay:flight.pcap",
               .parse = parsed_by<InputFile, parse_file>},
+    InputKind{.nature = InputNature::kFollowed,
+              .scheme = "follow:",
+              .form = "FILE",
+              .example = "follow:flight.pcap",
+              .parse = parsed_by<InputFile, parse_file>},
 };
 
 }  // namespace

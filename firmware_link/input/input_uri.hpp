@@ -20,6 +20,7 @@ enum class InputNature : std::uint8_t {
   kVehicle,     ///< live: runs in real time and has no end
   kSimulation,  ///< flown in this process, as fast as it is read
   kFile,        ///< a recording or a laser log
+  kFollowed,    ///< a recording that another program is still writing
 };
 
 /// A kind of input: one row of the table in input_kinds.cpp, from which all else about it derives.
@@ -32,9 +33,9 @@ struct InputKind {
   Status (*parse)(std::string_view text, std::any& address) = nullptr;
   /// Opens a link to what parse() made. A vehicle's device need not be there yet: the link waits for it.
   /// Errors: kNotFound: a name that does not resolve. kInvalidInput: the machine offers no USB or no sockets.
-  /// nullptr for files.
+  /// nullptr for what is read.
   Result<LinkInput> (*open)(const std::any& address) = nullptr;
-  /// The vehicle that a recording of this input is attributed to. nullptr for files.
+  /// The vehicle that a recording of this input is attributed to. nullptr for what is read.
   CaptureVehicle (*recorded_vehicle)(const std::any& address) = nullptr;
 };
 
@@ -43,7 +44,7 @@ struct InputKind {
 /// How inputs of these natures are written: "usb://N, udp://HOST:PORT or sim://WORLD".
 [[nodiscard]] std::string input_forms(std::initializer_list<InputNature> natures);
 
-/// A path, as a plain path or by replay:FILE.
+/// A path, as a plain path, by replay:FILE or by follow:FILE.
 struct InputFile {
   std::string path;
 };

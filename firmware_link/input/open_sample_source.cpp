@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/settings.hpp"
+#include "firmware_link/capture/followed_link.hpp"
 #include "firmware_link/capture/replay_link.hpp"
 #include "firmware_link/file/input_file.hpp"
 #include "firmware_link/input/input_uri.hpp"
@@ -54,6 +55,16 @@ Status apply(const SampleSourceOptions& options, LinkInput& input) {
   return {};
 }
 
+/// By the description beside a capture, if there is one.
+Status describe(const std::string& path, LinkInput& input) {
+  Result<BlockDescription> description = read_block_description(path + ".toml");
+  if (description)
+    input.description = std::move(description).value();
+  else if (description.error().code != ErrorCode::kNotFound)
+    return description.error();
+  return {};
+}
+
 Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
                                                    const SampleSourceOptions& options) {
   Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path);
@@ -64,16 +75,27 @@ Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
   for (const std::string& note : (*link)->notes()) input.notes.push_back(note);
   input.progress = [replay = link->get()]() { return std::optional<double>(replay->progress()); };
   input.link = std::move(link).value();
-  Result<BlockDescription> description = read_block_description(path + ".toml");
-  if (description) {
-    input.description = std::move(description).value();
-  } else if (description.error().code != ErrorCode::kNotFound) {
-    return description.error();
-  }
+  if (const Status described = describe(path, input); !described) return described.error();
   auto source = std::make_unique<LinkSampleSource>(std::move(input));
   const Status found = source->find_first_sample();
   if (!found) return found.error();
   return std::unique_ptr<SampleSource>(std::move(source));
+}
+
+/// Without waiting for its first sample.
+Result<std::unique_ptr<SampleSource>> open_followed(const std::string& path,
+                                                    const SampleSourceOptions& options) {
+  if (!options.may_follow)
+    return Error{ErrorCode::kInvalidInput,
+                 path + ": only swiftletd follows a recording that is still written"};
+  Result<std::unique_ptr<FollowedLink>> link = FollowedLink::open(path);
+  if (!link) return link.error();
+  LinkInput input;
+  input.name = path;
+  if (const Status applied = apply(options, input); !applied) return applied.error();
+  input.link = std::move(link).value();
+  if (const Status described = describe(path, input); !described) return described.error();
+  return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
 }
 
 Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const SampleSourceOptions& options) {
@@ -119,6 +141,7 @@ Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
   if (!parsed) return parsed.error();
   if (options.share && !parsed->is(InputNature::kVehicle))
     return Error{ErrorCode::kInvalidInput, uri + ": only the link to a live vehicle can be shared"};
+  if (parsed->is(InputNature::kFollowed)) return open_followed(parsed->as<InputFile>()->path, options);
   if (const auto* file = parsed->as<InputFile>()) return open_file(file->path, options);
   return open_link(uri, *parsed, options);
 }

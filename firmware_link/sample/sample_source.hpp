@@ -68,6 +68,7 @@ struct SampleSourceOptions {
   std::optional<double> max_range_m;  ///< overrides the sensor model's
   std::optional<double> min_range_m;  ///< overrides the sensor model's
   FrameSink* recording = nullptr;     ///< links only: receives every frame; must outlive the source
+  bool may_follow = false;            ///< whether a recording that is still written may be followed
   std::optional<UdpAddress> share;    ///< vehicles only: where a client that shares the link connects
 };
 

@@ -159,6 +159,25 @@ def the_wrap_of_the_vehicles_clock_goes_unnoticed(bench):
     flight.expect_replay_to_be_the_same()
 
 
+def a_recording_is_followed_while_it_is_written(bench):
+    vehicle = bench.vehicle("--seed", "7")
+    flight = bench.flight(vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    out = bench.folder / "followed"
+    follower = subprocess.Popen([bench.swiftletd, "--input", f"follow:{flight.recording}", "--lcm-url", "memq://",
+                                 "-o", str(out)], stderr=subprocess.PIPE, text=True)
+    time.sleep(8.0)
+    _, stamps = flight.land()
+    vehicle.end()
+    time.sleep(1.0)
+    expect(follower.poll() is None, "the follower ended by itself")
+    follower.send_signal(signal.SIGTERM)
+    said = follower.communicate(timeout=60)[1]
+    expect(follower.returncode == 0 and len(stamps) > 60, said)
+    for name in ("trajectory.tum", "odometry.tum", "map.pgm"):
+        expect((out / name).read_bytes() == (flight.out / name).read_bytes(), name + " differs: " + said)
+
+
 def a_missing_deck_is_named(bench):
     vehicle = bench.vehicle("--missing-deck", "multiranger")
     flight = bench.flight(vehicle.port)

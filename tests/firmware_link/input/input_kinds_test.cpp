@@ -28,8 +28,9 @@ TEST(InputKinds, ReadTheirOwnExamples) {
 
 TEST(InputKinds, OpenAndAttributeAllButFiles) {
   for (const InputKind& kind : input_kinds()) {
-    EXPECT_EQ(kind.open == nullptr, kind.nature == InputNature::kFile) << kind.scheme;
-    EXPECT_EQ(kind.recorded_vehicle == nullptr, kind.nature == InputNature::kFile) << kind.scheme;
+    const bool is_read = kind.nature == InputNature::kFile || kind.nature == InputNature::kFollowed;
+    EXPECT_EQ(kind.open == nullptr, is_read) << kind.scheme;
+    EXPECT_EQ(kind.recorded_vehicle == nullptr, is_read) << kind.scheme;
   }
 }
 

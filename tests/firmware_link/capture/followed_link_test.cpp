@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/capture/followed_link.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/firmware_link/frames.hpp"
+#include "tests/firmware_link/synthetic_capture.hpp"
+#include "tests/support/temporary_file.hpp"
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::milliseconds;
+
+ErrorCode code_of(const Result<LinkFrame>& frame) { return frame ? ErrorCode{} : frame.error().code; }
+
+class FollowedLinkTest : public testing::Test {
+ protected:
+  void append(const std::string& bytes) {
+    std::ofstream(path_, std::ios::binary | std::ios::app).write(bytes.data(), std::ssize(bytes));
+  }
+  static std::string capture_of(const std::vector<LinkFrame>& frames) {
+    const TemporaryFile whole("whole.pcap");
+    write_capture(whole.path(), frames);
+    return whole.read();
+  }
+  [[nodiscard]] Bytes next() {
+    const Result<LinkFrame> frame = link_->receive(milliseconds(50));
+    if (!frame) return {};
+    return {frame->packet().begin(), frame->packet().end()};
+  }
+
+  TemporaryFile file_{"followed.pcap", ""};
+  std::string path_ = file_.path();
+  std::unique_ptr<FollowedLink> link_;
+};
+
+TEST_F(FollowedLinkTest, ReadsOnAsTheFileGrowsWhereverItEnds) {
+  const std::string bytes = capture_of({received({0x52, 1, 0, 0, 0}), received({0x52, 2, 0, 0, 0})});
+  link_ = FollowedLink::open(path_).value();
+  std::size_t frames = 0;
+  for (const char byte : bytes) {
+    append(std::string(1, byte));
+    if (const Result<LinkFrame> frame = link_->receive({}); frame)
+      EXPECT_EQ(frame->packet()[1], ++frames);
+    else
+      EXPECT_EQ(frame.error().code, ErrorCode::kTimeout) << frame.error().message;
+  }
+  EXPECT_EQ(frames, 2U);
+}
+
+TEST_F(FollowedLinkTest, AFifoIsReadUntilItsWriterClosesIt) {
+  const std::string bytes = capture_of({received({0x52, 1, 0, 0, 0})});
+  std::filesystem::remove(path_);
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  link_ = FollowedLink::open(path_).value();
+  EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kTimeout) << "nobody writes yet";
+  const int writer = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(writer, 0);
+  EXPECT_EQ(::write(writer, bytes.data(), 30), 30);
+  EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kTimeout);
+  EXPECT_EQ(::write(writer, bytes.data() + 30, bytes.size() - 30), std::ssize(bytes) - 30);
+  EXPECT_EQ(next(), (Bytes{0x52, 1, 0, 0, 0}));
+  ::close(writer);
+  EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kEndOfRecording);
+}
+
+TEST_F(FollowedLinkTest, SaysWhatIsNoCapture) {
+  append("this is certainly not a capture of anything");
+  link_ = FollowedLink::open(path_).value();
+  EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kInvalidInput);
+  EXPECT_EQ(FollowedLink::open(path_ + "_no").error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(FollowedLink::open("/dev").error().code, ErrorCode::kInvalidInput);
+}
+
+}  // namespace
+}  // namespace swiftlet
