@@ -4,63 +4,31 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <utility>
 
-#include "daemon/config/configuration.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
-#include "firmware_link/input/open_sample_source.hpp"
-#include "firmware_link/sample/sign_mending_source.hpp"
+#include "firmware_link/input/input_uri.hpp"
 #include "tools/calibration/input_calibration.hpp"
+#include "tools/evaluation/live_observer.hpp"
+#include "tools/prepared_run.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace swiftlet {
 
 namespace {
 
-Result<Configuration> configuration_for(const MapCommand& command) {
-  Configuration config;
-  if (!command.config_file.empty()) {
-    Result<Configuration> loaded = load_configuration(command.config_file);
-    if (!loaded) return loaded;
-    config = std::move(loaded).value();
-  }
-  if (command.odometry_only) config.frontend.use_landmarks = false;
-  if (command.odometry_only || command.frontend_only) config.backend.close_loops = false;
-  return config;
-}
-
-Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const Configuration& config) {
-  SampleSourceOptions options;
-  options.beam_count = command.beams;
-  options.max_range_m = config.sensor.max_range_m;
-  options.min_range_m = config.sensor.min_range_m;
-  if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
-  Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
-  if (!source || (*source)->is_live() || command.odometry_only) return source;
-  return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
-}
-
-/// Estimates the systematic errors of the input from all of it first, and sets those that the configuration
-/// leaves out.
-std::optional<InputCalibration> calibrate_first(SampleSource& source, Configuration& config) {
-  const Result<InputCalibration> calibration =
-      calibrate_by_itself(source, config.sensor.applied_to(source.sensor()));
-  if (!calibration) return std::nullopt;
-  config.sensor.take_calibration(calibration->found);
-  return *calibration;
-}
-
-/// To the end of the input. The report, with what ended the input before its time among the problems.
-InputReport run_to_end(Pipeline& pipeline, const SampleSource& source) {
+/// To the end of the input, before the eyes of the observer if there is one. The report, with what ended the
+/// input before its time among the problems.
+InputReport run_to_end(Pipeline& pipeline, const SampleSource& source, LiveObserver* observer) {
   ProgressBar bar(stderr, ProgressBar::Clock::now());
   Result<bool> more = pipeline.step();
   while (more && *more) {
+    if (observer != nullptr) observer->look();
     bar.update(source.progress(), ProgressBar::Clock::now());
     more = pipeline.step();
   }
@@ -71,13 +39,6 @@ InputReport run_to_end(Pipeline& pipeline, const SampleSource& source) {
       report.problems.push_back(reason);
   }
   return report;
-}
-
-Status check_usable(const MapCommand& command, const InputReport& report, const Backend& backend) {
-  if (backend.scans().size() > 0) return {};
-  const std::string reason =
-      report.problems.empty() ? "it ended before the first one" : report.problems.front();
-  return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
 }
 
 void print_summary(const MapCommand& command, const RunView& run) {
@@ -111,41 +72,46 @@ Status damage_of(const InputReport& report) {
   return Error{ErrorCode::kDamaged, message + "; the outputs hold what came before"};
 }
 
+bool is_simulation(const std::string& input) {
+  const Result<InputUri> uri = parse_input_uri(input);
+  return uri && uri->is(InputNature::kSimulation);
+}
+
 }  // namespace
 
 Status run_map_command(const MapCommand& command) {
-  Result<Configuration> config = configuration_for(command);
-  if (!config) return config.error();
-  Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
-  if (!opened) return opened.error();
-  std::optional<InputCalibration> calibration;
-  if (command.calibrate && !command.odometry_only && !(*opened)->is_live()) {
-    calibration = calibrate_first(**opened, *config);
-    opened = open_input(command, *config);
-    if (!opened) return opened.error();
-  }
-  SampleSource& source = **opened;
+  Result<PreparedRun> prepared = prepare_run(command);
+  if (!prepared) return prepared.error();
+  SampleSource& source = *prepared->source;
+  const Configuration& config = prepared->config;
+  const std::optional<InputCalibration>& calibration = prepared->calibration;
   if (Status ready = prepare_output_directory(command.output_directory); !ready) return ready;
 
   Result<PrunedScans> pruned = PrunedScans::open(command.output_directory);
   if (!pruned) return pruned.error();
-  Pipeline pipeline(*config, source);
+  Pipeline pipeline(config, source);
   pipeline.keep_pruned(*pruned);
-  InputReport report = run_to_end(pipeline, source);
+  std::optional<LiveObserver> observer;
+  if (is_simulation(command.input)) observer.emplace(pipeline.backend());
+  InputReport report = run_to_end(pipeline, source, observer ? &*observer : nullptr);
   if (calibration) report.notes.push_back(calibration_note(*calibration));
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
+  std::vector<StampedPose> truth = source.ground_truth();
+  std::optional<KnownPlaceError> known_places;
+  if (observer) known_places = observer->error(StampedPath(truth));
   const RunView run{.backend = pipeline.backend(),
                     .map = pipeline.map(),
                     .input = report,
                     .frontend = pipeline.frontend().counters(),
                     .timing = pipeline.timing(),
-                    .truth = source.ground_truth(),
+                    .truth = std::move(truth),
                     .input_uri = command.input,
-                    .sensor = config->sensor.applied_to(source.sensor()),
+                    .sensor = config.sensor.applied_to(source.sensor()),
                     .calibration = calibration,
                     .mended = source.mended(),
                     .pruned = &*pruned,
+                    .known_places = known_places,
                     .peak_memory_mb = peak_of_run_mb};
   if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
   print_summary(command, run);

@@ -10,6 +10,7 @@
 #include "core/backend/backend.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/systematic_prior.hpp"
+#include "core/evaluation/known_place_error.hpp"
 #include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
@@ -32,6 +33,7 @@ struct RunView {
   std::optional<InputCalibration> calibration{};  ///< by the input itself, where one was made
   std::vector<MendedPositions> mended{};          ///< where the backend's dead reckoning is not as reported
   const PrunedScans* pruned = nullptr;            ///< where the backend may have pruned scans
+  std::optional<KnownPlaceError> known_places{};  ///< of the poses published, where somebody kept them
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 

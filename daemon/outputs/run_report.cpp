@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "daemon/outputs/known_place_json.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 
 namespace swiftlet {
@@ -164,6 +165,7 @@ std::string run_report_json(const RunView& run) {
                                          {"odometry", error_json(error->odometry)},
                                          {"live", error_json(error->live)},
                                          {"corrected", error_json(error->corrected)}};
+  if (run.known_places) json["known_place_error"] = known_place_json(*run.known_places);
   json["stage_times"] = times_json(run.timing.stages);
   if (!run.timing.queues.empty()) {
     json["queues"] = queues_json(run.timing.queues);

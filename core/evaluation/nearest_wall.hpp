@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/geometry/pose2.hpp"
+
+namespace swiftlet {
+
+/// Unit normal of the wall that is nearest to a place, by the returns around it: those within 0.3 m of the
+/// nearest one. Nothing where they are too few or draw no line.
+[[nodiscard]] std::optional<Point2> nearest_wall_normal(std::span<const Point2> returns, const Point2& place);
+
+}  // namespace swiftlet

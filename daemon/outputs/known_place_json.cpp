@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/outputs/known_place_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace swiftlet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+
+}  // namespace
+
+Json known_place_json(const KnownPlaceError& error) {
+  return {{"moments", error.moments},
+          {"rms_m", error.rms_m},
+          {"p95_m", error.p95_m},
+          {"max_m", error.max_m},
+          {"share_off", error.share_off},
+          {"across_p95_m", number_or_null(error.across_p95_m)},
+          {"along_p95_m", number_or_null(error.along_p95_m)},
+          {"contacts", error.contacts},
+          {"contacts_off", error.contacts_off},
+          {"settled_p50_s", error.settled_p50_s},
+          {"jumps", error.jumps},
+          {"greatest_jump_m", error.greatest_jump_m},
+          {"map_rms_m",
+           {number_or_null(error.map_rms_m[0]), number_or_null(error.map_rms_m[1]),
+            number_or_null(error.map_rms_m[2])}}};
+}
+
+}  // namespace swiftlet

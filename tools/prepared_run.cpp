@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "tools/prepared_run.hpp"
+
+#include <utility>
+
+#include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/sample/sign_mending_source.hpp"
+#include "tools/calibration/input_calibration.hpp"
+
+namespace swiftlet {
+
+namespace {
+
+Result<Configuration> configuration_for(const MapCommand& command) {
+  Configuration config;
+  if (!command.config_file.empty()) {
+    Result<Configuration> loaded = load_configuration(command.config_file);
+    if (!loaded) return loaded;
+    config = std::move(loaded).value();
+  }
+  if (command.odometry_only) config.frontend.use_landmarks = false;
+  if (command.odometry_only || command.frontend_only) config.backend.close_loops = false;
+  return config;
+}
+
+/// Estimates the systematic errors of the input from all of it first, and sets those that the configuration
+/// leaves out.
+std::optional<InputCalibration> calibrate_first(SampleSource& source, Configuration& config) {
+  const Result<InputCalibration> calibration =
+      calibrate_by_itself(source, config.sensor.applied_to(source.sensor()));
+  if (!calibration) return std::nullopt;
+  config.sensor.take_calibration(calibration->found);
+  return *calibration;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const Configuration& config) {
+  SampleSourceOptions options;
+  options.beam_count = command.beams;
+  options.max_range_m = config.sensor.max_range_m;
+  options.min_range_m = config.sensor.min_range_m;
+  if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
+  Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
+  if (!source || (*source)->is_live() || command.odometry_only) return source;
+  return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
+}
+
+Result<PreparedRun> prepare_run(const MapCommand& command) {
+  Result<Configuration> config = configuration_for(command);
+  if (!config) return config.error();
+  Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
+  if (!opened) return opened.error();
+  PreparedRun run{std::move(config).value(), std::move(opened).value(), {}};
+  if (!command.calibrate || command.odometry_only || run.source->is_live()) return run;
+  run.calibration = calibrate_first(*run.source, run.config);
+  opened = open_input(command, run.config);
+  if (!opened) return opened.error();
+  run.source = std::move(opened).value();
+  return run;
+}
+
+Status check_usable(const MapCommand& command, const InputReport& report, const Backend& backend) {
+  if (backend.scans().size() > 0) return {};
+  const std::string reason =
+      report.problems.empty() ? "it ended before the first one" : report.problems.front();
+  return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
+}
+
+}  // namespace swiftlet
