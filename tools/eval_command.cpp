@@ -8,6 +8,7 @@
 #include "daemon/outputs/file_writer.hpp"
 #include "tools/evaluation/eval_report.hpp"
 #include "tools/evaluation/evaluate.hpp"
+#include "tools/evaluation/live_evaluation.hpp"
 #include "tools/evaluation/reference_kind.hpp"
 #include "tools/evaluation/tum_file.hpp"
 
@@ -53,12 +54,23 @@ Result<Evaluation> evaluate(const EvalCommand& command) {
   return evaluation;
 }
 
-Status write_figures(const EvalCommand& command, const Evaluation& evaluation) {
+Status write_figures(const EvalCommand& command, const std::string& text, const std::string& json) {
   const bool is_json_alone = command.json_file == "-";
   if (!command.json_file.empty() && !is_json_alone)
-    if (Status written = write_file(command.json_file, evaluation_json(evaluation)); !written) return written;
-  std::fputs((is_json_alone ? evaluation_json(evaluation) : evaluation_text(evaluation)).c_str(), stdout);
+    if (Status written = write_file(command.json_file, json); !written) return written;
+  std::fputs((is_json_alone ? json : text).c_str(), stdout);
   return {};
+}
+
+Status evaluate_poses_as_published(const EvalCommand& command) {
+  std::vector<std::string> truths = command.truths;
+  truths.insert(truths.end(), command.references.begin(), command.references.end());
+  if (truths.size() > 1 || !command.relations.empty())
+    return Error{ErrorCode::kInvalidInput, "eval --live: takes one reference at most, a true trajectory"};
+  const Result<LiveEvaluation> evaluation = evaluate_live(
+      {command.trajectory, truths.empty() ? "" : truths[0], command.config_file, command.batch_s});
+  if (!evaluation) return evaluation.error();
+  return write_figures(command, live_evaluation_text(*evaluation), live_evaluation_json(*evaluation));
 }
 
 /// Tells the notes of the captures. Their damage, in one line.
@@ -78,9 +90,12 @@ Status tell_notes(const Evaluation& evaluation) {
 }  // namespace
 
 Status run_eval_command(const EvalCommand& command) {
+  if (command.live) return evaluate_poses_as_published(command);
   const Result<Evaluation> evaluation = evaluate(command);
   if (!evaluation) return evaluation.error();
-  if (Status written = write_figures(command, *evaluation); !written) return written;
+  if (Status written = write_figures(command, evaluation_text(*evaluation), evaluation_json(*evaluation));
+      !written)
+    return written;
   return tell_notes(*evaluation);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,13 @@ namespace swiftlet {
 
 /// What `swiftlet eval` was asked to do.
 struct EvalCommand {
-  std::string trajectory;               ///< a TUM file
+  std::string trajectory;               ///< a TUM file; of `live` an input, which is mapped
   std::vector<std::string> references;  ///< of kinds that show, see recognise_reference()
   std::vector<std::string> relations;   ///< references that are relations, whatever they look like
   std::vector<std::string> truths;      ///< references that are TUM trajectories, whatever they look like
+  bool live = false;                    ///< evaluate poses as published; references: a true path at most
+  std::optional<double> batch_s;        ///< of `live`: compare with final passes at moments this far apart
+  std::string config_file;              ///< of `live`; empty: the defaults
   std::string json_file;                ///< empty: none; "-": to stdout, in place of the table
 };
 
@@ -22,7 +26,8 @@ struct EvalCommand {
 ///
 /// Errors: kInvalidInput, kNotFound: no reference given, or a file cannot be used or has no stamp in common
 /// with the trajectory; nothing was written. kDamaged: a capture is damaged after usable samples; the figures
-/// come from what came before. kOutOfSpace, kInvalidInput: the JSON file cannot be written.
+/// come from what came before; of `live`, nothing was written. kOutOfSpace, kInvalidInput: the JSON file
+/// cannot be written.
 [[nodiscard]] Status run_eval_command(const EvalCommand& command);
 
 }  // namespace swiftlet

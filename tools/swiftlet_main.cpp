@@ -121,7 +121,9 @@ CLI::App* add_doctor_command(CLI::App& app, swiftlet::DoctorCommand& command) {
 
 CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
   CLI::App* eval = app.add_subcommand("eval", "Hold a trajectory against what is known of the truth");
-  eval->add_option("TRAJECTORY", command.trajectory, "A TUM file: trajectory.tum of a run")->required();
+  eval->add_option("TRAJECTORY", command.trajectory,
+                   "A TUM file: trajectory.tum of a run; with --live an input, which is mapped")
+      ->required();
   eval->add_option(
       "REFERENCE", command.references,
       "Relations (Kuemmerle 2009), a true trajectory (TUM) or the flight's capture (.pcap), told "
@@ -130,6 +132,15 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
       ->allow_extra_args(false);
   eval->add_option("--truth", command.truths, "A reference that is a true trajectory; may be given twice")
       ->allow_extra_args(false);
+  CLI::Option* live = eval->add_flag("--live", command.live,
+                                     "Hold the poses published on the way against the map of that moment; "
+                                     "the reference is the true path or, "
+                                     "without one, the final path");
+  eval->add_option("--batch", command.batch_s,
+                   "With --live: also runs that end at such poses, every so many seconds")
+      ->check(CLI::PositiveNumber)
+      ->needs(live);
+  eval->add_option("--config", command.config_file, "With --live: TOML file with settings")->needs(live);
   eval->add_option("--json", command.json_file,
                    "Write all figures to this file; - for stdout, not the table");
   return eval;

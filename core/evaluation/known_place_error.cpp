@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/geometry/angle.hpp"
 
@@ -110,7 +111,7 @@ class Evaluator {
   void add_step(const LiveMoment& from, const LiveMoment& to) {
     const Pose2 T_map_expected = from.T_map_body * between(from.T_local_body, to.T_local_body);
     const double jump_m = distance_m(T_map_expected.position(), to.T_map_body.position());
-    jumps_ += jump_m > tuning_.off_m ? 1 : 0;
+    jumps_ += jump_m > tuning_.off_m ? 1U : 0U;
     greatest_jump_m_ = std::max(greatest_jump_m_, jump_m);
   }
 
@@ -124,6 +125,7 @@ class Evaluator {
     for (std::size_t i = 0; i < map_errors_m_.size(); ++i)
       if (!map_errors_m_[i].empty()) error.map_rms_m[i] = rms(map_errors_m_[i]);
     if (errors_m_.empty()) return error;
+    error.errors = std::move(errors_);
     error.rms_m = rms(errors_m_);
     error.p95_m = quantile(errors_m_, 0.95);
     error.max_m = *std::max_element(errors_m_.begin(), errors_m_.end());
@@ -161,6 +163,7 @@ class Evaluator {
     const Point2 off{seen.x_m - moment.T_world_body.x_m(), seen.y_m - moment.T_world_body.y_m()};
     const double error_m = std::hypot(off.x_m, off.y_m);
     errors_m_.push_back(error_m);
+    errors_.push_back({moment.stamp, error_m});
     way_back_.add(moment, error_m);
     if (!moment.wall_normal_world) return;
     const Point2& normal = *moment.wall_normal_world;
@@ -188,6 +191,7 @@ class Evaluator {
   std::vector<OldPlace> near_;                  // at this moment
   std::array<std::vector<OldPlace>, 3> rings_;  // likewise
   std::vector<double> errors_m_;                // of moments
+  std::vector<StampedError> errors_;
   std::vector<double> across_m_;
   std::vector<double> along_m_;
   std::array<std::vector<double>, 3> map_errors_m_;

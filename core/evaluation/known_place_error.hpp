@@ -42,6 +42,11 @@ struct KnownPlaceTuning {
   double contact_gap_m = 5.0;  ///< old ground that is met after this much travel without any is a new contact
 };
 
+struct StampedError {
+  HostTime stamp{};
+  double error_m = 0.0;
+};
+
 /// The live pose against the map that it flies in. Without a known place all is 0.
 struct KnownPlaceError {
   std::size_t moments = 0;  ///< at known places
@@ -57,6 +62,7 @@ struct KnownPlaceError {
   std::size_t jumps = 0;       ///< of the published pose by more than off_m
   double greatest_jump_m = 0.0;
   std::array<std::optional<double>, 3> map_rms_m{};  ///< of old ground at distances_m as seen from the pose
+  std::vector<StampedError> errors{};                ///< of each moment
 };
 
 /// The published pose at each moment against older keyframes nearby as they were published then, which are

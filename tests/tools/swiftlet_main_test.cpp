@@ -278,6 +278,16 @@ TEST_F(SwiftletCommand, EvaluatesATrajectoryForPeopleAndPrograms) {
   EXPECT_THAT(text_of(file("figures.json")), AllOf(StartsWith("{"), HasSubstr("\"missed\": 1")));
 }
 
+TEST_F(SwiftletCommand, EvaluatesPosesAsTheyWerePublished) {
+  const Outcome programs = run("eval --live sim://patrol?seed=1 --json -");
+  EXPECT_EQ(programs.exit_code, 0) << programs.err;
+  EXPECT_THAT(programs.out, AllOf(StartsWith("{"), HasSubstr("\"live\": {\n    \"moments\": 0")));
+  EXPECT_THAT(run("eval sim://patrol?seed=1 --batch 8"), refuses_with("--live"));
+  EXPECT_THAT(run("eval --live {}/none.pcap"), refuses_with("none.pcap: no such file"));
+  EXPECT_THAT(run("eval --live sim://patrol --truth {}/a.tum --truth {}/b.tum"),
+              refuses_with("takes one reference at most"));
+}
+
 TEST_F(SwiftletCommand, NamesWhatItCannotEvaluate) {
   write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
   write("motions.txt", "1 2 1.5 0 0 0 0 0\n");

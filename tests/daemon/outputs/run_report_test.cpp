@@ -60,6 +60,17 @@ TEST(RunReport, GivesTheErrorWhereTheTruthIsKnown) {
   EXPECT_EQ(report["absolute_trajectory_error"]["samples"], 81);
 }
 
+TEST(RunReport, GivesTheKnownPlaceErrorWherePosesWereKept) {
+  const FinishedRun run;
+  RunView view = run.view(true);
+  EXPECT_FALSE(json::parse(run_report_json(view)).contains("known_place_error"));
+  view.known_places = KnownPlaceError{.moments = 3, .rms_m = 0.25};
+  const json report = json::parse(run_report_json(view));
+  EXPECT_EQ(report["known_place_error"]["moments"], 3);
+  EXPECT_EQ(report["known_place_error"]["rms_m"], 0.25);
+  EXPECT_EQ(report["known_place_error"]["across_p95_m"], nullptr);
+}
+
 TEST(RunReport, TellsWhatTheInputShowedOfItsSensors) {
   const FinishedRun run;
   RunView view = run.view(false);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "tools/evaluation/live_evaluation.hpp"
+
+namespace swiftlet {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+LiveEvaluation some_flight() {
+  LiveEvaluation evaluation{"hall.pcap", {}, {}};
+  KnownPlaceError& live = evaluation.live;
+  live.moments = 2;
+  live.rms_m = 0.25;
+  live.share_off = 0.5;
+  live.across_p95_m = 0.125;
+  live.contacts = 3;
+  live.map_rms_m[0] = 0.375;
+  live.errors = {{HostTime(std::chrono::seconds(7)), 0.125}, {HostTime(std::chrono::seconds(8)), 0.375}};
+  return evaluation;
+}
+
+TEST(LiveReport, TellsPeopleWhatIsKnownAndWhatIsNot) {
+  const std::string text = live_evaluation_text(some_flight());
+  EXPECT_THAT(text, HasSubstr("hall.pcap: 2 poses at known places\n"));
+  EXPECT_THAT(text, HasSubstr("rms 0.250, p95 0.000, max 0.000; beyond 0.3 m for 50.0 % of the time"));
+  EXPECT_THAT(text, HasSubstr("across the nearest wall 0.125 m, along it unknown m"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("runs that end")));
+}
+
+TEST(LiveReport, TellsProgramsAllOfIt) {
+  LiveEvaluation evaluation = some_flight();
+  EXPECT_FALSE(json::parse(live_evaluation_json(evaluation)).contains("batch"));
+  evaluation.batch = BatchError{2, 0.1, 0.0, 0.2, 0.5};
+  const json report = json::parse(live_evaluation_json(evaluation));
+  EXPECT_EQ(report["input"], "hall.pcap");
+  EXPECT_EQ(report["live"]["rms_m"], 0.25);
+  EXPECT_EQ(report["live"]["along_p95_m"], nullptr);
+  EXPECT_EQ(report["live"]["map_rms_m"], json({0.375, nullptr, nullptr}));
+  EXPECT_EQ(report["live"]["errors_m"], json({{7.0, 0.125}, {8.0, 0.375}}));
+  EXPECT_EQ(report["batch"]["live_rms_m"], 0.2);
+}
+
+}  // namespace
+}  // namespace swiftlet
