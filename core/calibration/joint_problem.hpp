@@ -37,7 +37,7 @@ struct JointProblemTuning {
   Duration stretch = std::chrono::seconds(10);
   /// What is possible at all, in the order of SystematicError.
   std::array<double, kSystematicErrors> prior_sigma{0.3, 0.3, 0.3, radians(20.0), 0.3, radians(2.0)};
-  RigidNodesTuning nodes{.way_m = 0.25};  ///< three numbers of the whole input need no finer path
+  RigidNodesTuning nodes{.way_m = 0.25};  ///< a few numbers of the whole input need no finer path
   PosesAndWalls::Tuning problem;
 };
 
