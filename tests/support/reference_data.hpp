@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/checkout.hpp"
+
 namespace swiftlet {
 
 /// Where a file of the reference data would be: the folder that SWIFTLET_DATASETS names, else
@@ -13,8 +15,7 @@ namespace swiftlet {
 inline std::string reference_file(const std::string& name) {
   const char* folder = std::getenv("SWIFTLET_DATASETS");
   const std::filesystem::path root =
-      folder != nullptr ? std::filesystem::path(folder)
-                        : std::filesystem::path(SWIFTLET_SOURCE_DIR).parent_path() / "shared" / "datasets";
+      folder != nullptr ? std::filesystem::path(folder) : checkout().parent_path() / "shared" / "datasets";
   return (root / name).string();
 }
 

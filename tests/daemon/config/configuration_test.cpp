@@ -13,6 +13,8 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/checkout.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -57,7 +59,7 @@ consteval std::size_t field_count() {
   }
 }
 
-constexpr const char* kShippedFile = SWIFTLET_SOURCE_DIR "/daemon/config/swiftletd.toml";
+std::string shipped_file() { return checkout() / "daemon/config/swiftletd.toml"; }
 
 /// Calls visit(section, setting) for each setting of `config`.
 template <typename Visitor>
@@ -205,7 +207,7 @@ TEST(ConfigurationTables, EachSettingTakesBothEndsOfItsRange) {
 }
 
 TEST(ConfigurationReference, IsThePageInTheRepository) {
-  std::ifstream file(SWIFTLET_SOURCE_DIR "/docs/configuration.md");
+  std::ifstream file(checkout() / "docs/configuration.md");
   std::stringstream page;
   page << file.rdbuf();
   EXPECT_TRUE(page.str() == configuration_reference())  // not EXPECT_EQ: it would print both pages
@@ -341,7 +343,7 @@ std::vector<std::string> values_of(const Configuration& config) {
 }
 
 TEST(ShippedConfiguration, HoldsDefaultsOnly) {
-  const Result<Configuration> shipped = load_configuration(kShippedFile);
+  const Result<Configuration> shipped = load_configuration(shipped_file());
   ASSERT_TRUE(shipped) << shipped.error().message;
   EXPECT_EQ(values_of(*shipped), values_of(Configuration()));
 }
@@ -351,7 +353,7 @@ TEST(ShippedConfiguration, CommentsEachKeyAsTheTablesDo) {
   for_each_setting(Configuration(), [&texts](const auto&, const auto& setting) {
     texts.emplace(name_of(setting), setting.text);
   });
-  std::ifstream file(kShippedFile);
+  std::ifstream file(shipped_file());
   std::string section;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("[")) section = line.substr(1, line.find(']') - 1);
