@@ -15,9 +15,9 @@ namespace {
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
 // After a second without the radio the vehicle gives up the link, and so does the source: the motion
 // meanwhile is a guess. The estimate runs on aboard, so the guess is good if the vehicle can have flown the
-// step across the hole; after half a minute it may have landed and been carried.
+// step across the hole; after longer than a battery lasts it has landed and may have been carried.
 constexpr Duration kUnwatched = std::chrono::seconds(1);
-constexpr Duration kLinkLost = std::chrono::seconds(30);
+constexpr Duration kBatteryLasts = std::chrono::minutes(10);
 // A vehicle that sends without end, but nothing that samples need, must not block the caller.
 constexpr int kMaxFramesAtOnce = 64;
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
@@ -26,7 +26,7 @@ AssemblyConfig assembly_config(const SensorModel& sensor) {
   AssemblyConfig config;
   config.beams = BeamLayout::multiranger();
   config.sensor = sensor;
-  config.continuity.longest_silence = kLinkLost;
+  config.continuity.longest_silence = kBatteryLasts;
   config.unwatched_after = kUnwatched;
   return config;
 }

@@ -10,11 +10,13 @@
 #include "firmware_link/capture/followed_link.hpp"
 #include "firmware_link/capture/replay_link.hpp"
 #include "firmware_link/file/input_file.hpp"
+#include "firmware_link/input/faulty_sample_source.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
 #include "firmware_link/sharing/client_socket.hpp"
 #include "firmware_link/sharing/shared_link.hpp"
+#include "firmware_link/simulation/address.hpp"
 
 namespace swiftlet {
 namespace {
@@ -128,7 +130,11 @@ Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const I
   input.recording = options.recording;
   input.starts_logging = true;
   if (uri.is(InputNature::kVehicle)) input.cache_directory = TocCache::default_directory();
-  return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
+  std::unique_ptr<SampleSource> source = std::make_unique<LinkSampleSource>(std::move(input));
+  const auto* simulation = uri.as<SimulationAddress>();
+  if (simulation == nullptr || simulation->faults.empty()) return source;
+  return std::unique_ptr<SampleSource>(
+      std::make_unique<FaultySampleSource>(std::move(source), simulation->faults));
 }
 
 }  // namespace

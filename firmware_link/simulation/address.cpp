@@ -3,6 +3,7 @@
 #include "firmware_link/simulation/address.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "firmware_link/link/uri_text.hpp"
 #include "firmware_link/simulation/flight.hpp"
@@ -18,7 +19,13 @@ Status apply(const UriParameter& parameter, SimulationAddress& address) {
     address.seed = *seed;
     return {};
   }
-  if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps");
+  if (parameter.key == "fault") {
+    Result<std::vector<MotionFault>> faults = parse_motion_faults(parameter.value);
+    if (!faults) return faults.error();
+    address.faults = std::move(faults).value();
+    return {};
+  }
+  if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps, fault");
   const auto laps = whole_number(parameter.value, 1, kMaxLaps);
   if (!laps) return bad_address("the laps must be a whole number from 1 to " + std::to_string(kMaxLaps));
   address.laps = *laps;
@@ -30,7 +37,8 @@ Status apply(const UriParameter& parameter, SimulationAddress& address) {
 Result<SimulationAddress> parse_simulation_address(std::string_view text) {
   const Result<std::vector<UriParameter>> parameters = take_parameters(text);
   if (!parameters) return parameters.error();
-  SimulationAddress address{.world = std::string(text)};
+  SimulationAddress address;
+  address.world = text;
   if (address.world.empty()) return bad_address("names no world");
   for (const UriParameter& parameter : *parameters)
     if (const Status applied = apply(parameter, address); !applied) return applied.error();

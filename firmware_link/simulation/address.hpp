@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/result.hpp"
+#include "firmware_link/simulation/motion_fault.hpp"
 
 namespace swiftlet {
 
@@ -15,9 +17,10 @@ struct SimulationAddress {
   std::string world;
   std::uint64_t seed = 1;
   int laps = 1;  ///< how often the world's script is flown
+  std::vector<MotionFault> faults;
 };
 
-/// `WORLD[?seed=N&laps=N]`. Error: kInvalidInput: what is wrong. Does not check that the world exists.
+/// `WORLD[?seed=N&laps=N&fault=FAULTS]`; faults as in parse_motion_faults(). Error: kInvalidInput: what is wrong. Does not check that the world exists.
 [[nodiscard]] Result<SimulationAddress> parse_simulation_address(std::string_view text);
 
 }  // namespace swiftlet

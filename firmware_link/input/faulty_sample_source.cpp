@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/input/faulty_sample_source.hpp"
+
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// Whether samples are lost while the fault lasts.
+bool hides_samples(MotionFaultKind kind) {
+  return kind == MotionFaultKind::kSilence || kind == MotionFaultKind::kCarried ||
+         kind == MotionFaultKind::kTeleport;
+}
+
+bool lasts(MotionFaultKind kind) { return hides_samples(kind) || kind == MotionFaultKind::kSlip; }
+
+}  // namespace
+
+/// What the fault does to the first sample that is received after it began.
+void FaultySampleSource::begin(const MotionFault& fault, RangeSample& sample) {
+  switch (fault.kind) {
+    case MotionFaultKind::kSilence:
+      sample.starts_segment = sample.odometry_ran_on = true;
+      break;
+    case MotionFaultKind::kRestart:
+    case MotionFaultKind::kReset:
+    case MotionFaultKind::kCarried:
+      if (fault.kind == MotionFaultKind::kRestart) added_ += from_seconds(fault.amount);
+      T_fault_odom_ = sample.T_odom_body.inverse();
+      sample.starts_segment = true;
+      sample.odometry_ran_on = false;
+      break;
+    case MotionFaultKind::kTeleport:
+      added_ -= from_seconds(fault.amount);
+      T_fault_odom_ = T_fault_odom_ * T_odom_last_ * sample.T_odom_body.inverse();
+      break;
+    case MotionFaultKind::kSlip:
+      break;
+    case MotionFaultKind::kYawJump:
+      T_fault_odom_ = T_fault_odom_ * sample.T_odom_body * Pose2(0.0, 0.0, radians(fault.amount)) *
+                      sample.T_odom_body.inverse();
+      break;
+  }
+}
+
+/// Into the estimate as the faults have left it.
+void FaultySampleSource::place(RangeSample& sample) {
+  const Pose2 T_odom_body = sample.T_odom_body;
+  if (lasting_ && lasting_->kind == MotionFaultKind::kSlip) {
+    const Pose2 stays(T_odom_last_.x_m(), T_odom_last_.y_m(), T_odom_body.yaw_rad());
+    T_fault_odom_ = T_fault_odom_ * stays * T_odom_body.inverse();
+  }
+  sample.T_odom_body = T_fault_odom_ * T_odom_body;
+  sample.measured_at += added_;
+  sample.stamp += added_;
+  T_odom_last_ = T_odom_body;
+}
+
+std::vector<StampedPose> FaultySampleSource::ground_truth() const {
+  std::vector<StampedPose> truth = flight_->ground_truth();
+  for (StampedPose& pose : truth) {
+    Duration added{};
+    for (const auto& [since, sum] : added_since_)
+      if (pose.stamp >= since) added = sum;
+    pose.stamp += added;
+  }
+  return truth;
+}
+
+Result<ReceivedSample> FaultySampleSource::next() {
+  for (;;) {
+    Result<ReceivedSample> received = flight_->next();
+    if (!received) return received;
+    RangeSample& sample = received->sample;
+    if (!first_at_) first_at_ = sample.measured_at;
+    const Duration at = sample.measured_at - *first_at_;
+    const auto is_over = [&](const MotionFault& fault) {
+      return at >= fault.after + (lasts(fault.kind) ? from_seconds(fault.amount) : Duration::zero());
+    };
+    if (!lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after)
+      lasting_ = faults_[next_fault_++];
+    if (lasting_ && !is_over(*lasting_)) {
+      if (hides_samples(lasting_->kind)) continue;
+    } else if (lasting_) {
+      begin(*lasting_, sample);
+      added_since_.emplace_back(sample.stamp, added_);
+      lasting_.reset();
+    }
+    place(sample);
+    return received;
+  }
+}
+
+}  // namespace swiftlet

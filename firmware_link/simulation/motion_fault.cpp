@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/simulation/motion_fault.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "firmware_link/link/uri_text.hpp"
+
+namespace swiftlet {
+namespace {
+
+struct Kind {
+  std::string_view name;
+  MotionFaultKind kind{};
+  double most = 0.0;  // of the amount; 0: it has none
+};
+
+constexpr double kLongestS = 3600.0;
+constexpr std::array kKinds{Kind{"silence", MotionFaultKind::kSilence, kLongestS},
+                            Kind{"reset", MotionFaultKind::kReset, 0.0},
+                            Kind{"restart", MotionFaultKind::kRestart, kLongestS},
+                            Kind{"carried", MotionFaultKind::kCarried, kLongestS},
+                            Kind{"teleport", MotionFaultKind::kTeleport, kLongestS},
+                            Kind{"slip", MotionFaultKind::kSlip, kLongestS},
+                            Kind{"jump", MotionFaultKind::kYawJump, 180.0}};
+
+std::optional<double> number(std::string_view text, double lowest, double highest) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const bool is_good = error == std::errc{} && stop == end && value >= lowest && value <= highest;
+  return is_good ? std::optional(value) : std::nullopt;
+}
+
+Result<MotionFault> parse_fault(std::string_view text) {
+  const std::string whole = in_quotes(text);
+  const std::string_view name = cut_off(text, '@');
+  const std::string_view seconds = cut_off(text, ':');
+  const auto kind = std::ranges::find(kKinds, name, &Kind::name);
+  if (kind == kKinds.end())
+    return bad_address("the fault " + whole +
+                       " must be silence, reset, restart, carried, teleport, slip or jump, as in reset@60");
+  const std::optional<double> after_s = number(seconds, 0.0, kLongestS);
+  if (!after_s) return bad_address("the fault " + whole + " must say after how many seconds, as in reset@60");
+  MotionFault fault{kind->kind, from_seconds(*after_s), 0.0};
+  if (kind->most == 0.0 && text.empty()) return fault;
+  const double least = kind->kind == MotionFaultKind::kYawJump ? -kind->most : 0.0;
+  const std::optional<double> amount = number(text, least, kind->most);
+  if (kind->most == 0.0 || !amount)
+    return bad_address(
+        "the fault " + whole +
+        (kind->most == 0.0 ? " takes no amount" : " must say for how long or how far, as in silence@60:20"));
+  fault.amount = *amount;
+  return fault;
+}
+
+}  // namespace
+
+Result<std::vector<MotionFault>> parse_motion_faults(std::string_view text) {
+  std::vector<MotionFault> faults;
+  while (!text.empty()) {
+    const Result<MotionFault> fault = parse_fault(cut_off(text, ','));
+    if (!fault) return fault.error();
+    if (!faults.empty() && fault->after < faults.back().after)
+      return bad_address("the faults must be in the order of time");
+    faults.push_back(*fault);
+  }
+  if (faults.empty()) return bad_address("names no fault");
+  return faults;
+}
+
+}  // namespace swiftlet
