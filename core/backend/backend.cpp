@@ -57,7 +57,10 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   const ScanId scan = s.scans.add(step);
   s.refinement.add_scan();
   BackendUpdate update;
-  if (!step.has_keyframe) return update;
+  if (!step.has_keyframe) {
+    s.loops.search_elsewhere(s.T_local_keyframe(), s.graph.graph());
+    return update;
+  }
   SWIFTLET_CHECK(s.chain.add(scan) == step.made.id, "no keyframe is left out");
   s.estimates.take(step.made);
   s.graph.add_keyframe(step.made, s.T_local_keyframe());

@@ -24,10 +24,15 @@ UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previo
 }
 
 UncertainMotion unwatched_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration silence) {
-  const double distance_m = noise.detour_speed_m_per_s * to_seconds(silence);
-  const double turn_rad = noise.detour_turn_rate_rad_per_s * to_seconds(silence);
+  const Pose2 in_a_second(noise.detour_speed_m_per_s, 0.0, noise.detour_turn_rate_rad_per_s);
+  const OdometrySigma sigma = odometry_sigma(noise, in_a_second);
+  const double seconds = to_seconds(silence);
+  const double yaw_rad2 = seconds * sigma.yaw_rad * sigma.yaw_rad;
+  // The detour strays by its own root of time, and the yaw turns that, half of it on average.
+  const double strayed_m2 = 0.25 * seconds * noise.detour_speed_m_per_s * noise.detour_speed_m_per_s;
+  const double xy_m2 = seconds * sigma.xy_m * sigma.xy_m + yaw_rad2 * strayed_m2;
   UncertainMotion step = uncertain_step(noise, T_previous_this);
-  step.covariance += uncertain_step(noise, Pose2(distance_m, 0.0, std::min(turn_rad, kPi))).covariance;
+  step.covariance += Eigen::Vector3d(xy_m2, xy_m2, yaw_rad2).asDiagonal();
   return step;
 }
 

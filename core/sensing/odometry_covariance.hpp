@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/base/time.hpp"
+#include "core/geometry/angle.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/sensing/sensor_model.hpp"
 
@@ -37,6 +38,10 @@ OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion);
 /// Of a motion that was neither measured nor guessed: anywhere in a building, any heading. Weak enough that
 /// it decides nothing, strong enough that every system of equations stays solvable.
 inline constexpr OdometrySigma kUnknownMotion{100.0, 10.0};
+
+/// Of a vehicle whose estimate restarted: most stood still meanwhile, or were started again where they had
+/// landed. One that was carried contradicts it.
+inline constexpr OdometrySigma kStoodStill{0.4, radians(10.0)};
 
 /// One step of dead reckoning with its error; exactly no motion has none (the vehicle stood still).
 UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this);

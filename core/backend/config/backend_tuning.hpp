@@ -94,6 +94,41 @@ struct ClosureGroupTuning {
       {"max_rival_share", &ClosureGroupTuning::max_rival_share}};
 };
 
+struct PlaceHypothesesTuning {
+  double way_between_m = 2.0;           ///< travel between queries
+  double likelihood_per_score = 20.0;   ///< of a match: three queries contain the same travel
+  double track_m = 0.5;                 ///< what dead reckoning may drift from one query to the next
+  double track_rad = 0.1;               ///< likewise
+  double same_place_m = 0.7;            ///< closer ones are one hypothesis
+  double same_place_rad = 0.2;          ///< likewise
+  std::size_t most_queries = 20;        ///< older ones are forgotten: 40 m
+  std::size_t most = 40;                ///< hypotheses
+  std::size_t min_matches = 3;          ///< of one that is believed
+  double not_moved_odds = 1e6;          ///< to one: that it was not carried; known ground refutes it soon
+  double unmoved_reach_m = 2.0;         ///< of hypotheses from where it would be unmoved, and ...
+  double carrying_speed_m_per_s = 2.0;  ///< ... as much more as it may have been carried
+  double places_per_submap = 160.0;     ///< that look different: a metre apart on its 40 m^2, four headings
+  double sure_log_odds = 6.9;           ///< 1000 to 1
+  double max_sigma_m = 0.5;             ///< of the place that its matches give, in the worst direction
+
+  static constexpr TuningValue<PlaceHypothesesTuning> kValues[] = {
+      {"way_between_m", &PlaceHypothesesTuning::way_between_m},
+      {"likelihood_per_score", &PlaceHypothesesTuning::likelihood_per_score},
+      {"track_m", &PlaceHypothesesTuning::track_m},
+      {"track_rad", &PlaceHypothesesTuning::track_rad},
+      {"same_place_m", &PlaceHypothesesTuning::same_place_m},
+      {"same_place_rad", &PlaceHypothesesTuning::same_place_rad},
+      {"most_queries", &PlaceHypothesesTuning::most_queries},
+      {"most", &PlaceHypothesesTuning::most},
+      {"min_matches", &PlaceHypothesesTuning::min_matches},
+      {"not_moved_odds", &PlaceHypothesesTuning::not_moved_odds},
+      {"unmoved_reach_m", &PlaceHypothesesTuning::unmoved_reach_m},
+      {"carrying_speed_m_per_s", &PlaceHypothesesTuning::carrying_speed_m_per_s},
+      {"places_per_submap", &PlaceHypothesesTuning::places_per_submap},
+      {"sure_log_odds", &PlaceHypothesesTuning::sure_log_odds},
+      {"max_sigma_m", &PlaceHypothesesTuning::max_sigma_m}};
+};
+
 struct RelativeCovarianceTuning {
   double min_dcs_scale = 0.5;  ///< of closures and headings that count
   double lever_m = 2.0;        ///< turns an error of heading into one of position: the reach of the beams
@@ -217,7 +252,7 @@ struct WallPatchesTuning {
 
 /// A node of rigid dead reckoning ends before the first of these is exceeded. Over this way dead reckoning
 /// errs by about as much as one reading, 2 cm. Turn and duration are set by hand. Nodes of 0.1 m and 0.1 rad
-/// turn ACES by 0.005 deg less, and take 18 % more memory on Killian (docs/real_time.md has the limit).
+/// turn ACES by 0.005 deg less, and take 18 % more memory on Killian (docs/real_time_evidence.md has the limit).
 struct RigidNodesTuning {
   double way_m = 0.15;
   double turn_rad = 0.25;
@@ -320,6 +355,7 @@ struct BackendTuning {
   CorrelativeMatcherTuning matcher;
   CrossCheckTuning cross_check;
   ClosureGroupTuning groups;
+  PlaceHypothesesTuning places;
   RelativeCovarianceTuning covariance;
   BuildingAxisPriorTuning axis;
   WallAxisTuning walls;  ///< that the building's axis is estimated from

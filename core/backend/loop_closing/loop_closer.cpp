@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/loop_closing/loop_closer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace swiftlet {
@@ -19,11 +20,20 @@ LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, cons
       scans_(&scans),
       chain_(&chain),
       detector_(config, scans, chain),
+      elsewhere_(config, scans, chain),
+      places_(config, scans, chain),
       groups_(chain, config.tuning) {}
 
 /// Each submap is one stretch of known motion.
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
-  if (made.starts_segment) open_submaps_.clear();
+  if (made.starts_segment) {
+    open_submaps_.clear();
+    if (made.id != chain_->all().first_id()) {
+      unplaced_since_ = made.id;
+      const ScanId scan = chain_->scan_of(made.id);
+      forget_places((*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp);
+    }
+  }
   const double here_m = chain_->path_m(made.id);
   if (open_submaps_.empty() || here_m - chain_->path_m(open_submaps_.back()) >=
                                    config_->tuning.submap.start_share * config_->submap_length_m)
@@ -41,11 +51,56 @@ std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, Key
   if (!config_->close_loops || earlier % static_cast<std::size_t>(config_->match_every_keyframes) != 0)
     return 0;
   const std::size_t before = closures_.size();
-  const FoundLoops found = detector_.find(chain_->all().last_id(), submaps_, graph.graph(), T_local_keyframe,
-                                          counters_.candidates_matched);
+  const FoundLoops found =
+      detector_.find(chain_->all().last_id(), unplaced_since_.value_or(chain_->all().first_id()), submaps_,
+                     graph.graph(), T_local_keyframe, counters_.candidates_matched);
   for (const LoopClosure& closure : found.confirmed) accept(closure, graph);
-  if (!found.tentative.empty()) accept_group(groups_.add(found.tentative, graph.graph()), graph);
+  if (unplaced_since_) {
+    place_travel(found.tentative, T_local_keyframe, graph);
+  } else if (!found.tentative.empty()) {
+    accept_group(groups_.add(found.tentative, graph.graph()), graph);
+  }
   return static_cast<std::uint32_t>(closures_.size() - before);
+}
+
+void LoopCloser::search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph) {
+  if (!unplaced_since_) return;
+  if (!proposed_.empty()) {
+    places_.propose(proposed_.back(), submaps_before_break(), graph, T_local_keyframe);
+    proposed_.pop_back();
+  } else if (elsewhere_.is_busy()) {
+    elsewhere_.step();
+    ++counters_.candidates_matched;
+  }
+}
+
+std::span<const std::shared_ptr<const Submap>> LoopCloser::submaps_before_break() const {
+  const auto end =
+      std::ranges::partition_point(submaps_, [&](const auto& s) { return s->reference < *unplaced_since_; });
+  return std::span(submaps_).first(static_cast<std::size_t>(end - submaps_.begin()));
+}
+
+/// Weighs where the travel since it was last watched may lie.
+void LoopCloser::place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
+                              KeyframeGraph& graph) {
+  const KeyframeId newest = chain_->all().last_id();
+  const ScanRange recent = detector_.recent_scans(newest);
+  if (chain_->scan_of(chain_->all().previous(newest)) < recent.first) return;
+  const auto earlier = submaps_before_break();
+  const bool is_new = places_.add_query(newest, recent, earlier, graph.graph(), T_local_keyframe);
+  for (const LoopClosure& match : matches)
+    if (match.from < *unplaced_since_) proposed_.push_back(match);
+  if (!elsewhere_.is_busy()) {
+    for (const LoopClosure& match : elsewhere_.take_found()) proposed_.push_back(match);
+    if (is_new) elsewhere_.begin(newest, recent, earlier, T_local_keyframe);
+  }
+  accept_group(places_.decided(), graph);
+}
+
+void LoopCloser::forget_places(Duration unwatched) {
+  places_.begin(unwatched);
+  elsewhere_.stop();
+  proposed_.clear();
 }
 
 void LoopCloser::accept(LoopClosure closure, KeyframeGraph& graph) {
@@ -59,6 +114,10 @@ void LoopCloser::accept_group(std::span<const LoopClosure> group, KeyframeGraph&
   std::vector<RelativePoseFactor<KeyframeId>> factors;
   for (const LoopClosure& closure : group) factors.push_back(factor_of(closure));
   if (!graph.accommodate(factors)) return;
+  if (unplaced_since_ && group.front().from < *unplaced_since_) {
+    unplaced_since_.reset();
+    forget_places({});
+  }
   for (const LoopClosure& closure : group) accept(closure, graph);
 }
 
@@ -86,6 +145,7 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
   groups_.clear();
+  forget_places({});
 }
 
 std::optional<KeyframeId> LoopCloser::open_since() const {

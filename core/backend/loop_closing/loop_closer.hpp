@@ -11,6 +11,8 @@
 #include "core/backend/loop_closing/closure_groups.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/loop_closing/loop_detector.hpp"
+#include "core/backend/loop_closing/place_hypotheses.hpp"
+#include "core/backend/loop_closing/place_search.hpp"
 #include "core/backend/loop_closing/submap.hpp"
 #include "core/backend/pose_graph/keyframe_graph.hpp"
 
@@ -33,6 +35,9 @@ class LoopCloser {
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
   /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
   std::uint32_t close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
+  /// After each scan that makes no keyframe, while it is not known where the vehicle is: looks elsewhere, in
+  /// one submap, or weighs one place that was found.
+  void search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph);
   /// Takes over what DCS makes of each closure.
   void take_scales(const PoseGraph& graph);
   /// Drops the closure that DCS scales down most, if any lies below config.drop_scale. False: none does.
@@ -47,6 +52,10 @@ class LoopCloser {
   [[nodiscard]] const LoopCloserCounters& counters() const { return counters_; }
 
  private:
+  [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
+  void forget_places(Duration unwatched);
+  void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
+                    KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);
   void accept_group(std::span<const LoopClosure> group, KeyframeGraph& graph);
 
@@ -54,10 +63,14 @@ class LoopCloser {
   const ScanStore* scans_;
   const KeyframeChain* chain_;
   LoopDetector detector_;
+  PlaceSearch elsewhere_;
+  PlaceHypotheses places_;
+  std::vector<LoopClosure> proposed_;  // to places_
   ClosureGroups groups_;
   std::vector<KeyframeId> open_submaps_;  // where those being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps_;
   IdMap<ClosureId, LoopClosure> closures_;
+  std::optional<KeyframeId> unplaced_since_;  // motion to there was not watched, and no group has placed it
   LoopCloserCounters counters_;
 };
 

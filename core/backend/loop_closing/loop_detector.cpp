@@ -85,7 +85,7 @@ ScanRange LoopDetector::recent_scans(KeyframeId query) const {
 }
 
 std::vector<LoopDetector::Candidate> LoopDetector::candidates(
-    KeyframeId query, std::span<const Point2> points_query,
+    KeyframeId query, KeyframeId since, std::span<const Point2> points_query,
     std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph) const {
   std::vector<Candidate> found;
   std::optional<IdMap<KeyframeId, Eigen::Matrix3d>> covariances;
@@ -94,7 +94,9 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
   const Disc around_points = disc_around(points_query);
   const LoopDetectorTuning& tuning = config_->tuning.detector;
   for (const auto& submap : submaps) {
-    if (chain_->path_m(query) - submap->end_path_m < config_->min_travel_between_m) continue;
+    if (submap->reference >= since &&
+        chain_->path_m(query) - submap->end_path_m < config_->min_travel_between_m)
+      continue;
     const Disc around_search = disc_around(*submap, widest_search_m(*config_));
     if (!may_overlap(around_points, T_map_query, around_search, graph.T_map_keyframe[submap->reference]))
       continue;
@@ -122,9 +124,9 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
   return found;
 }
 
-FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
-                              const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
-                              std::uint64_t& tried) const {
+FoundLoops LoopDetector::find(KeyframeId query, KeyframeId since,
+                              std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
+                              const KeyframePoses& T_local_keyframe, std::uint64_t& tried) const {
   FoundLoops loops;
   const ScanRange recent = recent_scans(query);
   // Less than the travel from the keyframe before cannot be drawn, and so not be held the other way round.
@@ -135,13 +137,14 @@ FoundLoops LoopDetector::find(KeyframeId query, std::span<const std::shared_ptr<
                    config_->tuning.detector.thinning_cell_m);
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;
   CrossCheck cross_check(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
-  for (const Candidate& c : candidates(query, points, submaps, graph)) {
+  for (const Candidate& c : candidates(query, since, points, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
         CorrelativeMatcher(*c.submap, points, c.window, config_->tuning.matcher)
             .match(lowest_score(*config_));
     if (!match || !cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
-    (match->score < config_->min_score ? loops.tentative : loops.confirmed)
+    const bool is_sure = match->score >= config_->min_score && c.submap->reference >= since;
+    (is_sure ? loops.confirmed : loops.tentative)
         .push_back({.from = c.submap->reference,
                     .to = query,
                     .T_from_to = match->T_submap_scan,

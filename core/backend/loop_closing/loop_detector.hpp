@@ -27,15 +27,19 @@ class LoopDetector {
       : config_(&config), scans_(&scans), chain_(&chain) {}
 
   /// Matches the recent multiscan, as seen from keyframe `query`, against every submap it may overlap, given
-  /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `tried` counts
-  /// the submaps searched. Allocates.
-  FoundLoops find(KeyframeId query, std::span<const std::shared_ptr<const Submap>> submaps,
+  /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `since`: from
+  /// there to the query the motion was watched; what matches earlier submaps proves nothing alone. `tried`
+  /// counts the submaps searched. Allocates.
+  FoundLoops find(KeyframeId query, KeyframeId since, std::span<const std::shared_ptr<const Submap>> submaps,
                   const PoseGraph& graph, const KeyframePoses& T_local_keyframe, std::uint64_t& tried) const;
+
+  /// The scans of the recent travel, as far as its motion was watched.
+  [[nodiscard]] ScanRange recent_scans(KeyframeId query) const;
 
  private:
   struct Candidate;
-  [[nodiscard]] ScanRange recent_scans(KeyframeId query) const;
-  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, std::span<const Point2> points_query,
+  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, KeyframeId since,
+                                                  std::span<const Point2> points_query,
                                                   std::span<const std::shared_ptr<const Submap>> submaps,
                                                   const PoseGraph& graph) const;
 

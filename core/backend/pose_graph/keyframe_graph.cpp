@@ -45,10 +45,14 @@ void KeyframeGraph::add_motion(const Keyframe& made, const KeyframePoses& T_loca
   step.from = T_local_keyframe.previous(made.id);
   step.to = made.id;
   step.T_from_to = between(T_local_keyframe[step.from], T_local_keyframe[step.to]);
-  step.information = made.starts_segment && !made.odometry_ran_on
-                         ? kUnknownMotion.information().asDiagonal().toDenseMatrix()
-                         : residual_information(step.T_from_to, made.motion_covariance.matrix());
+  const bool has_restarted = made.starts_segment && !made.odometry_ran_on;
+  step.information = has_restarted ? kUnknownMotion.information().asDiagonal().toDenseMatrix()
+                                   : residual_information(step.T_from_to, made.motion_covariance.matrix());
   motion_factor_[made.id] = graph_.factors.push_back(step);
+  if (!has_restarted) return;
+  step.information = kStoodStill.information().asDiagonal();
+  step.is_closure = true;
+  graph_.factors.push_back(step);
 }
 
 void KeyframeGraph::predict_new_poses() {

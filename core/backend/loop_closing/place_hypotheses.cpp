@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/loop_closing/place_hypotheses.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/backend/loop_closing/correlative_matcher.hpp"
+#include "core/backend/loop_closing/cross_check.hpp"
+#include "core/geometry/angle.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kEvenPer255 = 127.5;
+
+bool are_alike(const Pose2& a, const Pose2& b, const PlaceHypothesesTuning& tuning) {
+  const Pose2 off = between(a, b);
+  return std::hypot(off.x_m(), off.y_m()) < tuning.same_place_m &&
+         std::abs(off.yaw_rad()) < tuning.same_place_rad;
+}
+
+/// Points on ground that the submap knows, and the sum of their probabilities less one half.
+struct Seen {
+  std::size_t known = 0;
+  double excess = 0.0;
+};
+Seen seen(const Submap& submap, std::span<const Point2> points, const Pose2& T_submap_points) {
+  Seen sum;
+  for (const Point2& p : points) {
+    const CellIndex cell = submap.geometry.cell(T_submap_points * p);
+    if (!submap.geometry.contains(cell)) continue;
+    const std::uint8_t occupied = submap.cells[submap.geometry.offset(cell)];
+    if (occupied == 0) continue;
+    ++sum.known;
+    sum.excess += (static_cast<double>(occupied) - kEvenPer255) / 255.0;
+  }
+  return sum;
+}
+
+}  // namespace
+
+void PlaceHypotheses::begin(Duration unwatched) {
+  unwatched_ = unwatched;
+  queries_.clear();
+  hypotheses_.clear();
+}
+
+PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T_map_query,
+                                                    std::span<const std::shared_ptr<const Submap>> submaps,
+                                                    const PoseGraph& graph) const {
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const Submap* best = nullptr;
+  std::size_t most = 0;
+  for (const auto& submap : submaps) {
+    const Pose2 T_submap_query = between(graph.T_map_keyframe[submap->reference], T_map_query);
+    const std::size_t known = seen(*submap, query.points, T_submap_query).known;
+    if (known > most) {
+      most = known;
+      best = submap.get();
+    }
+  }
+  if (best == nullptr) return {};
+  Pose2 T_submap_query = between(graph.T_map_keyframe[best->reference], T_map_query);
+  Evidence found;
+  const std::optional<MatchResult> match =
+      CorrelativeMatcher(*best, query.points, {T_submap_query, tuning.track_m, tuning.track_rad},
+                         config_->tuning.matcher)
+          .match(config_->min_group_score);
+  if (match) {
+    T_submap_query = match->T_submap_scan_best;
+    found.match = LoopClosure{.from = best->reference,
+                              .to = query.id,
+                              .T_from_to = match->T_submap_scan,
+                              .covariance = Covariance3::from_matrix(match->covariance),
+                              .score = match->score};
+  }
+  found.log_likelihood = tuning.likelihood_per_score * seen(*best, query.points, T_submap_query).excess /
+                         static_cast<double>(query.points.size());
+  if (!match || found.log_likelihood <= 0.0 || query.cross_check.holds(*best, T_submap_query)) return found;
+  return {};
+}
+
+void PlaceHypotheses::weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps,
+                            const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
+                            Hypothesis& hypothesis) const {
+  const Pose2& T_local_query = T_local_keyframe[query.id];
+  const Evidence found = evidence(query, hypothesis.T_map_local * T_local_query, submaps, graph);
+  hypothesis.log_likelihoods.push_back(found.log_likelihood);
+  hypothesis.log_odds += found.log_likelihood;
+  if (!found.match || found.log_likelihood <= 0.0) return;
+  hypothesis.matches.push_back(*found.match);
+  // Dead reckoning drifts on the way.
+  hypothesis.T_map_local =
+      graph.T_map_keyframe[found.match->from] * found.match->T_from_to * T_local_query.inverse();
+}
+
+/// Of those that have come together the likeliest stays; in order of likelihood.
+void PlaceHypotheses::merge(const Pose2& T_local_query) {
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.log_odds > b.log_odds; });
+  std::vector<Hypothesis> kept;
+  for (Hypothesis& h : hypotheses_) {
+    const Pose2 T_map_query = h.T_map_local * T_local_query;
+    const bool is_known = std::ranges::any_of(kept, [&](const Hypothesis& other) {
+      return are_alike(other.T_map_local * T_local_query, T_map_query, tuning);
+    });
+    if (!is_known && kept.size() < tuning.most) kept.push_back(std::move(h));
+  }
+  hypotheses_ = std::move(kept);
+}
+
+bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
+                                std::span<const std::shared_ptr<const Submap>> submaps,
+                                const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const double begins_m =
+      queries_.empty() ? (*scans_)[recent.first].path_m : chain_->path_m(queries_.back().id);
+  if (chain_->path_m(query) - begins_m < tuning.way_between_m) return false;
+  Query taken{query, T_local_keyframe[query].yaw_rad(),
+              thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse(),
+                           config_->tuning.detector.thinning_cell_m),
+              CrossCheck(*config_, *scans_, *chain_, recent, query, T_local_keyframe)};
+  if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
+  if (hypotheses_.empty()) {
+    const double prior = std::log(tuning.not_moved_odds);
+    hypotheses_.push_back(
+        {graph.T_map_keyframe[query] * T_local_keyframe[query].inverse(), prior, {}, prior, {}});
+  }
+  if (queries_.size() == tuning.most_queries) forget_oldest();
+  for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, T_local_keyframe, h);
+  merge(T_local_keyframe[query]);
+  queries_.push_back(std::move(taken));
+  return true;
+}
+
+void PlaceHypotheses::forget_oldest() {
+  const KeyframeId oldest = queries_.front().id;
+  queries_.pop_front();
+  for (Hypothesis& h : hypotheses_) {
+    h.log_odds -= h.log_likelihoods.front();
+    h.log_likelihoods.erase(h.log_likelihoods.begin());
+    std::erase_if(h.matches, [&](const LoopClosure& match) { return match.to == oldest; });
+  }
+}
+
+void PlaceHypotheses::propose(const LoopClosure& match,
+                              std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
+                              const KeyframePoses& T_local_keyframe) {
+  if (queries_.empty()) return;
+  const Pose2& T_local_query = T_local_keyframe[match.to];
+  const Pose2 T_map_query = graph.T_map_keyframe[match.from] * match.T_from_to;
+  for (const Hypothesis& h : hypotheses_)
+    if (are_alike(h.T_map_local * T_local_query, T_map_query, config_->tuning.places)) return;
+  const Point2 not_moved = graph.T_map_keyframe[match.to].position();
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const double reach_m = tuning.unmoved_reach_m + tuning.carrying_speed_m_per_s * to_seconds(unwatched_);
+  if (std::hypot(T_map_query.x_m() - not_moved.x_m, T_map_query.y_m() - not_moved.y_m) > reach_m) return;
+  const double prior = -std::log(tuning.places_per_submap * static_cast<double>(submaps.size()));
+  Hypothesis proposed{T_map_query * T_local_query.inverse(), prior, {}, prior, {}};
+  for (std::size_t i = queries_.size(); i-- > 0;)  // from where it was found, dead reckoning drifts
+    weigh(queries_[i], submaps, graph, T_local_keyframe, proposed);
+  proposed.T_map_local = T_map_query * T_local_query.inverse();
+  std::ranges::reverse(proposed.log_likelihoods);
+  std::ranges::reverse(proposed.matches);
+  hypotheses_.push_back(std::move(proposed));
+  merge(T_local_query);
+}
+
+/// Of the position that the matches give, in the worst direction: a corridor says nothing along itself. Three
+/// queries contain the same travel and count as one.
+double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const LoopClosure& match : hypothesis.matches) {
+    const auto query = std::ranges::find(queries_, match.to, &Query::id);
+    const Eigen::Matrix2d R =
+        Eigen::Rotation2Dd(query->yaw_local_rad - match.T_from_to.yaw_rad()).toRotationMatrix();
+    const Eigen::Matrix2d position = match.covariance.matrix().topLeftCorner<2, 2>();
+    information += R * position.inverse() * R.transpose() / 3.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information);
+  return 1.0 / std::sqrt(std::max(solver.eigenvalues()(0), 1e-9));
+}
+
+std::vector<LoopClosure> PlaceHypotheses::decided() const {
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  if (hypotheses_.empty() || hypotheses_.front().matches.size() < tuning.min_matches) return {};
+  const double rival = hypotheses_.size() < 2 ? 0.0 : std::max(0.0, hypotheses_[1].log_odds);
+  if (hypotheses_.front().log_odds < rival + tuning.sure_log_odds) return {};
+  if (sigma_m(hypotheses_.front()) > tuning.max_sigma_m) return {};
+  return hypotheses_.front().matches;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/backend/config/backend_config.hpp"
+#include "core/backend/loop_closing/cross_check.hpp"
+#include "core/backend/loop_closing/loop_closure.hpp"
+#include "core/backend/loop_closing/submap.hpp"
+#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/store/keyframe_chain.hpp"
+#include "core/base/time.hpp"
+
+namespace swiftlet {
+
+/// Where travel may lie in the map whose beginning nobody watched. Each hypothesis is one place of the whole
+/// travel; what is seen on the way is evidence for or against each: hits on walls that earlier submaps show
+/// there, and hits in what they know to be free. Unknown ground says nothing. A hypothesis is believed once
+/// it is so much likelier than every other, and than a place that the map does not show, that only one
+/// decision in a thousand would be wrong. Views its arguments, which must outlive it. One thread at a time;
+/// allocates.
+class PlaceHypotheses {
+ public:
+  PlaceHypotheses(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
+      : config_(&config), scans_(&scans), chain_(&chain) {}
+
+  /// Forgets all; begins with one hypothesis: the travel lies as the graph has it. `unwatched`: for how long
+  /// nobody watched.
+  void begin(Duration unwatched);
+  /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
+  /// `submaps`: those of before. Returns whether it was taken.
+  bool add_query(KeyframeId query, const ScanRange& recent,
+                 std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
+                 const KeyframePoses& T_local_keyframe);
+  /// A match of the travel with a submap is another hypothesis, unless it is one of them already.
+  void propose(const LoopClosure& match, std::span<const std::shared_ptr<const Submap>> submaps,
+               const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
+  /// The matches of the hypothesis that is believed, one for each query that shows known walls; empty while
+  /// none is.
+  [[nodiscard]] std::vector<LoopClosure> decided() const;
+  [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
+
+ private:
+  struct Query {
+    KeyframeId id{};
+    double yaw_local_rad = 0.0;
+    std::vector<Point2> points;
+    CrossCheck cross_check;
+  };
+  struct Hypothesis {
+    Pose2 T_map_local;
+    double prior_log_odds = 0.0;
+    std::vector<double> log_likelihoods;  // by query
+    double log_odds = 0.0;                // the sum
+    std::vector<LoopClosure> matches;     // with the queries that show known walls
+  };
+  struct Evidence {
+    double log_likelihood = 0.0;
+    std::optional<LoopClosure> match;
+  };
+  [[nodiscard]] Evidence evidence(Query& query, const Pose2& T_map_query,
+                                  std::span<const std::shared_ptr<const Submap>> submaps,
+                                  const PoseGraph& graph) const;
+  void weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
+             const KeyframePoses& T_local_keyframe, Hypothesis& hypothesis) const;
+  void merge(const Pose2& T_local_query);
+  void forget_oldest();
+  [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;
+
+  const BackendConfig* config_;
+  const ScanStore* scans_;
+  const KeyframeChain* chain_;
+  Duration unwatched_{};
+  std::deque<Query> queries_;
+  std::vector<Hypothesis> hypotheses_;
+};
+
+}  // namespace swiftlet
