@@ -136,8 +136,8 @@ void CarmenSampleSource::finish_report() {
   if (std::exchange(is_finished_, true)) return;
   const InputCounters& counters = report_.counters;
   if (counters.segments > 1)
-    report_.notes.push_back("the dead reckoning breaks off " + std::to_string(counters.segments - 1) +
-                            " times; a new segment begins behind each break");
+    report_.notes.push_back("breaks in the dead reckoning: " + std::to_string(counters.segments - 1) +
+                            "; a new segment begins behind each");
   if (counters.samples > 0 && counters.hits == 0) {
     char limits[48];
     std::snprintf(limits, sizeof limits, "%g to %g m", sensor_.min_range_m, sensor_.max_range_m);

@@ -109,7 +109,7 @@ TEST(CarmenSampleSource, TellsOnceOfBreaksAndOfALogWithoutAnyReturn) {
   EXPECT_EQ(read_all(**source).size(), 9U);
   EXPECT_FALSE((*source)->next().ok());
   EXPECT_THAT((*source)->report().notes,
-              ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("the dead reckoning breaks off 2 times"),
+              ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("breaks in the dead reckoning: 2"),
                           HasSubstr("no range is a return (")));
 }
 
