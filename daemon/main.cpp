@@ -2,21 +2,24 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "daemon/command_line.hpp"
 #include "daemon/config/configuration.hpp"
 #include "daemon/daemon.hpp"
-#include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/publish/lcm_publisher.hpp"
 #include "daemon/publish/lcm_transport.hpp"
@@ -25,6 +28,8 @@
 #include "daemon/system/log_file.hpp"
 #include "daemon/system/service_manager.hpp"
 #include "daemon/system/signal_watcher.hpp"
+#include "daemon/system/terminal.hpp"
+#include "daemon/version.hpp"
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
@@ -43,7 +48,8 @@ struct Options {
   std::string lcm_url = kDefaultLcmUrl;
   double rate = 1.0;
   std::optional<int> beams;
-  std::string output_directory;
+  std::optional<std::string> output_directory;
+  bool no_output = false;
   std::string log_file;
   RecordingWish record;
   std::optional<std::string> share;
@@ -55,16 +61,19 @@ struct Options {
 void declare(CLI::App& app, Options& options) {
   app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys");
   using enum InputNature;
-  app.add_option("--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile, kFollowed}));
+  app.add_option("INPUT,--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile, kFollowed}));
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();
   app.add_option("--rate", options.rate, "replay this many times as fast as recorded")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(number_from(0.001, 1e6))
       ->capture_default_str();
   app.add_option("--beams", options.beams, "laser logs: how many beams to keep");
-  app.add_option("-o,--output", options.output_directory,
-                 "write map, trajectories and report here at the end");
+  CLI::Option* output =
+      app.add_option("-o,--output", options.output_directory,
+                     "write map, trajectories and report here at the end; without it to a new folder in " +
+                         std::string(kFlightsDirectory));
+  app.add_flag("--no-output", options.no_output, "write none of them")->excludes(output);
   CLI::Option* record =
       app.add_option("--record", options.record.file,
                      "record the flight to this file; without FILE, or without --record from a live link, to "
@@ -78,7 +87,8 @@ void declare(CLI::App& app, Options& options) {
       ->type_name("[ADDRESS]")
       ->expected(0, 1);
   app.add_option("--log-file", options.log_file,
-                 "log there, not to stderr; SIGHUP opens it anew, for whoever rotates logs");
+                 "log there, not to stderr; SIGHUP opens it anew, for whoever rotates logs, instead of "
+                 "ending the run");
   app.add_flag("-v,--verbose", options.verbose, "log each status");
   app.add_flag("--print-configuration-reference", options.print_reference,
                "write docs/configuration.md and exit");
@@ -201,28 +211,43 @@ int tell_problems(const Options& options, const Daemon& daemon, const InputRepor
   return exit_code;
 }
 
-/// Before the flight, so that it does not end at a closed door.
-Result<std::optional<PrunedScans>> prepare_outputs(const Options& options) {
-  if (options.output_directory.empty()) return std::optional<PrunedScans>();
-  if (Status ready = prepare_output_directory(options.output_directory); !ready) return ready.error();
-  Result<PrunedScans> pruned = PrunedScans::open(options.output_directory);
+/// Where a run writes to.
+struct Outputs {
+  OutputDirectory directory;
+  PrunedScans pruned;
+};
+
+/// Before the flight, so that it does not end at a closed door. nullptr: the user wants none.
+Result<std::unique_ptr<Outputs>> prepare_outputs(const Options& options) {
+  if (options.no_output) return std::unique_ptr<Outputs>();
+  const HostTime now(std::chrono::system_clock::now().time_since_epoch());
+  Result<OutputDirectory> directory =
+      OutputDirectory::of_run(options.output_directory, options.input_uri, now);
+  if (!directory) return directory.error();
+  Result<PrunedScans> pruned = PrunedScans::open(directory->path());
   if (!pruned) return pruned.error();
-  return std::optional<PrunedScans>(std::move(pruned).value());
+  return std::make_unique<Outputs>(
+      Outputs{.directory = std::move(directory).value(), .pruned = std::move(pruned).value()});
 }
 
-Status write_outputs(const Options& options, const Configuration& config, const Daemon& daemon,
-                     const SampleSource& source, const PrunedScans* pruned) {
-  if (options.output_directory.empty() || daemon.pipeline().backend().scans().size() == 0) return {};
-  spdlog::info("writing {}", options.output_directory);
-  return write_run_outputs(options.output_directory, {.backend = daemon.pipeline().backend(),
-                                                      .map = daemon.pipeline().map(),
-                                                      .input = source.report(),
-                                                      .frontend = daemon.pipeline().frontend().counters(),
-                                                      .timing = daemon.pipeline().timing(),
-                                                      .truth = source.ground_truth(),
-                                                      .input_uri = options.input_uri,
-                                                      .sensor = config.sensor.applied_to(source.sensor()),
-                                                      .pruned = pruned});
+Status write_outputs(const Outputs* outputs, const Options& options, const Configuration& config,
+                     const Daemon& daemon, const SampleSource& source) {
+  if (outputs == nullptr || daemon.pipeline().backend().scans().size() == 0) return {};
+  const std::filesystem::path& directory = outputs->directory.path();
+  spdlog::info("writing {}", directory.string());
+  const Result<WrittenOutputs> written =
+      write_run_outputs(directory, {.backend = daemon.pipeline().backend(),
+                                    .map = daemon.pipeline().map(),
+                                    .input = source.report(),
+                                    .frontend = daemon.pipeline().frontend().counters(),
+                                    .timing = daemon.pipeline().timing(),
+                                    .truth = source.ground_truth(),
+                                    .input_uri = options.input_uri,
+                                    .sensor = config.sensor.applied_to(source.sensor()),
+                                    .pruned = &outputs->pruned});
+  if (!written) return written.error();
+  if (const auto note = replacement_note(directory, *written)) spdlog::info("{}", *note);
+  return {};
 }
 
 /// Until the recording is on the disk, too.
@@ -238,8 +263,6 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
-  Result<std::optional<PrunedScans>> pruned = prepare_outputs(options);
-  if (!pruned) return refuse(pruned.error().message);
   const Result<std::unique_ptr<LogFile>> log = open_log(options);
   if (!log) return refuse(log.error().message);
   const SignalWatcher signals = watch_signals(log->get());  // before the threads, libusb's too
@@ -248,13 +271,15 @@ int run(const Options& options) {
   const Result<std::unique_ptr<SampleSource>> source =
       open_input(options, *config, *recorder ? &(*recorder)->sink() : nullptr);
   if (!source) return refuse(source.error().message);
+  const Result<std::unique_ptr<Outputs>> outputs = prepare_outputs(options);
+  if (!outputs) return refuse(outputs.error().message);
   const Result<std::unique_ptr<Publisher>> publisher =
       open_lcm_publisher(options.lcm_url, config->publish.channel_prefix, new_map_id());
   if (!publisher) return refuse(publisher.error().message);
 
   SteadyClock clock;
   Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
-  if (*pruned) daemon.keep_pruned(**pruned);
+  if (*outputs) daemon.keep_pruned((*outputs)->pruned);
   spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
   const ServiceManager service_manager;
   daemon.report_to(service_manager);
@@ -263,7 +288,7 @@ int run(const Options& options) {
   const BackendCounters& counters = daemon.pipeline().backend().counters();
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
-  const Status written = write_outputs(options, *config, daemon, **source, *pruned ? &**pruned : nullptr);
+  const Status written = write_outputs(outputs->get(), options, *config, daemon, **source);
   // A live vehicle's notes are the events that were told when they happened.
   const InputReport& report = (*source)->report();
   const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;
@@ -276,14 +301,14 @@ int main_without_exceptions(int argc, char** argv) {
   static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");
-  app.set_version_flag("--version", SWIFTLET_VERSION);
+  app.set_version_flag("--version", version_text("swiftletd"));
   declare(app, options);
   try {
     app.parse(argc, argv);
     options.record.asked = app.count("--record") > 0;
     if (app.count("--share") > 0 && options.share.value_or("").empty()) options.share = kShareHere;
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
+  } catch (const CLI::Success& question) {
+    return answer(app, question);
   } catch (const CLI::ParseError& error) {
     return refuse(std::string(error.what()) + "; --help lists the options");
   }
@@ -295,8 +320,10 @@ int main_without_exceptions(int argc, char** argv) {
     std::fputs(tuning_text({}).c_str(), stdout);
     return 0;
   }
-  if (options.input_uri.empty()) return refuse("--input is required; --help lists the options");
-  spdlog::set_default_logger(spdlog::stderr_color_mt("swiftletd"));
+  if (options.input_uri.empty())
+    return refuse("no INPUT is named; for example: swiftletd radio://0/80/2M/E7E7E7E7E7 -o out");
+  const auto colours = wants_colours(STDERR_FILENO) ? spdlog::color_mode::always : spdlog::color_mode::never;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("swiftletd", colours));
   spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::info);
   return run(options);
 }
@@ -306,7 +333,9 @@ int main_without_exceptions(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return swiftlet::main_without_exceptions(argc, argv);
+    const int exit_code = swiftlet::main_without_exceptions(argc, argv);
+    const auto failure = swiftlet::output_failure();
+    return failure ? swiftlet::refuse(*failure) : exit_code;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "swiftletd: %s\n", error.what());
     return 1;

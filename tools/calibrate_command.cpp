@@ -77,8 +77,8 @@ Status tell(const CalibrateCommand& command, const CalibrationReport& report, co
     std::printf("file: %s: for --config of swiftlet map and swiftletd\n", command.toml_file.c_str());
   if (input.problems.empty()) return {};
   std::string damage;
-  for (const std::string& problem : input.problems) damage += problem + "; ";
-  return Error{ErrorCode::kDamaged, damage + "the figures come from what came before"};
+  for (const std::string& problem : input.problems) damage += (damage.empty() ? "" : "; ") + problem;
+  return Error{ErrorCode::kDamaged, damage};
 }
 
 }  // namespace

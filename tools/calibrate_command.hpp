@@ -19,7 +19,8 @@ struct CalibrateCommand {
 };
 
 /// Estimates the sensor model's systematic errors from one run and tells them on stdout; what matters goes to
-/// the configuration file. Progress and notes go to stderr. SIGINT and SIGTERM end it between two steps.
+/// the configuration file. Progress and notes go to stderr. SIGINT, SIGTERM and SIGHUP end it between two
+/// steps.
 ///
 /// Errors: kNotFound, kInvalidInput: the input cannot be used, or the file is there already or cannot be
 /// written beside. kDamaged: the input is damaged after usable samples; what came before was used. kTimeout:

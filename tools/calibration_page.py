@@ -187,7 +187,7 @@ def document(report):
     missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
     return f"""{page.head("Calibration", "benchmark-calibration", report)}{missing}
 The estimates of `swiftlet calibrate`, with their standard deviations, beside what is known. {NONE}: not observable.
-[calibration.md](../calibration.md) describes the figures and the conclusions.
+[calibration_evidence.md](../calibration_evidence.md) describes the figures and the conclusions.
 
 True figures of simulated flights: the age is that at which the simulator's own rangers, without noise, fit the readings
 best along the true path, once for the whole flight and once for each eighth of it (least to greatest). A reading waits

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "daemon/recording/recording_files.hpp"
+#include "daemon/system/terminal.hpp"
 #include "firmware_link/file/input_file.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
@@ -26,12 +26,6 @@
 
 namespace swiftlet {
 namespace {
-
-/// On a terminal, unless the user wants none (https://no-color.org).
-bool wants_colours() {
-  const char* refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): no thread runs yet
-  return isatty(STDOUT_FILENO) == 1 && (refused == nullptr || *refused == '\0');
-}
 
 std::vector<RadioAddress> scan(UsbBus& bus, const RadioAddress& wanted) {
   auto scanned = scan_radio(bus, wanted);
@@ -63,8 +57,8 @@ Result<bool> run_doctor_command(const DoctorCommand& command) {
       .open_link = [](const InputUri& input) { return input.kind->open(input.address); },
       .scan = [&bus](const RadioAddress& radio) { return scan(**bus, radio); }};
   const Findings findings = examine(*uri, *lcm_url, around);
-  const std::string report =
-      command.json ? report_json(command.input, findings) : report_text(findings, wants_colours());
+  const std::string report = command.json ? report_json(command.input, findings)
+                                          : report_text(findings, wants_colours(STDOUT_FILENO));
   std::fputs(report.c_str(), stdout);
   return count(findings, Mark::kProblem) == 0;
 }

@@ -81,10 +81,11 @@ Status tell_notes(const Evaluation& evaluation) {
     if (flight == nullptr) continue;
     for (const std::string& note : flight->input.notes)
       std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
-    for (const std::string& problem : flight->input.problems) damage += problem + "; ";
+    for (const std::string& problem : flight->input.problems)
+      damage += (damage.empty() ? "" : "; ") + problem;
   }
   if (damage.empty()) return {};
-  return Error{ErrorCode::kDamaged, damage + "the figures come from what came before"};
+  return Error{ErrorCode::kDamaged, damage};
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct LatencyCommand {
 };
 
 /// Prints how a run kept time as a table on stdout, and draws it. Listening it prints a table for each
-/// status, until SIGINT, SIGTERM or the daemon's end.
+/// status, until SIGINT, SIGTERM, SIGHUP or the daemon's end.
 ///
 /// Errors: as read_timing_report and LcmTransport::open; kInvalidInput: neither or both were asked for, or a
 /// picture while listening; kOutOfSpace: the picture cannot be written.

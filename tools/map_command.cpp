@@ -3,11 +3,12 @@
 #include "tools/map_command.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <utility>
 
-#include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/workers/pipeline.hpp"
@@ -41,7 +42,7 @@ InputReport run_to_end(Pipeline& pipeline, const SampleSource& source, LiveObser
   return report;
 }
 
-void print_summary(const MapCommand& command, const RunView& run) {
+void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs, const RunView& run) {
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
   const BackendCounters& counters = run.backend.counters();
   std::printf("%llu samples, %llu keyframes, %llu loop closures (%llu of them dropped), %zu input problems\n",
@@ -54,14 +55,16 @@ void print_summary(const MapCommand& command, const RunView& run) {
                  "swiftlet: note: the map follows %s alone, which explains the ranges no worse than loop "
                  "closures do\n",
                  std::string(name_of(counters.map_source)).c_str());
-  const std::string directory = command.output_directory.string();
-  std::printf("files: %s: map.png map.pgm map.yaml trajectory.tum odometry.tum live.tum %sreport.json\n",
-              directory.c_str(), run.truth.empty() ? "" : "ground_truth.tum ");
+  if (const auto note = replacement_note(output.path(), outputs))
+    std::fprintf(stderr, "swiftlet: note: %s\n", note->c_str());
+  std::string files;
+  for (const std::string& name : outputs.files) files += " " + name;
+  std::printf("files: %s:%s\n", output.path().c_str(), files.c_str());
   if (const auto error = run_error(run))
     std::printf(
         "error before correction %.3f m, live %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
         error->odometry.rmse_m, error->live.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
-  std::printf("picture: %s\n", (command.output_directory / "map.png").c_str());
+  std::printf("picture: %s\n", (output.path() / "map.png").c_str());
 }
 
 /// All that was wrong with the input, in the one line that main prints.
@@ -69,12 +72,17 @@ Status damage_of(const InputReport& report) {
   if (report.problems.empty()) return {};
   std::string message = report.problems.front();
   for (std::size_t i = 1; i < report.problems.size(); ++i) message += "; " + report.problems[i];
-  return Error{ErrorCode::kDamaged, message + "; the outputs hold what came before"};
+  return Error{ErrorCode::kDamaged, message};
 }
 
 bool is_simulation(const std::string& input) {
   const Result<InputUri> uri = parse_input_uri(input);
   return uri && uri->is(InputNature::kSimulation);
+}
+
+Result<OutputDirectory> output_of(const MapCommand& command) {
+  const HostTime now(std::chrono::system_clock::now().time_since_epoch());
+  return OutputDirectory::of_run(command.output_directory, command.input, now);
 }
 
 }  // namespace
@@ -84,17 +92,17 @@ Status run_map_command(const MapCommand& command) {
   if (!prepared) return prepared.error();
   SampleSource& source = *prepared->source;
   const Configuration& config = prepared->config;
-  const std::optional<InputCalibration>& calibration = prepared->calibration;
-  if (Status ready = prepare_output_directory(command.output_directory); !ready) return ready;
+  const Result<OutputDirectory> output = output_of(command);
+  if (!output) return output.error();
 
-  Result<PrunedScans> pruned = PrunedScans::open(command.output_directory);
+  Result<PrunedScans> pruned = PrunedScans::open(output->path());
   if (!pruned) return pruned.error();
   Pipeline pipeline(config, source);
   pipeline.keep_pruned(*pruned);
   std::optional<LiveObserver> observer;
   if (is_simulation(command.input)) observer.emplace(pipeline.backend());
   InputReport report = run_to_end(pipeline, source, observer ? &*observer : nullptr);
-  if (calibration) report.notes.push_back(calibration_note(*calibration));
+  if (prepared->calibration) report.notes.push_back(calibration_note(*prepared->calibration));
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
   std::vector<StampedPose> truth = source.ground_truth();
@@ -108,13 +116,14 @@ Status run_map_command(const MapCommand& command) {
                     .truth = std::move(truth),
                     .input_uri = command.input,
                     .sensor = config.sensor.applied_to(source.sensor()),
-                    .calibration = calibration,
+                    .calibration = prepared->calibration,
                     .mended = source.mended(),
                     .pruned = &*pruned,
                     .known_places = known_places,
                     .peak_memory_mb = peak_of_run_mb};
-  if (Status written = write_run_outputs(command.output_directory, run); !written) return written;
-  print_summary(command, run);
+  const Result<WrittenOutputs> written = write_run_outputs(output->path(), run);
+  if (!written) return written.error();
+  print_summary(*output, *written, run);
   return damage_of(report);
 }
 

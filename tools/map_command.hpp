@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -12,10 +11,10 @@ namespace swiftlet {
 
 /// What `swiftlet map` was asked to do.
 struct MapCommand {
-  std::string input;  ///< URI or plain path, see open_sample_source
-  std::filesystem::path output_directory;
-  std::string config_file;     ///< empty: the defaults
-  std::optional<int> beams;    ///< laser logs: how many beams to keep
+  std::string input;                            ///< URI or plain path, see open_sample_source
+  std::optional<std::string> output_directory;  ///< unset: a new folder in kFlightsDirectory
+  std::string config_file;                      ///< empty: the defaults
+  std::optional<int> beams;                     ///< laser logs: how many beams to keep
   bool calibrate = true;       ///< estimate age of the ranges and scales of the odometry first
   bool odometry_only = false;  ///< baseline: dead reckoning, nothing corrected
   bool frontend_only = false;  ///< baseline: walls, but no loop closures

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 #include "firmware_link/sample/sign_mending_source.hpp"
 #include "tools/calibration/input_calibration.hpp"
@@ -11,6 +12,14 @@
 namespace swiftlet {
 
 namespace {
+
+Status check_has_an_end(const std::string& input) {
+  const Result<InputUri> uri = parse_input_uri(input);
+  if (!uri || !uri->is(InputNature::kVehicle)) return {};
+  return Error{ErrorCode::kInvalidInput, input + ": a live vehicle has no end; map it with swiftletd " +
+                                             input + ", or record it first: swiftlet record " + input +
+                                             " -o flight.pcap"};
+}
 
 Result<Configuration> configuration_for(const MapCommand& command) {
   Configuration config;
@@ -43,17 +52,18 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.min_range_m = config.sensor.min_range_m;
   if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
   Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
-  if (!source || (*source)->is_live() || command.odometry_only) return source;
+  if (!source || command.odometry_only) return source;
   return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
 }
 
 Result<PreparedRun> prepare_run(const MapCommand& command) {
+  if (Status finite = check_has_an_end(command.input); !finite) return finite.error();
   Result<Configuration> config = configuration_for(command);
   if (!config) return config.error();
   Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
   if (!opened) return opened.error();
   PreparedRun run{std::move(config).value(), std::move(opened).value(), {}};
-  if (!command.calibrate || command.odometry_only || run.source->is_live()) return run;
+  if (!command.calibrate || command.odometry_only) return run;
   run.calibration = calibrate_first(*run.source, run.config);
   opened = open_input(command, run.config);
   if (!opened) return opened.error();

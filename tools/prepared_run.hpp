@@ -21,7 +21,7 @@ struct PreparedRun {
   std::optional<InputCalibration> calibration;
 };
 
-/// Errors: kNotFound, kInvalidInput: input or configuration cannot be used.
+/// Errors: kNotFound, kInvalidInput: input or configuration cannot be used; the input is a live vehicle.
 [[nodiscard]] Result<PreparedRun> prepare_run(const MapCommand& command);
 /// The input of a prepared run once more, from its beginning. Errors: as above.
 [[nodiscard]] Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command,

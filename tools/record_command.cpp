@@ -17,6 +17,7 @@
 
 #include "core/base/latest_value.hpp"
 #include "core/base/time.hpp"
+#include "daemon/publish/status_log.hpp"
 #include "daemon/recording/recorder.hpp"
 #include "daemon/recording/recording_files.hpp"
 #include "daemon/recording/recording_plan.hpp"
@@ -33,6 +34,7 @@ using WallClock = std::chrono::steady_clock;
 constexpr const char* kBackToEmptyLine = "\r\x1b[K";
 constexpr std::chrono::milliseconds kLook{100};
 constexpr int kLooksPerLine = 10;
+constexpr std::chrono::seconds kChangesEvery{1};
 
 /// What the thread that listens tells the one that shows.
 struct Received {
@@ -96,7 +98,8 @@ class Listener {
     while (may_go_on(std::as_const(received_))) {
       const Result<ReceivedSample> next = source_.next();
       tell_news();
-      if (!next && next.error().code == ErrorCode::kEndOfRecording) return {};
+      if (WallClock::now() >= next_look_) tell_changes();
+      if (!next && next.error().code == ErrorCode::kEndOfRecording) break;
       if (!next && next.error().code != ErrorCode::kTimeout) return next.error();
       if (!next) continue;
       received_.latest = next->sample.stamp;
@@ -105,6 +108,7 @@ class Listener {
       received_.gaps = source_.report().counters.gaps;
       newest_.store(received_);
     }
+    tell_changes();
     return {};
   }
   [[nodiscard]] const Received& received() const { return received_; }
@@ -113,9 +117,20 @@ class Listener {
   void tell_news() {
     const InputReport& report = source_.report();
     for (; notes_ < report.notes.size(); ++notes_) tell("note", report.notes[notes_]);
-    while (const std::optional<VehicleEvent> event = source_.take_event()) tell("note", describe(*event));
+    while (const std::optional<VehicleEvent> event = source_.take_event())
+      tell(is_warning(*event) ? "warning" : "note", describe(*event));
     notes_ = report.notes.size();  // a warning becomes a note of the report, too
     for (; problems_ < report.problems.size(); ++problems_) tell("problem", report.problems[problems_]);
+  }
+  /// As swiftletd does, and as often.
+  void tell_changes() {
+    next_look_ = WallClock::now() + kChangesEvery;
+    InputStatus now;
+    now.counters = source_.report().counters;
+    now.live = source_.live_status().value_or(LiveStatus{});
+    for (const InputNews& news : input_news(told_, now))
+      tell(news.is_warning ? "warning" : "note", news.text);
+    told_ = now;
   }
   static void tell(const char* kind, const std::string& text) {
     const char* start = ::isatty(::fileno(stderr)) == 1 ? kBackToEmptyLine : "";
@@ -125,6 +140,8 @@ class Listener {
   SampleSource& source_;
   LatestValue<Received>& newest_;
   Received received_;
+  InputStatus told_;
+  WallClock::time_point next_look_{};
   std::size_t notes_ = 0;  // told so far
   std::size_t problems_ = 0;
 };

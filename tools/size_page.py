@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """Parses the output of `size`, `nm` and the programs of tools/measure-size, and formats the section of
-docs/real_time.md that it writes."""
+docs/real_time_evidence.md that it writes."""
 
 import re
 
@@ -97,7 +97,7 @@ vehicle runs in the radio thread. No run has a dongle, so libusb is not included
 {stack_table(report['stacks'])}
 
 **Memory.** The maximum resident memory of `swiftletd` over such runs, including system libraries; it differs by up to
-2 MiB from run to run. Outputs, which `--output` asks for, come on top.
+2 MiB from run to run. Outputs come on top; these runs write none (`--no-output`).
 
 {page.table(["input", "MiB:"], [[name, f"{size / MIB:.1f}"] for name, size in report['peaks']])}
 

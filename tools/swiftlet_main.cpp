@@ -7,15 +7,23 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/sensing/range_sample.hpp"
+#include "daemon/command_line.hpp"
+#include "daemon/outputs/output_directory.hpp"
+#include "daemon/version.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/simulation/flight.hpp"
 #include "firmware_link/simulation/world.hpp"
 #include "tools/calibrate_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
+#include "tools/flights_command.hpp"
 #include "tools/latency_command.hpp"
 #include "tools/map_command.hpp"
 #include "tools/record_command.hpp"
@@ -49,8 +57,9 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
   map->add_option("INPUT", command.input, finite_inputs())->required();
-  map->add_option("-o,--output", command.output_directory, "Directory for the outputs, created where missing")
-      ->required();
+  map->add_option("-o,--output", command.output_directory,
+                  "Directory for the outputs, created where missing; without it a new folder in " +
+                      std::string(swiftlet::kFlightsDirectory));
   map->add_option("--config", command.config_file, "TOML file with settings");
   map->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
       ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
@@ -77,15 +86,15 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
       ->capture_default_str();
   sim->add_option("--battery", command.battery_minutes,
                   "Minutes in the air until it is empty; without it, 8 a lap")
-      ->check(CLI::Range(0.1, 1000.0));
+      ->check(swiftlet::number_from(0.1, 1000.0));
   sim->add_option("--clock-start", command.clock_start_s, "Seconds on the vehicle's clock at first")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(swiftlet::number_from(0.0, 1e6));
   sim->add_option("--loss", command.loss_percent, "Percent of packets lost, each way")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(swiftlet::number_from(0.0, 100.0));
   sim->add_option("--delay", command.delay_ms, "Milliseconds that packets from the vehicle take")
-      ->check(CLI::Range(0.0, 60'000.0));
+      ->check(swiftlet::number_from(0.0, 60'000.0));
   sim->add_option("--duplicates", command.duplicates_percent, "Percent of packets from the vehicle doubled")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(swiftlet::number_from(0.0, 100.0));
   sim->add_flag("--steered", command.steered, "Fly by a client's hover setpoints, not by the world's script");
   sim->add_option("--missing-deck", command.missing_decks, "flow or multiranger; may be given twice");
   sim->footer(worlds_text());
@@ -102,7 +111,7 @@ CLI::App* add_record_command(CLI::App& app, swiftlet::RecordCommand& command) {
   record->add_option("-o,--output", command.file, "The recording, a .pcap file that is not there yet")
       ->required();
   record->add_option("--seconds", command.seconds, "End after this long; without it, at Ctrl-C")
-      ->check(CLI::PositiveNumber);
+      ->check(swiftlet::number_from(0.001, 1e6));
   return record;
 }
 
@@ -138,7 +147,7 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
                                      "without one, the final path");
   eval->add_option("--batch", command.batch_s,
                    "With --live: also runs that end at such poses, every so many seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(swiftlet::number_from(0.001, 1e6))
       ->needs(live);
   eval->add_option("--config", command.config_file, "With --live: TOML file with settings")->needs(live);
   eval->add_option("--json", command.json_file,
@@ -158,6 +167,13 @@ CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& comma
   return calibrate;
 }
 
+CLI::App* add_flights_command(CLI::App& app, swiftlet::FlightsCommand& command) {
+  CLI::App* flights =
+      app.add_subcommand("flights", "List the flights whose outputs have folders of their own");
+  flights->add_option("DIRECTORY", command.directory, "Where the folders are")->capture_default_str();
+  return flights;
+}
+
 CLI::App* add_latency_command(CLI::App& app, swiftlet::LatencyCommand& command) {
   CLI::App* latency = app.add_subcommand(
       "latency", "Tell how a run kept time: from radio frame to published pose, each stage, each queue");
@@ -172,55 +188,115 @@ CLI::App* add_latency_command(CLI::App& app, swiftlet::LatencyCommand& command) 
   return latency;
 }
 
+CLI::App* add_help_command(CLI::App& app, std::string& command) {
+  CLI::App* help = app.add_subcommand("help", "Print the options of a command");
+  help->add_option("COMMAND", command, "One of those that swiftlet --help lists");
+  return help;
+}
+
+int run_help(const CLI::App& app, const std::string& command) {
+  if (command.empty()) {
+    // app.help() would be that of the command help.
+    const std::string all = app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
+    std::fputs(all.c_str(), stdout);
+    return 0;
+  }
+  const auto is_named = [&command](const CLI::App* candidate) { return candidate->get_name() == command; };
+  const std::vector<const CLI::App*> named = app.get_subcommands(is_named);
+  if (named.empty()) return refuse("no command '" + command + "'; see swiftlet --help");
+  std::fputs(named.front()->help("swiftlet").c_str(), stdout);
+  return 0;
+}
+
+/// What is wrong with the command line, and for a command that lacks something how to write it.
+std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
+  static const std::map<std::string, std::string> kExamples{
+      {"map", "swiftlet map flight.pcap -o out"},
+      {"record", "swiftlet record radio://0/80/2M/E7E7E7E7E7 -o flight.pcap"},
+      {"eval", "swiftlet eval out/trajectory.tum truth.tum"},
+      {"calibrate", "swiftlet calibrate flight.pcap"}};
+  const std::vector<CLI::App*> named = app.get_subcommands();
+  if (named.empty() && app.remaining_size() > 0)
+    return "no command '" + app.remaining().front() + "'; see swiftlet --help";
+  if (named.empty()) return std::string(error.what()) + "; see swiftlet --help";
+  const std::string command = named.front()->get_name();
+  const auto example = kExamples.find(command);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && example != kExamples.end())
+    return command + ": " + error.what() + "; for example: " + example->second;
+  return command + ": " + error.what() + "; see swiftlet help " + command;
+}
+
 int run_doctor(const swiftlet::DoctorCommand& command) {
   const swiftlet::Result<bool> ready = swiftlet::run_doctor_command(command);
   if (!ready) return refuse(ready.error().message);
   return *ready ? 0 : kExitProblemFound;
 }
 
+/// What each command was asked to do.
+struct Commands {
+  swiftlet::MapCommand map;
+  swiftlet::SimCommand sim;
+  swiftlet::RecordCommand record;
+  swiftlet::DoctorCommand doctor;
+  swiftlet::EvalCommand eval;
+  swiftlet::CalibrateCommand calibrate;
+  swiftlet::FlightsCommand flights;
+  swiftlet::LatencyCommand latency;
+  std::string help;  ///< of this command; empty: of all
+};
+
+struct Choice {
+  const CLI::App* command;
+  std::function<int()> run;  ///< gives the exit code
+};
+
+/// In the order in which help lists them. `app` and `commands` must outlive the choices.
+std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
+  const auto done = [](const swiftlet::Status& status) {
+    return status ? 0 : refuse(status.error().message);
+  };
+  Commands& c = commands;
+  return {{add_map_command(app, c.map), [&c, done] { return done(swiftlet::run_map_command(c.map)); }},
+          {add_sim_command(app, c.sim), [&c, done] { return done(swiftlet::run_sim_command(c.sim)); }},
+          {add_record_command(app, c.record),
+           [&c, done] { return done(swiftlet::run_record_command(c.record)); }},
+          {add_doctor_command(app, c.doctor), [&c] { return run_doctor(c.doctor); }},
+          {add_eval_command(app, c.eval), [&c, done] { return done(swiftlet::run_eval_command(c.eval)); }},
+          {add_calibrate_command(app, c.calibrate),
+           [&c, done] { return done(swiftlet::run_calibrate_command(c.calibrate)); }},
+          {add_flights_command(app, c.flights),
+           [&c, done] { return done(swiftlet::run_flights_command(c.flights)); }},
+          {add_latency_command(app, c.latency),
+           [&c, done] { return done(swiftlet::run_latency_command(c.latency)); }},
+          {add_help_command(app, c.help), [&c, &app] { return run_help(app, c.help); }}};
+}
+
 int run(int argc, char** argv) {
   CLI::App app("2D SLAM for four range beams");
   app.name("swiftlet");
-  app.set_version_flag("--version", SWIFTLET_VERSION);
+  app.set_version_flag("--version", swiftlet::version_text("swiftlet"));
   app.require_subcommand(1);
-  swiftlet::MapCommand map_command;
-  const CLI::App* map = add_map_command(app, map_command);
-  swiftlet::SimCommand sim_command;
-  const CLI::App* sim = add_sim_command(app, sim_command);
-  swiftlet::RecordCommand record_command;
-  const CLI::App* record = add_record_command(app, record_command);
-  swiftlet::DoctorCommand doctor_command;
-  const CLI::App* doctor = add_doctor_command(app, doctor_command);
-  swiftlet::EvalCommand eval_command;
-  const CLI::App* eval = add_eval_command(app, eval_command);
-  swiftlet::CalibrateCommand calibrate_command;
-  const CLI::App* calibrate = add_calibrate_command(app, calibrate_command);
-  swiftlet::LatencyCommand latency_command;
-  const CLI::App* latency = add_latency_command(app, latency_command);
+  Commands commands;
+  const std::vector<Choice> choices = add_commands(app, commands);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& question) {
+    return swiftlet::answer(app, question);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    const bool is_unknown = app.get_subcommands().empty() && app.remaining_size() > 0;
-    const std::string what = is_unknown ? "no command '" + app.remaining().front() + "'" : error.what();
-    return refuse(what + "; see swiftlet --help");
+    return refuse(fault_of(app, error));
   }
-  if (doctor->parsed()) return run_doctor(doctor_command);
-  swiftlet::Status status = swiftlet::Error{{}, "no command given; see swiftlet --help"};
-  if (map->parsed()) status = swiftlet::run_map_command(map_command);
-  if (sim->parsed()) status = swiftlet::run_sim_command(sim_command);
-  if (record->parsed()) status = swiftlet::run_record_command(record_command);
-  if (eval->parsed()) status = swiftlet::run_eval_command(eval_command);
-  if (calibrate->parsed()) status = swiftlet::run_calibrate_command(calibrate_command);
-  if (latency->parsed()) status = swiftlet::run_latency_command(latency_command);
-  return status ? 0 : refuse(status.error().message);
+  for (const Choice& choice : choices)
+    if (choice.command->parsed()) return choice.run();
+  return refuse("no command given; see swiftlet --help");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    const std::optional<std::string> failure = swiftlet::output_failure();
+    return failure ? refuse(*failure) : exit_code;
   } catch (const std::exception& error) {  // out of memory, or a fault of the standard library's
     return refuse(error.what());
   }

@@ -20,12 +20,26 @@ std::vector<StampedPose>::const_iterator StampedPath::not_before(HostTime stamp)
 }
 
 const StampedPose* StampedPath::nearest(HostTime stamp) const {
+  return nearest_within(kStampTolerance, stamp);
+}
+
+const StampedPose* StampedPath::nearest_within(Duration tolerance, HostTime stamp) const {
   if (poses_.empty()) return nullptr;
   auto found = not_before(stamp);
   if (found == poses_.end() ||
       (found != poses_.begin() && stamp - (found - 1)->stamp <= found->stamp - stamp))
     --found;
-  return std::chrono::abs(found->stamp - stamp) <= kStampTolerance ? &*found : nullptr;
+  return std::chrono::abs(found->stamp - stamp) <= tolerance ? &*found : nullptr;
+}
+
+std::optional<Point2> StampedPath::position_at(HostTime stamp) const {
+  if (const StampedPose* same = nearest(stamp)) return same->pose.position();
+  const auto after = not_before(stamp);
+  const bool lies_between = after != poses_.begin() && after != poses_.end();
+  if (lies_between && after->stamp - (after - 1)->stamp <= kLongestInterpolation)
+    return interpolated(stamp).position();
+  const StampedPose* near = nearest_within(kLooseTolerance, stamp);
+  return near != nullptr ? std::optional(near->pose.position()) : std::nullopt;
 }
 
 Pose2 StampedPath::interpolated(HostTime stamp) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -70,12 +71,15 @@ PathError path_error(const StampedPath& estimate, const StampedPath& truth) {
   std::vector<Point2> truth_m;
   for (const StampedPose& at : estimate.poses()) {
     stamps.push_back(at.stamp);
-    const StampedPose* true_pose = truth.nearest(at.stamp);
-    if (true_pose == nullptr) continue;
+    const std::optional<Point2> true_position = truth.position_at(at.stamp);
+    if (!true_position) continue;
     estimate_m.push_back(at.pose.position());
-    truth_m.push_back(true_pose->pose.position());
+    truth_m.push_back(*true_position);
   }
-  return {trajectory_error(estimate_m, truth_m), match_stamps(std::move(stamps), truth)};
+  StampMatching matching = match_stamps(std::move(stamps), truth);
+  matching.between = std::erase_if(matching.unmatched,
+                                   [&truth](HostTime stamp) { return truth.position_at(stamp).has_value(); });
+  return {trajectory_error(estimate_m, truth_m), std::move(matching)};
 }
 
 }  // namespace swiftlet

@@ -25,7 +25,8 @@ struct TrajectoryError {
 [[nodiscard]] TrajectoryError trajectory_error(std::span<const Point2> estimate_m,
                                                std::span<const Point2> truth_m);
 
-/// The same of two stamped paths: each estimated position is paired with the true one stamped nearest.
+/// The same of two stamped paths: each estimated position is paired with StampedPath::position_at() of the
+/// truth.
 struct PathError {
   TrajectoryError position;
   StampMatching stamps;  ///< of the estimate, in the truth

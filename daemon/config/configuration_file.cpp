@@ -72,6 +72,8 @@ class Loader {
   explicit Loader(const std::string& path) : path_(path) {}
 
   Result<Configuration> load() {
+    if (std::filesystem::is_directory(path_))
+      return Error{ErrorCode::kInvalidInput, path_ + ": is a directory; name the TOML file in it"};
     if (!std::filesystem::is_regular_file(path_))
       return Error{ErrorCode::kNotFound, path_ + ": no such configuration file"};
     try {

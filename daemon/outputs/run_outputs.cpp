@@ -2,10 +2,15 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/outputs/run_outputs.hpp"
 
+#include <algorithm>
+#include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "core/mapping/picture/map_raster.hpp"
+#include "core/mapping/picture/thumbnail.hpp"
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/png_file.hpp"
 #include "daemon/outputs/ros_map.hpp"
@@ -15,6 +20,10 @@
 namespace swiftlet {
 
 namespace {
+
+constexpr const char* kTruth = "ground_truth.tum";
+constexpr const char* kReport = "report.json";
+constexpr int kThumbnailPx = 256;
 
 Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map) {
   const std::vector<TileIndex> tiles = map.tiles();
@@ -27,10 +36,16 @@ Status write_map_files(const std::filesystem::path& directory, const MapBuilder&
   return write_file(directory / "map.yaml", ros_map_yaml(tiles, map.config().resolution_m, "map.pgm"));
 }
 
-Status write_picture(const std::filesystem::path& directory, const RunView& run) {
-  const Result<std::string> png = encode_png(draw_map(make_map_scene(run.backend, run.map)));
+Status write_picture(const std::filesystem::path& path, const RgbImage& picture) {
+  const Result<std::string> png = encode_png(picture);
   if (!png) return png.error();
-  return write_file(directory / "map.png", *png);
+  return write_file(path, *png);
+}
+
+Status write_pictures(const std::filesystem::path& directory, const RunView& run) {
+  const RgbImage picture = draw_map(make_map_scene(run.backend, run.map));
+  if (Status written = write_picture(directory / "map.png", picture); !written) return written;
+  return write_picture(directory / "thumbnail.png", thumbnail_of(picture, kThumbnailPx));
 }
 
 Status for_each_scan(const RunView& run, const std::function<void(const TrajectoryPoint&)>& visit) {
@@ -57,7 +72,7 @@ Status write_trajectories(const std::filesystem::path& directory, const RunView&
   if (written) written = write_trajectory(directory / "odometry.tum", run, &TrajectoryPoint::T_odom_body);
   if (written) written = write_trajectory(directory / "live.tum", run, &TrajectoryPoint::T_map_live);
   if (!written || run.truth.empty()) return written;
-  return write_file(directory / "ground_truth.tum", [&](const FileSink& write) {
+  return write_file(directory / kTruth, [&](const FileSink& write) {
     std::string line;
     for (const StampedPose& at : run.truth) {
       line.clear();
@@ -66,6 +81,20 @@ Status write_trajectories(const std::filesystem::path& directory, const RunView&
     }
     return Status();
   });
+}
+
+/// Those that its report lists; of a report that lists none, itself. Nothing else is taken for a run's.
+std::vector<std::string> files_of_earlier_run(const std::filesystem::path& directory) {
+  std::ifstream stream(directory / kReport);
+  if (!stream) return {};
+  const auto report = nlohmann::json::parse(stream, nullptr, false);
+  std::vector<std::string> files{kReport};
+  if (!report.is_object() || !report.contains("files")) return files;
+  for (const nlohmann::json& entry : report["files"]) {
+    const std::string name = entry.is_string() ? entry.get<std::string>() : "";
+    if (std::filesystem::path(name).filename() == name) files.push_back(name);
+  }
+  return files;
 }
 
 }  // namespace
@@ -89,12 +118,38 @@ std::optional<RunError> run_error(const RunView& run) {
                   trajectory_error(corrected, known)};
 }
 
-Status write_run_outputs(const std::filesystem::path& directory, const RunView& run) {
-  if (Status ready = prepare_output_directory(directory); !ready) return ready;
-  if (Status written = write_trajectories(directory, run); !written) return written;
-  if (Status written = write_map_files(directory, run.map); !written) return written;
-  if (Status written = write_picture(directory, run); !written) return written;
-  return write_file(directory / "report.json", run_report_json(run));
+std::vector<std::string> output_names(const RunView& run) {
+  std::vector<std::string> names{"trajectory.tum", "odometry.tum", "live.tum"};
+  if (!run.truth.empty()) names.emplace_back(kTruth);
+  names.insert(names.end(), {"map.pgm", "map.yaml", "map.png", "thumbnail.png", kReport});
+  return names;
+}
+
+Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory, const RunView& run) {
+  if (Status ready = prepare_output_directory(directory); !ready) return ready.error();
+  const std::vector<std::string> earlier = files_of_earlier_run(directory);
+  if (Status written = write_trajectories(directory, run); !written) return written.error();
+  if (Status written = write_map_files(directory, run.map); !written) return written.error();
+  if (Status written = write_pictures(directory, run); !written) return written.error();
+  WrittenOutputs outputs{.files = output_names(run), .replaced = !earlier.empty(), .removed = {}};
+  for (const std::string& name : earlier) {
+    std::error_code failure;
+    if (std::ranges::find(outputs.files, name) == outputs.files.end() &&
+        std::filesystem::remove(directory / name, failure))
+      outputs.removed.push_back(name);
+  }
+  if (Status written = write_file(directory / kReport, run_report_json(run)); !written)
+    return written.error();
+  return outputs;
+}
+
+std::optional<std::string> replacement_note(const std::filesystem::path& directory,
+                                            const WrittenOutputs& outputs) {
+  if (!outputs.replaced) return std::nullopt;
+  std::string note = directory.string() + " held an earlier run: its files were replaced";
+  for (std::size_t i = 0; i < outputs.removed.size(); ++i)
+    note += (i == 0 ? ", removed those that this run does not have: " : " ") + outputs.removed[i];
+  return note;
 }
 
 }  // namespace swiftlet

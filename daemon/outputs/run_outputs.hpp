@@ -47,9 +47,22 @@ struct RunError {
 /// nullopt when the truth knows none of the scans.
 [[nodiscard]] std::optional<RunError> run_error(const RunView& run);
 
-/// Writes map.png, map.pgm, map.yaml, trajectory.tum, odometry.tum, live.tum, report.json and, where the
-/// truth is known, ground_truth.tum into the directory, which is created where missing. Each file is complete
-/// or not there: the first that cannot be written ends it, those before it stay.
-[[nodiscard]] Status write_run_outputs(const std::filesystem::path& directory, const RunView& run);
+/// The names of the files that write_run_outputs() writes of this run, in that order: trajectories (the true
+/// one where it is known), map, pictures, at last report.json, which lists them.
+[[nodiscard]] std::vector<std::string> output_names(const RunView& run);
+
+struct WrittenOutputs {
+  std::vector<std::string> files;    ///< output_names()
+  bool replaced = false;             ///< files of an earlier run
+  std::vector<std::string> removed;  ///< those of an earlier run that this one does not have
+};
+/// Writes the outputs into the directory, which is created where missing. Files of other names stay, except
+/// those of which an earlier run's report.json there says that it wrote them. Each file is complete or not
+/// there: the first that cannot be written ends it, those before it stay.
+[[nodiscard]] Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory,
+                                                       const RunView& run);
+/// One line on what became of an earlier run's files; nullopt where there were none.
+[[nodiscard]] std::optional<std::string> replacement_note(const std::filesystem::path& directory,
+                                                          const WrittenOutputs& outputs);
 
 }  // namespace swiftlet

@@ -153,7 +153,8 @@ Json error_json(const TrajectoryError& error) {
 }  // namespace
 
 std::string run_report_json(const RunView& run) {
-  Json json{{"input", input_json(run)},
+  Json json{{"files", output_names(run)},
+            {"input", input_json(run)},
             {"sensor", sensor_json(run)},
             {"calibration", calibration_json(run.calibration)},
             {"frontend", frontend_json(run.frontend)},

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -199,7 +200,8 @@ class LcmPublisher final : public Publisher {
     SWIFTLET_CHECK(bytes > 0, "a message fits one datagram by construction");
     if (lcm_->publish(channel, std::span(buffer_).first(static_cast<std::size_t>(bytes)))) return;
     if (!std::exchange(has_failed_, true))
-      spdlog::error("LCM did not take a message on {}: {}", channel, std::strerror(errno));
+      spdlog::error("LCM did not take a message on {}: {}{}", channel, std::strerror(errno),
+                    errno == ENOTCONN ? "; start its server, which is looked for until it answers" : "");
   }
   void send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose, const PoseUpdate& update);
 

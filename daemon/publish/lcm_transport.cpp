@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <lcm/lcm-cpp.hpp>
 #include <list>
+#include <optional>
 #include <string_view>
+#include <thread>
 #include <utility>
+
+#include "daemon/publish/lcm_network.hpp"
 
 namespace swiftlet {
 namespace {
@@ -21,6 +26,7 @@ bool has_known_provider(std::string_view url) {
 }
 
 struct Channel {
+  std::string name;
   LcmTransport::Listener listener;
 
   // No method: GCC 12's sanitizer takes LCM's calls of those for wild ones.
@@ -32,17 +38,38 @@ struct Channel {
 }  // namespace
 
 struct LcmTransport::State {
-  explicit State(const std::string& url) : lcm(url) {}
+  explicit State(const std::string& of_url) : url(of_url), server(LcmServer::of_url(of_url)) {}
+
+  /// nullptr while the server of tcpq:// is absent, or LCM cannot use the URL.
+  lcm::LCM* connected() {
+    if (lcm) return &*lcm;
+    if (server && !server->is_there()) return nullptr;
+    lcm.emplace(url);
+    for (Channel& channel : channels) lcm->subscribeFunction(channel.name, &Channel::take, &channel);
+    if (!lcm->good()) disconnect();
+    return lcm ? &*lcm : nullptr;
+  }
+  void disconnect() {
+    lcm.reset();
+    if (server) server->mark_lost();
+  }
+
+  std::string url;
+  std::optional<LcmServer> server;
   std::list<Channel> channels;  // LCM keeps their addresses
-  lcm::LCM lcm;
+  std::optional<lcm::LCM> lcm;
 };
 
 Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url) {
   if (!has_known_provider(url))
     return Error{ErrorCode::kInvalidInput,
                  "LCM URL \"" + url + "\": must begin with udpm://, file://, tcpq:// or memq://"};
+  if (const std::optional<std::string> group = lcm_group_of(url); group && !has_route_to(*group))
+    return Error{ErrorCode::kInvalidInput,
+                 "LCM URL \"" + url + "\": no route to " + *group +
+                     " on this machine's network; keep it within the machine: " + kRouteOverLoopback};
   auto state = std::make_unique<State>(url);
-  if (!state->lcm.good())
+  if (state->connected() == nullptr && !state->server)
     return Error{ErrorCode::kInvalidInput,
                  "LCM URL \"" + url + "\": LCM could not open it; swiftlet doctor says why"};
   return std::unique_ptr<LcmTransport>(new LcmTransport(std::move(state)));
@@ -52,17 +79,34 @@ LcmTransport::LcmTransport(std::unique_ptr<State> state) : state_(std::move(stat
 LcmTransport::~LcmTransport() = default;
 
 bool LcmTransport::publish(const std::string& channel, std::span<const std::uint8_t> message) {
-  return state_->lcm.publish(channel, message.data(), static_cast<unsigned>(message.size())) == 0;
+  lcm::LCM* lcm = state_->connected();
+  if (lcm == nullptr) {
+    errno = ENOTCONN;
+    return false;
+  }
+  const bool is_taken = lcm->publish(channel, message.data(), static_cast<unsigned>(message.size())) == 0;
+  if (!is_taken && state_->server) {
+    state_->disconnect();
+    errno = ENOTCONN;
+  }
+  return is_taken;
 }
 
 void LcmTransport::listen(const std::string& channel, Listener listener) {
-  Channel& kept = state_->channels.emplace_back(Channel{std::move(listener)});
-  state_->lcm.subscribeFunction(channel, &Channel::take, &kept);
+  Channel& kept = state_->channels.emplace_back(Channel{channel, std::move(listener)});
+  if (state_->lcm) state_->lcm->subscribeFunction(channel, &Channel::take, &kept);
 }
 
 bool LcmTransport::receive(Duration timeout) {
+  lcm::LCM* lcm = state_->connected();
+  if (lcm == nullptr) {
+    std::this_thread::sleep_for(timeout);
+    return false;
+  }
   const auto timeout_ms = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
-  return state_->lcm.handleTimeout(static_cast<int>(timeout_ms)) > 0;
+  const int handled = lcm->handleTimeout(static_cast<int>(timeout_ms));
+  if (handled < 0 && state_->server) state_->disconnect();
+  return handled > 0;
 }
 
 }  // namespace swiftlet

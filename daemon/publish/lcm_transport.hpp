@@ -16,18 +16,24 @@ namespace swiftlet {
 /// This machine only, as LCM's own default.
 inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-/// Bytes to and from LCM. One thread at a time.
+/// For a machine whose network has no multicast: what lets LCM's datagrams go round within it.
+inline constexpr const char* kRouteOverLoopback =
+    "sudo ip link set lo up multicast on && sudo ip route add 224.0.0.0/4 dev lo";
+
+/// Bytes to and from LCM. A server of tcpq:// may be absent: it is looked for now and then, in silence, and
+/// meanwhile nothing is published or heard. One thread at a time.
 class LcmTransport {
  public:
   using Listener = std::function<void(std::span<const std::uint8_t>)>;
 
-  /// kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or memq://).
+  /// kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or memq://), or there is no route to
+  /// its multicast group.
   [[nodiscard]] static Result<std::unique_ptr<LcmTransport>> open(const std::string& url);
   ~LcmTransport();
   LcmTransport(const LcmTransport&) = delete;
   LcmTransport& operator=(const LcmTransport&) = delete;
 
-  /// False, with errno, when LCM did not take the message.
+  /// False, with errno, when LCM did not take the message (ENOTCONN: the server of tcpq:// is absent).
   [[nodiscard]] bool publish(const std::string& channel, std::span<const std::uint8_t> message);
   /// `listener` is called from within receive(), with each message on that channel.
   void listen(const std::string& channel, Listener listener);

@@ -14,14 +14,13 @@
 namespace swiftlet {
 namespace {
 
-void warn_if_grown(const char* what, std::uint64_t before, std::uint64_t now) {
-  if (now > before) spdlog::warn("{}: {} more, {} in all", what, now - before, now);
+std::string growth_text(const char* what, std::uint64_t before, std::uint64_t now) {
+  return fmt::format("{}: {} more, {} in all", what, now - before, now);
 }
 
-void log_link(const LinkStatistics& before, const LinkStatistics& now) {
-  if (now.condition == before.condition) return;
-  const bool is_well = now.condition == LinkCondition::kConnected;
-  spdlog::log(is_well ? spdlog::level::info : spdlog::level::warn, "link: {}", describe(now.condition));
+void log_if_grown(spdlog::level::level_enum level, const char* what, std::uint64_t before,
+                  std::uint64_t now) {
+  if (now > before) spdlog::log(level, "{}", growth_text(what, before, now));
 }
 
 std::string link_text(const DaemonStatus& status) {
@@ -43,25 +42,36 @@ std::string status_text(const DaemonStatus& status) {
                      link_text(status));
 }
 
-void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
-  log_link(before.input.live.link, now.input.live.link);
-  const InputCounters& counters = now.input.counters;
-  const InputCounters& counters_before = before.input.counters;
-  warn_if_grown("input: holes in the ranges", counters_before.gaps, counters.gaps);
-  const SharingCounters& sharing = now.input.live.sharing.counters;
-  const SharingCounters& sharing_before = before.input.live.sharing.counters;
+std::vector<InputNews> input_news(const InputStatus& before, const InputStatus& now) {
+  std::vector<InputNews> news;
+  const LinkCondition condition = now.live.link.condition;
+  if (condition != before.live.link.condition)
+    news.push_back({condition != LinkCondition::kConnected, "link: " + std::string(describe(condition))});
+  const auto warn_if_grown = [&news](const char* what, std::uint64_t was, std::uint64_t is) {
+    if (is > was) news.push_back({true, growth_text(what, was, is)});
+  };
+  const SharingCounters& sharing_before = before.live.sharing.counters;
+  const SharingCounters& sharing = now.live.sharing.counters;
+  warn_if_grown("input: holes in the ranges", before.counters.gaps, now.counters.gaps);
   warn_if_grown("client: setpoints dropped (vehicle not received, or more than the link carries)",
                 sharing_before.steering_dropped, sharing.steering_dropped);
   warn_if_grown("client: requests dropped (more than the link carries)", sharing_before.requests_dropped,
                 sharing.requests_dropped);
-  warn_if_grown("input: problems", before.input.problems, now.input.problems);
-  if (counters_before.segments > 0)
-    warn_if_grown("input: new segments (silence, restart or reset)", counters_before.segments,
-                  counters.segments);
-  warn_if_grown("frontend: batches rolled back", before.frontend.batches_rolled_back,
-                now.frontend.batches_rolled_back);
-  warn_if_grown("frontend: no room", before.frontend.refused_full, now.frontend.refused_full);
-  warn_if_grown("backend: solver failures", before.backend.solver_failures, now.backend.solver_failures);
+  if (before.counters.segments > 0)
+    warn_if_grown("input: new segments (silence, restart or reset)", before.counters.segments,
+                  now.counters.segments);
+  return news;
+}
+
+void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
+  using enum spdlog::level::level_enum;
+  for (const InputNews& news : input_news(before.input, now.input))
+    spdlog::log(news.is_warning ? warn : info, "{}", news.text);
+  log_if_grown(warn, "input: problems", before.input.problems, now.input.problems);
+  log_if_grown(debug, "frontend: batches rolled back", before.frontend.batches_rolled_back,
+               now.frontend.batches_rolled_back);
+  log_if_grown(warn, "frontend: no room", before.frontend.refused_full, now.frontend.refused_full);
+  log_if_grown(warn, "backend: solver failures", before.backend.solver_failures, now.backend.solver_failures);
   for (std::size_t i = 0; i < now.queues.size(); ++i) {
     if (now.queues[i].refused > before.queues[i].refused)
       spdlog::warn("queue of {}: full, {} refused in all", now.queues[i].name, now.queues[i].refused);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "daemon/publish/publisher.hpp"
 #include "daemon/workers/pipeline_messages.hpp"
@@ -11,8 +12,16 @@ namespace swiftlet {
 
 // The publisher's thread writes the log for the workers that must not: it has their counters.
 
-/// One line for whatever deserves attention between two statuses: refusals, roll-backs, a new beginning of
-/// the dead reckoning, solver failures. Allocates.
+/// A line about the input.
+struct InputNews {
+  bool is_warning = true;
+  std::string text;
+};
+/// What deserves attention between two statuses of an input: another condition of the link, holes in the
+/// ranges, a new beginning of the dead reckoning, packets of a client that were dropped. Allocates.
+[[nodiscard]] std::vector<InputNews> input_news(const InputStatus& before, const InputStatus& now);
+/// One line for whatever deserves attention between two statuses: input_news(), refusals, solver failures; in
+/// a verbose log roll-backs, too. Allocates.
 void log_changes(const DaemonStatus& before, const DaemonStatus& now);
 /// Where the run stands, in half a line. Allocates.
 [[nodiscard]] std::string status_text(const DaemonStatus& status);

@@ -20,13 +20,19 @@ constexpr timespec kLookEvery{.tv_sec = 0, .tv_nsec = 50'000'000};
 constexpr std::chrono::seconds kSameRequest{1};
 constexpr std::string_view kFarewell = "ended at once by a second signal: what was not written is lost\n";
 
+/// As nohup(1) has it. A signal that is blocked would come nevertheless.
+bool ignores_hangups() {
+  struct sigaction present {};
+  return ::sigaction(SIGHUP, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 SignalWatcher::SignalWatcher(std::function<void()> on_hangup) : on_hangup_(std::move(on_hangup)) {
   sigemptyset(&watched_);
   sigaddset(&watched_, SIGINT);
   sigaddset(&watched_, SIGTERM);
-  if (on_hangup_) sigaddset(&watched_, SIGHUP);
+  if (on_hangup_ || !ignores_hangups()) sigaddset(&watched_, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &watched_, &previous_);
   thread_ = std::jthread([this](const std::stop_token& over) { watch(over); });
 }
@@ -43,7 +49,7 @@ void SignalWatcher::watch(const std::stop_token& over) {
   while (!over.stop_requested()) {
     const int signal = sigtimedwait(&watched_, nullptr, &kLookEvery);
     if (signal < 0) continue;
-    if (signal == SIGHUP) {
+    if (signal == SIGHUP && on_hangup_) {
       on_hangup_();
     } else if (!signalled_.stop_requested()) {
       asked_at = steady_clock::now();

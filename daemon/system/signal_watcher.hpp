@@ -9,13 +9,14 @@
 
 namespace swiftlet {
 
-/// Turns SIGHUP into a call, where one is given, and the first SIGINT or SIGTERM into a request to stop. A
-/// second one, unless it comes within a second (timeout(1) and some terminals send each twice), ends the
-/// program at once, as it would have without the watcher, and with a line on stderr. Make it before any other
-/// thread: it blocks the signals in the calling thread, and threads inherit that.
+/// Turns the first SIGINT, SIGTERM or SIGHUP into a request to stop; SIGHUP into a call instead, where one is
+/// given, and into nothing where the program began with SIGHUP ignored. A second request, unless it comes
+/// within a second (timeout(1) and some terminals send each twice), ends the program at once, as it would
+/// have without the watcher, and with a line on stderr. Make it before any other thread: it blocks the
+/// signals in the calling thread, and threads inherit that.
 class SignalWatcher {
  public:
-  /// `on_hangup` is called by the watcher's own thread; without it SIGHUP does what it always does.
+  /// `on_hangup` is called by the watcher's own thread.
   explicit SignalWatcher(std::function<void()> on_hangup = {});
   ~SignalWatcher();
   SignalWatcher(const SignalWatcher&) = delete;

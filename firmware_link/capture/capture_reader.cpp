@@ -6,18 +6,22 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <utility>
 
 #include "firmware_link/crtp/byte_order.hpp"
 #include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/file/gzip_file.hpp"
 #include "firmware_link/file/input_file.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr std::size_t kMaxRecord = 65535;
+constexpr std::size_t kMaxUnpackedBytes = 1'000'000'000;
 constexpr std::size_t kMaxKnownRecord = record_prefix(CaptureLinkKind::kUsb) + kMaxCrtpPacket;
 
 std::optional<CaptureLinkKind> kind_of(std::uint8_t byte) {
@@ -50,10 +54,24 @@ Result<CaptureReader> CaptureReader::open(const std::string& path) {
   CaptureReader reader;
   reader.path_ = path;
   reader.size_ = *size;
-  reader.file_.open(path, std::ios::binary);
+  if (Status opened = reader.open_file(); !opened) return opened.error();
   const Status read = reader.read_file_header();
   if (!read) return read.error();
   return reader;
+}
+
+Status CaptureReader::open_file() {
+  is_gzip_ = begins_like_gzip(path_);
+  if (!is_gzip_) {
+    file_ = std::make_unique<std::ifstream>(path_, std::ios::binary);
+    return {};
+  }
+  Result<UnpackedFile> unpacked = unpack_gzip(path_, kMaxUnpackedBytes);
+  if (!unpacked) return unpacked.error();
+  is_gzip_damaged_ = unpacked->is_damaged;
+  size_ = unpacked->bytes.size();
+  file_ = std::make_unique<std::istringstream>(std::move(unpacked->bytes));
+  return {};
 }
 
 Status CaptureReader::read_file_header() {
@@ -82,6 +100,7 @@ Status CaptureReader::read_file_header() {
 Result<CaptureRecord> CaptureReader::next() {
   for (;;) {
     if (grows_) look_for_growth();
+    if (offset_ == size_ && is_gzip_damaged_) return damaged("the gzip stream is cut off or garbled");
     if (offset_ == size_) return ends({ErrorCode::kEndOfRecording, path_ + ": end of the capture"});
     std::array<std::uint8_t, kPcapRecordHeader> header{};
     if (size_ - offset_ < header.size()) return ends(damaged("the file ends inside a record header"));
@@ -107,11 +126,11 @@ Result<CaptureRecord> CaptureReader::next() {
     }
     if (fault != nullptr) {
       offset_ = record_start;
-      file_.seekg(static_cast<std::streamoff>(offset_));
+      file_->seekg(static_cast<std::streamoff>(offset_));
       return is_unfinished ? ends(damaged(fault)) : damaged(fault);
     }
     if (length > body.size()) {
-      file_.seekg(static_cast<std::streamoff>(length - body.size()), std::ios::cur);
+      file_->seekg(static_cast<std::streamoff>(length - body.size()), std::ios::cur);
       offset_ += length - body.size();
     }
     std::optional<CaptureRecord> record = length > body.size() ? std::nullopt : parse_record(body);
@@ -133,15 +152,15 @@ void CaptureReader::look_for_growth() {
   const std::uint64_t size = std::filesystem::file_size(path_, failure);
   if (failure || size <= size_) return;
   size_ = size;
-  file_.clear();
-  file_.seekg(static_cast<std::streamoff>(offset_));
+  file_->clear();
+  file_->seekg(static_cast<std::streamoff>(offset_));
 }
 
 void CaptureReader::rewind() {
-  file_.clear();
+  file_->clear();
   offset_ = kPcapFileHeader;
   skipped_ = 0;
-  file_.seekg(static_cast<std::streamoff>(offset_));
+  file_->seekg(static_cast<std::streamoff>(offset_));
 }
 
 std::uint32_t CaptureReader::load(std::span<const std::uint8_t> bytes, std::size_t at) const {
@@ -156,8 +175,8 @@ Error CaptureReader::damaged(const std::string& what) const {
 
 bool CaptureReader::read_exactly(std::span<std::uint8_t> bytes) {
   // iostreams read chars; the bytes are the same.
-  file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (file_.gcount() != static_cast<std::streamsize>(bytes.size())) return false;
+  file_->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (file_->gcount() != static_cast<std::streamsize>(bytes.size())) return false;
   offset_ += bytes.size();
   return true;
 }

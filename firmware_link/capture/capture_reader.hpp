@@ -4,7 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <string>
 
 #include "core/base/result.hpp"
@@ -18,8 +19,8 @@ struct CaptureRecord {
   LinkFrame frame;
 };
 
-/// Reads a capture record by record, in either byte order, with stamps in microseconds or nanoseconds. One
-/// thread at a time.
+/// Reads a capture record by record, in either byte order, with stamps in microseconds or nanoseconds. One in
+/// gzip is unpacked into memory first; offsets are those in the capture. One thread at a time.
 class CaptureReader {
  public:
   /// Errors: kNotFound: no such file. kInvalidInput: a directory, unreadable, empty, or not such a capture.
@@ -29,8 +30,8 @@ class CaptureReader {
   /// message names the byte offset, and every later call returns the same error.
   [[nodiscard]] Result<CaptureRecord> next();
   /// The file is still written: where it ends at present, even inside a record, next() returns kTimeout and
-  /// reads on at the next call.
-  void follow() { grows_ = true; }
+  /// reads on at the next call. One in gzip is read as it is.
+  void follow() { grows_ = !is_gzip_; }
   /// Back to the first record.
   void rewind();
 
@@ -43,6 +44,7 @@ class CaptureReader {
 
  private:
   CaptureReader() = default;
+  Status open_file();
   Status read_file_header();
   [[nodiscard]] std::uint32_t load(std::span<const std::uint8_t> bytes, std::size_t at) const;
   [[nodiscard]] Error ends(const Error& otherwise) const;
@@ -51,7 +53,9 @@ class CaptureReader {
   bool read_exactly(std::span<std::uint8_t> bytes);
 
   std::string path_;
-  std::ifstream file_;
+  std::unique_ptr<std::istream> file_;
+  bool is_gzip_ = false;
+  bool is_gzip_damaged_ = false;
   std::uint64_t size_ = 0;
   std::uint64_t offset_ = 0;
   std::uint64_t skipped_ = 0;

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/file/input_file.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -29,8 +31,10 @@ Result<std::uint64_t> size_of_input_file(const std::string& path) {
 
 bool begins_like_capture(const std::string& path) {
   std::array<char, 4> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), start.size());
+  const gzFile file = gzopen(path.c_str(), "rb");  // reads plain files, too
+  if (file == nullptr) return false;
+  static_cast<void>(gzread(file, start.data(), static_cast<unsigned>(start.size())));
+  static_cast<void>(gzclose_r(file));
   constexpr std::array<std::array<char, 4>, 5> kStarts{{{'\xD4', '\xC3', '\xB2', '\xA1'},
                                                         {'\xA1', '\xB2', '\xC3', '\xD4'},
                                                         {'\x4D', '\x3C', '\xB2', '\xA1'},

@@ -13,7 +13,8 @@ namespace swiftlet {
 /// device, no permission, or empty. The message is written for the user.
 [[nodiscard]] Result<std::uint64_t> size_of_input_file(const std::string& path);
 
-/// By content: the magic numbers of pcap files, classic or not. False if it cannot be read.
+/// By content: the magic numbers of pcap files, classic or not, plain or within gzip. False if it cannot be
+/// read.
 [[nodiscard]] bool begins_like_capture(const std::string& path);
 
 }  // namespace swiftlet

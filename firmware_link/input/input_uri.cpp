@@ -36,7 +36,7 @@ std::string input_forms(std::initializer_list<InputNature> natures) {
   for (const InputKind& kind : input_kinds()) {
     if (std::ranges::find(natures, kind.nature) == natures.end()) continue;
     forms.push_back(std::string(kind.scheme).append(kind.form));
-    if (kind.nature == InputNature::kFile) forms.emplace_back("a path (.pcap, .clf, .clf.gz)");
+    if (kind.nature == InputNature::kFile) forms.emplace_back("a path (.pcap or .clf, also in gzip)");
   }
   std::string text = forms.front();
   for (std::size_t i = 1; i < forms.size(); ++i) text += (i + 1 < forms.size() ? ", " : " or ") + forms[i];

@@ -57,9 +57,10 @@ Status apply(const SampleSourceOptions& options, LinkInput& input) {
   return {};
 }
 
-/// By the description beside a capture, if there is one.
+/// By the description beside a capture, if there is one; that of a packed capture has the plain one's name.
 Status describe(const std::string& path, LinkInput& input) {
-  Result<BlockDescription> description = read_block_description(path + ".toml");
+  const std::string plain = path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
+  Result<BlockDescription> description = read_block_description(plain + ".toml");
   if (description)
     input.description = std::move(description).value();
   else if (description.error().code != ErrorCode::kNotFound)
@@ -103,7 +104,8 @@ Result<std::unique_ptr<SampleSource>> open_followed(const std::string& path,
 Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const SampleSourceOptions& options) {
   const Result<std::uint64_t> size = size_of_input_file(path);
   if (!size) return size.error();
-  if (begins_like_capture(path) || path.ends_with(".pcap")) return open_capture(path, options);
+  if (begins_like_capture(path) || path.ends_with(".pcap") || path.ends_with(".pcap.gz"))
+    return open_capture(path, options);
   const Status limits = check_limits(options, SensorModel::carmen_laser());
   if (!limits) return limits.error();
   return CarmenSampleSource::open(path, options);

@@ -70,7 +70,7 @@ class CarmenParser {
     if (line.starts_with("ODOM ")) fault = parse_odometry(Numbers(line.substr(5)));
     if (fault == nullptr) return;
     if (++malformed_ <= kMaxNamedLines)
-      log_.problems.push_back(path_ + ":" + std::to_string(number) + ": " + fault);
+      log_.problems.push_back(path_ + ":" + std::to_string(number) + ": " + fault + "; the line is left out");
   }
 
   void add_problem(const std::string& problem) { log_.problems.push_back(problem); }
@@ -78,7 +78,7 @@ class CarmenParser {
   CarmenLog finish() {
     if (malformed_ > kMaxNamedLines)
       log_.problems.push_back(path_ + ": " + std::to_string(malformed_ - kMaxNamedLines) +
-                              " more malformed lines");
+                              " more malformed lines were left out");
     log_.beams = beams_;
     sort_scans();
     std::stable_sort(log_.odometry.begin(), log_.odometry.end(), earlier);

@@ -127,7 +127,22 @@ Result<ReceivedSample> CarmenSampleSource::next() {
     if (feed()) continue;
     assembler_.end();
     if (const std::optional<RangeSample> sample = assembler_.take()) return ReceivedSample{.sample = *sample};
+    finish_report();
     return Error{ErrorCode::kEndOfRecording, "end of the laser log"};
+  }
+}
+
+void CarmenSampleSource::finish_report() {
+  if (std::exchange(is_finished_, true)) return;
+  const InputCounters& counters = report_.counters;
+  if (counters.segments > 1)
+    report_.notes.push_back("breaks in the dead reckoning: " + std::to_string(counters.segments - 1) +
+                            "; a new segment begins behind each");
+  if (counters.samples > 0 && counters.hits == 0) {
+    char limits[48];
+    std::snprintf(limits, sizeof limits, "%g to %g m", sensor_.min_range_m, sensor_.max_range_m);
+    report_.notes.push_back("no range is a return (" + std::string(limits) +
+                            "): there is no wall to draw and nothing to correct the dead reckoning by");
   }
 }
 

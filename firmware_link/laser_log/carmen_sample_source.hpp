@@ -38,6 +38,7 @@ class CarmenSampleSource final : public SampleSource {
   bool feed();
   void feed_odometry(const CarmenOdometry& odometry);
   void feed_scan();
+  void finish_report();
 
   CarmenLog log_;
   bool uses_odometry_lines_;
@@ -48,6 +49,7 @@ class CarmenSampleSource final : public SampleSource {
   std::size_t next_odometry_ = 0;
   std::size_t next_scan_ = 0;
   DeviceTime last_scan_at_{};
+  bool is_finished_ = false;
 };
 
 }  // namespace swiftlet

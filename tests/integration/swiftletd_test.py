@@ -8,6 +8,7 @@ CASE is the name of one of the functions below. Exit code 77: skipped, the last 
 
 import json
 import os
+import pty
 import signal
 import subprocess
 import sys
@@ -52,7 +53,7 @@ class Bench:
         """To its end, publishing nowhere: (exit code, lines on stderr)."""
         url = f"file://{self.folder}/run.lcm?mode=w"
         done = subprocess.run([self.swiftletd, "--lcm-url", url, *map(str, arguments)], stderr=subprocess.PIPE,
-                              timeout=TIMEOUT_S, check=False)
+                              cwd=self.folder, timeout=TIMEOUT_S, check=False)
         return done.returncode, done.stderr.decode().splitlines()
 
 
@@ -133,6 +134,10 @@ def sigterm_ends_the_run_with_its_outputs(bench):
     stop_with(bench, signal.SIGTERM)
 
 
+def sighup_ends_the_run_with_its_outputs(bench):
+    stop_with(bench, signal.SIGHUP)
+
+
 def threads_that_take_sigint(pid):
     """The names of those that do not block it."""
     takers = []
@@ -145,7 +150,7 @@ def threads_that_take_sigint(pid):
 
 def sigint_ends_a_wait_for_the_dongle(bench):
     """The USB library's own thread must not take the signal."""
-    with subprocess.Popen([bench.swiftletd, "--input", "radio://NOSUCHSERIAL/80", "--no-record",
+    with subprocess.Popen([bench.swiftletd, "--input", "radio://NOSUCHSERIAL/80", "--no-record", "--no-output",
                            "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
         said = daemon.stderr.readline()
         while b"plug it in" not in said:
@@ -180,15 +185,77 @@ def bad_input_gets_one_line_and_exit_code_2(bench):
             (["--input", "sim://nowhere"], "nowhere"),
             (["--input", "sim://loop", "--config", bench.folder / "missing.toml"], "missing.toml"),
             (["--input", "sim://loop", "--config", config], "bad.toml:3"),
+            (["--input", "sim://loop", "--config", bench.folder], "is a directory; name the TOML file"),
             (["--input", "sim://loop", "--rate", "-1"], "--rate"),
+            (["--input", "sim://loop", "--rate", "nan"], "--rate: nan is no number"),
+            (["--input", "sim://loop", "--rate", "inf"], "--rate: inf is no number"),
+            (["--input", "sim://loop", "-o", ""], "-o names no directory"),
             (["--input", "sim://loop", "-o", "/proc/nowhere"], "/proc/nowhere"),
-            ([], "--input")]:
+            ([], "for example: swiftletd radio://0/80/2M/E7E7E7E7E7")]:
         code, lines = bench.daemon(*arguments)
         expect(code == 2, f"{arguments}: exit code {code}")
         expect(len(lines) == 1 and part in lines[0], f"{arguments}: {lines}")
     done = subprocess.run([bench.swiftletd, "--input", "sim://loop", "--lcm-url", "mqtt://here"],
                           capture_output=True, check=False)
     expect(done.returncode == 2 and b"mqtt://here" in done.stderr, done.stderr.decode())
+
+
+def without_a_directory_each_flight_gets_a_folder(bench):
+    for _ in range(2):
+        code, lines = bench.daemon("sim://loop?seed=2", "--rate", 1000)
+        expect(code == 0, lines)
+    folders = sorted((bench.folder / "flights").iterdir())
+    expect(len(folders) == 2 and all("_loop" in folder.name for folder in folders), folders)
+    for folder in folders:
+        expect((folder / "thumbnail.png").stat().st_size > 0, "no thumbnail")
+    code, lines = bench.daemon("sim://loop?seed=2", "--rate", 1000, "-o", folders[0])
+    expect(code == 0 and any("its files were replaced" in line for line in lines), lines)
+    code, lines = bench.daemon("sim://loop?seed=2", "--rate", 1000, "--no-output")
+    expect(code == 0 and len(list((bench.folder / "flights").iterdir())) == 2, lines)
+
+
+def a_second_run_into_the_same_directory_is_refused(bench):
+    out = bench.folder / "out"
+    with subprocess.Popen([bench.swiftletd, "sim://office?seed=1", "--rate", "5", "-o", str(out),
+                           "--lcm-url", "memq://"], stderr=subprocess.PIPE, text=True) as daemon:
+        expect("publishing on" in daemon.stderr.readline(), "it did not begin")
+        code, lines = bench.daemon("sim://loop", "-o", out)
+        expect(code == 2 and len(lines) == 1 and "out: another run writes there" in lines[0], lines)
+        daemon.send_signal(signal.SIGINT)
+        daemon.communicate(timeout=60)
+    expect(daemon.returncode == 0 and (out / "map.png").exists(), "the first one lost its outputs")
+
+
+def a_terminal_without_wish_for_colours_gets_none(bench):
+    for refused, expected in (("", True), ("1", False)):
+        mine, theirs = pty.openpty()
+        environment = {**os.environ, "NO_COLOR": refused}
+        daemon = subprocess.run([bench.swiftletd, "sim://loop", "--rate", "1000", "--lcm-url", "memq://", "--no-output"],
+                                stderr=theirs, env=environment, timeout=TIMEOUT_S, check=False)
+        os.close(theirs)
+        said = os.read(mine, 4096)
+        os.close(mine)
+        expect(daemon.returncode == 0 and (b"\x1b[" in said) == expected, said)
+
+
+def without_a_multicast_route_it_says_so_in_one_line(bench):
+    alone = ["unshare", "--user", "--map-root-user", "--net", "--"]
+    if subprocess.run([*alone, "true"], capture_output=True, check=False).returncode != 0:
+        raise Skipped("network namespaces are not permitted here")
+    done = subprocess.run([*alone, bench.swiftletd, "sim://loop", "--lcm-url", URL], cwd=bench.folder,
+                          capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    lines = done.stderr.splitlines()
+    expect(done.returncode == 2 and len(lines) == 1, done.stderr)
+    for part in ("no route to 239.255.76.67", "sudo ip link set lo up multicast on", "sudo ip route add 224.0.0.0/4 dev lo"):
+        expect(part in lines[0], lines)
+
+
+def an_absent_server_of_messages_is_told_of_once(bench):
+    done = subprocess.run([bench.swiftletd, "sim://loop", "--rate", "1000", "--lcm-url", "tcpq://127.0.0.1:1",
+                           "--no-output"], capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    lines = done.stderr.splitlines()
+    expect(done.returncode == 0 and len(lines) < 20, f"{len(lines)} lines: {lines[:20]}")
+    expect(sum("start its server" in line for line in lines) == 1, lines)
 
 
 def a_truncated_capture_is_used_up_to_the_damage(bench):
@@ -204,7 +271,7 @@ def a_truncated_capture_is_used_up_to_the_damage(bench):
 
 def killed_while_recording_it_loses_no_more_than_a_second(bench):
     recording = bench.folder / "flight.pcap"
-    command = [bench.swiftletd, "--input", "sim://office?seed=7", "--record", str(recording),
+    command = [bench.swiftletd, "--input", "sim://office?seed=7", "--record", str(recording), "--no-output",
                "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"]
     with subprocess.Popen(command, stderr=subprocess.DEVNULL) as daemon:
         until = time.monotonic() + 60.0
@@ -222,7 +289,7 @@ def killed_while_recording_it_loses_no_more_than_a_second(bench):
 
 def sighup_opens_the_log_file_anew(bench):
     log, moved = bench.folder / "swiftletd.log", bench.folder / "swiftletd.log.1"
-    with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "5", "--log-file", str(log),
+    with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "5", "--log-file", str(log), "--no-output",
                            "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
         until = time.monotonic() + 60.0
         while not log.exists() or "publishing on" not in log.read_text(encoding="utf-8"):
@@ -248,7 +315,7 @@ def what_real_time_needs_and_may_not_have_is_one_warning(bench):
     if subprocess.run([*no_privilege, "true"], capture_output=True, check=False).returncode != 0:
         raise Skipped("user namespaces are not permitted here")
     done = subprocess.run([*no_privilege, bench.swiftletd, "--input", "sim://loop?seed=1", "--rate", "1000", "--config",
-                           str(config), "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"],
+                           str(config), "--no-output", "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"],
                           stderr=subprocess.PIPE, timeout=TIMEOUT_S, check=False)
     lines = [line for line in done.stderr.decode().splitlines() if "real time" in line]
     expect(done.returncode == 0 and len(lines) == 1, done.stderr.decode())

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "tests/daemon/outputs/temporary_directory.hpp"
@@ -34,13 +35,16 @@ class SwiftletCommand : public testing::Test {
   [[nodiscard]] Outcome run(const std::string& arguments) const {
     return run_as(SWIFTLET_COMMAND, arguments);
   }
-  [[nodiscard]] Outcome run_as(const std::string& program, std::string arguments) const {
-    for (auto at = arguments.find("{}"); at != std::string::npos; at = arguments.find("{}"))
-      arguments.replace(at, 2, directory_.path());
+  [[nodiscard]] Outcome run_in(const std::string& directory, const std::string& arguments) const {
+    return run_as("cd " + directory + " && " + SWIFTLET_COMMAND, arguments);
+  }
+  [[nodiscard]] Outcome run_as(const std::string& program, const std::string& arguments) const {
     const fs::path out = directory_.path() / "stdout";
     const fs::path err = directory_.path() / "stderr";
-    const std::string command =
+    std::string command =
         program + " " + arguments + " >" + out.string() + " 2>" + err.string() + " </dev/null";
+    for (auto at = command.find("{}"); at != std::string::npos; at = command.find("{}"))
+      command.replace(at, 2, directory_.path());
     const int status = std::system(command.c_str());  // NOLINT(*-env33-c,cert-*): a shell is what is tested
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
   }
@@ -90,14 +94,33 @@ TEST_F(SwiftletCommand, HelpAndVersionAreNoErrors) {
   const Outcome help = run("map --help");
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.out, AllOf(HasSubstr("INPUT"), HasSubstr("--frontend-only")));
-  EXPECT_EQ(run("--version").exit_code, 0);
+  const Outcome version = run("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out,
+              testing::ContainsRegex("^swiftlet [0-9.]+ \\(commit ([0-9a-f]+(-dirty)?|unknown)\\)\n"
+                                     "built by .* Eigen 3\\..* CHOLMOD .* LCM .* libusb "));
+}
+
+TEST_F(SwiftletCommand, HelpNamesACommand) {
+  EXPECT_EQ(run("help map").out, run("map --help").out);
+  EXPECT_THAT(run("help map").out, HasSubstr("--frontend-only"));
+  EXPECT_EQ(run("help").out, run("--help").out);
+  EXPECT_THAT(run("help fly"), refuses_with("no command 'fly'; see swiftlet --help"));
+}
+
+TEST_F(SwiftletCommand, ShowsHowToWriteACommandThatLacksSomething) {
+  EXPECT_THAT(run("map"), refuses_with("map: INPUT is required; for example: swiftlet map flight.pcap"));
+  EXPECT_THAT(run("record sim://office"), refuses_with("record: --output is required; for example: "));
+  EXPECT_THAT(run("eval"), refuses_with("eval: TRAJECTORY is required; for example: "));
+  EXPECT_THAT(run("map in.clf --beams 1"), refuses_with("see swiftlet help map"));
 }
 
 TEST_F(SwiftletCommand, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(run(""), refuses_with("swiftlet --help"));
   EXPECT_THAT(run("fly"), refuses_with("no command 'fly'; see swiftlet --help"));
   EXPECT_THAT(run("map in.pcap -o {}/out --frobnicate"), refuses_with("--frobnicate"));
-  EXPECT_THAT(run("map in.pcap"), refuses_with("--output"));
+  write("run.clf", small_log());
+  EXPECT_THAT(run("map {}/run.clf -o ''"), refuses_with("-o names no directory"));
   EXPECT_THAT(run("map in.clf -o {}/out --beams 1"), refuses_with("--beams"));
   EXPECT_THAT(run("map in.clf -o {}/out --odometry-only --frontend-only"), refuses_with("--frontend-only"));
 }
@@ -112,6 +135,33 @@ TEST_F(SwiftletCommand, NamesTheInputThatCannotBeUsed) {
   EXPECT_THAT(run("map {}/file.docx -o {}/out"), refuses_with("file.docx"));
 }
 
+TEST_F(SwiftletCommand, MapsNoLiveVehicleAndNamesWhatDoes) {
+  const auto refusal = AllOf(refuses_with("map it with swiftletd udp://127.0.0.1:1,"),
+                             refuses_with("swiftlet record udp://127.0.0.1:1 -o flight.pcap"));
+  EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, "map udp://127.0.0.1:1 -o {}/out"), refusal);
+  EXPECT_THAT(run("eval --live udp://127.0.0.1:1"), refusal);
+  EXPECT_FALSE(fs::exists(file("out")));
+}
+
+TEST_F(SwiftletCommand, TakesNoNumberThatIsNone) {
+  for (const std::string number : {"nan", "-nan", "inf", "-inf"}) {
+    for (const std::string option : {"--battery", "--clock-start", "--loss", "--delay", "--duplicates"})
+      EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, "sim --udp 127.0.0.1:0 " + option + " " + number),
+                  refuses_with("sim: " + option + ": " + number + " is no number from "));
+    EXPECT_THAT(run("record sim://loop -o {}/a.pcap --seconds " + number), refuses_with("--seconds: "));
+    EXPECT_THAT(run("eval --live sim://patrol --batch " + number), refuses_with("--batch: "));
+  }
+}
+
+TEST_F(SwiftletCommand, SaysThatItsOutputCouldNotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  for (const char* arguments : {"eval {}/path.tum --truth {}/path.tum", "--help", "help eval", "--version"}) {
+    const Outcome outcome = run_as("sh -c '" SWIFTLET_COMMAND " \"$@\" >/dev/full' sh", arguments);
+    EXPECT_THAT(outcome, refuses_with("the output is not complete: No space left on device")) << arguments;
+  }
+}
+
 TEST_F(SwiftletCommand, NamesWhatTheSimulationCannotUse) {
   EXPECT_THAT(run("sim --world nowhere"), refuses_with("office, maze, loop, corridors, wings, patrol"));
   EXPECT_THAT(run("sim --udp somewhere"), refuses_with("somewhere"));
@@ -124,6 +174,8 @@ TEST_F(SwiftletCommand, NamesWhatTheSimulationCannotUse) {
 TEST_F(SwiftletCommand, NamesTheConfigurationThatCannotBeUsed) {
   write("run.clf", small_log());
   EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/none.toml"), refuses_with("none.toml"));
+  EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}"),
+              refuses_with(": is a directory; name the TOML file"));
   write("bad.toml", "[map]\nresolution_m = -1.0\n");
   EXPECT_THAT(run("map {}/run.clf -o {}/out --config {}/bad.toml"), refuses_with("bad.toml"));
   write("tuning.toml", "[tuning.backend_matcher]\nfloor_sigma_m = nan\n");
@@ -161,6 +213,43 @@ TEST_F(SwiftletCommand, MapsALaserLogAndSaysWhereTheFilesAre) {
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 150);
 }
 
+TEST_F(SwiftletCommand, WithoutADirectoryEachFlightGetsAFolderThatFlightsLists) {
+  write("run.clf", small_log());
+  for (int i = 0; i < 2; ++i) {
+    const Outcome mapped = run_in("{}", "map run.clf");
+    EXPECT_EQ(mapped.exit_code, 0) << mapped.err;
+    EXPECT_THAT(mapped.out, testing::ContainsRegex("files: flights/[-0-9_]*_run"));
+  }
+  std::set<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(file("flights"))) folders.insert(entry.path());
+  ASSERT_EQ(folders.size(), 2U);
+  for (const fs::path& folder : folders) EXPECT_GT(fs::file_size(folder / "thumbnail.png"), 0U);
+  write("flights/notes.txt", "no flight");
+  const Outcome listed = run_in("{}", "flights");
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  EXPECT_EQ(std::count(listed.out.begin(), listed.out.end(), '\n'), 3);  // a heading and two flights
+  EXPECT_THAT(listed.out, testing::ContainsRegex("_run *14\\.9 *0:30 *0  flights/.*_run/thumbnail.png\n"));
+  EXPECT_THAT(run("flights {}/none"), refuses_with("none"));
+}
+
+TEST_F(SwiftletCommand, ReplacesAnEarlierRunAndSaysSo) {
+  write("run.clf", small_log());
+  ASSERT_EQ(run("map 'sim://patrol?seed=1' -o {}/out").exit_code, 0);
+  ASSERT_TRUE(fs::exists(file("out/ground_truth.tum")));
+  const Outcome second = run("map {}/run.clf -o {}/out");
+  EXPECT_EQ(second.exit_code, 0);
+  EXPECT_THAT(second.err, HasSubstr("out held an earlier run: its files were replaced, removed those that "
+                                    "this run does not have: ground_truth.tum\n"));
+  EXPECT_FALSE(fs::exists(file("out/ground_truth.tum")));
+}
+
+TEST_F(SwiftletCommand, RefusesADirectoryThatAnotherRunWritesTo) {
+  write("run.clf", small_log());
+  fs::create_directory(file("out"));
+  const Outcome second = run_as("flock {}/out " SWIFTLET_COMMAND, "map {}/run.clf -o {}/out");
+  EXPECT_THAT(second, refuses_with("out: another run writes there"));
+}
+
 TEST_F(SwiftletCommand, OdometryOnlyCorrectsNothing) {
   write("run.clf", small_log());
   ASSERT_EQ(run("map {}/run.clf -o {}/out --odometry-only").exit_code, 0);
@@ -179,7 +268,8 @@ TEST_F(SwiftletCommand, RecordsAFlightThatMapsAsTheFlightItselfDoes) {
   const Outcome outcome = run("record 'sim://corridors?seed=3' -o {}/flight.pcap --seconds 60");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr(" samples, "), HasSubstr(" kB: "), HasSubstr("flight.pcap")));
-  EXPECT_THAT(outcome.err, StartsWith("swiftlet: note: connected to the vehicle"));
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("swiftlet: note: connected to the vehicle"),
+                                 HasSubstr("\nswiftlet: warning: input: holes in the ranges: ")));
   const Outcome whole = run("record 'sim://corridors?seed=3' -o {}/whole.pcap");
   EXPECT_EQ(whole.exit_code, 0);
   EXPECT_GT(fs::file_size(file("whole.pcap")), fs::file_size(file("flight.pcap")));
@@ -332,7 +422,7 @@ TEST_F(SwiftletCommand, EvaluatesOnACaptureUpToItsDamageAndSaysSo) {
   const Outcome outcome = run("eval {}/path.tum {}/cut.pcap");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.out, HasSubstr(" cells of 0.2 m"));
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("byte"), EndsWith("the figures come from what came before\n")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("byte"), EndsWith("what precedes it is used\n")));
 }
 
 TEST_F(SwiftletCommand, RefusesACaptureThatIsCutBeforeItsFirstSample) {

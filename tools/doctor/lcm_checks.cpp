@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "daemon/publish/lcm_transport.hpp"
+
 namespace swiftlet {
 namespace {
 
 constexpr long long kBufferBytes = 2'097'152;  // what LCM's documentation asks for
-constexpr const char* kRouteOverLoopback =
-    "sudo ip link set lo up multicast on && sudo ip route add 224.0.0.0/4 dev lo";
 
 std::string reach_of(const LcmUrl& url) {
   return url.ttl == 0 ? "this machine only" : "ttl " + std::to_string(url.ttl) + ": leaves this machine";

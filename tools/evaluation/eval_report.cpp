@@ -33,8 +33,10 @@ std::string named(const std::vector<HostTime>& stamps) {
 }
 
 std::string stamps_line(const StampMatching& stamps, const char* whose) {
-  std::string text = fmt::format("  stamps: {} exact, {} within 2 ms, {} unmatched\n", stamps.exact,
-                                 stamps.near, stamps.unmatched.size());
+  std::string text =
+      fmt::format("  stamps: {} exact, {} within 2 ms, {}{} unmatched\n", stamps.exact, stamps.near,
+                  stamps.between > 0 ? fmt::format("{} interpolated or within 20 ms, ", stamps.between) : "",
+                  stamps.unmatched.size());
   if (!stamps.unmatched.empty()) text += fmt::format("  {}: {}\n", whose, named(stamps.unmatched));
   return text;
 }
@@ -85,6 +87,28 @@ std::string text_of(const std::string& file, const FlightResult& flight) {
   return text;
 }
 
+/// How much of what a reference holds, or of the trajectory, could be compared.
+struct Compared {
+  std::size_t count = 0;
+  std::size_t of = 0;
+  const char* what = "";
+};
+Compared compared(const RelationError& error) { return {error.all.count, relations_in(error), "relations"}; }
+Compared compared(const PathError& error) {
+  return {error.position.pairs, error.position.pairs + error.stamps.unmatched.size(), "positions"};
+}
+Compared compared(const FlightResult& flight) {
+  return {flight.sharpness.drawn, flight.sharpness.drawn + flight.sharpness.outside.size(), "samples"};
+}
+
+/// A line where most of it could not.
+std::string warning_of(const ReferenceResult& reference) {
+  const Compared pairs = std::visit([](const auto& figures) { return compared(figures); }, reference.figures);
+  if (2 * pairs.count >= pairs.of) return {};
+  return fmt::format("WARNING: {}: only {} of {} {} have stamps that match; the figures are of those alone\n",
+                     reference.file, pairs.count, pairs.of, pairs.what);
+}
+
 Json json_of(const std::vector<HostTime>& stamps) {
   Json json = Json::array();
   for (const HostTime stamp : stamps) json.push_back(seconds_of(stamp));
@@ -94,6 +118,7 @@ Json json_of(const std::vector<HostTime>& stamps) {
 Json json_of(const StampMatching& stamps) {
   return {{"exact", stamps.exact},
           {"within_2_ms", stamps.near},
+          {"between", stamps.between},
           {"unmatched", stamps.unmatched.size()},
           {"unmatched_s", json_of(stamps.unmatched)}};
 }
@@ -149,8 +174,10 @@ Json json_of(const FlightResult& flight) {
 }  // namespace
 
 std::string evaluation_text(const Evaluation& evaluation) {
-  std::string text = fmt::format("{}: {} poses over {:.1f} s\n", evaluation.trajectory_file, evaluation.poses,
-                                 to_seconds(evaluation.last_stamp - evaluation.first_stamp));
+  std::string text;
+  for (const ReferenceResult& reference : evaluation.references) text += warning_of(reference);
+  text += fmt::format("{}: {} poses over {:.1f} s\n", evaluation.trajectory_file, evaluation.poses,
+                      to_seconds(evaluation.last_stamp - evaluation.first_stamp));
   for (const ReferenceResult& reference : evaluation.references) {
     const auto print = [&](const auto& figures) { return text_of(reference.file, figures); };
     text += '\n';

@@ -49,7 +49,7 @@ Result<ReferenceResult> against_truth(const StampedPath& trajectory, const std::
   const StampedPath truth(std::move(poses).value());
   PathError error = path_error(trajectory, truth);
   if (error.position.pairs > 0) return ReferenceResult{file, std::move(error)};
-  return nothing_in_common(trajectory, file, "has none of the trajectory's stamps (within 2 ms)",
+  return nothing_in_common(trajectory, file, "has no position near any of the trajectory's stamps",
                            {truth.poses().front().stamp, truth.poses().back().stamp});
 }
 

@@ -122,8 +122,6 @@ Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
   map.config_file = command.config_file;
   const Result<PreparedRun> prepared = prepare_run(map);
   if (!prepared) return prepared.error();
-  if (prepared->source->is_live())
-    return Error{ErrorCode::kInvalidInput, command.input + " has no end; record it first"};
   Result<PrunedScans> pruned = PrunedScans::open(std::filesystem::temp_directory_path());
   if (!pruned) return pruned.error();
   Pipeline pipeline(prepared->config, *prepared->source);

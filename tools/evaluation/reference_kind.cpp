@@ -46,7 +46,8 @@ Result<ReferenceKind> kind_of(const std::vector<NumberRow>& rows, const std::str
 Result<ReferenceKind> recognise_reference(const std::string& path) {
   const Result<std::uint64_t> size = size_of_input_file(path);
   if (!size) return size.error();
-  if (begins_like_capture(path) || path.ends_with(".pcap")) return ReferenceKind::kFlight;
+  if (begins_like_capture(path) || path.ends_with(".pcap") || path.ends_with(".pcap.gz"))
+    return ReferenceKind::kFlight;
   if (path.ends_with(".relations") || path.ends_with(".relations.gz")) return ReferenceKind::kRelations;
   const Result<std::vector<NumberRow>> rows = read_number_rows(path);
   if (!rows) return rows.error();

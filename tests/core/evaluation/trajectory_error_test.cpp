@@ -73,22 +73,48 @@ TEST(TrajectoryError, OfOnePointIsZero) {
 TEST(PathError, PairsPositionsByTheirStampsAndNamesThoseWithoutTruth) {
   const auto at = [](int ms) { return HostTime(std::chrono::milliseconds(ms)); };
   const StampedPath truth({{at(0), Pose2(1.0, 0.0, 0.0)},
-                           {at(100), Pose2(0.0, 2.0, 0.0)},
-                           {at(150), Pose2(50.0, 50.0, 0.0)},
-                           {at(201), Pose2(-1.0, 0.0, 0.0)},
-                           {at(300), Pose2(0.0, -2.0, 0.0)}});
+                           {at(1000), Pose2(0.0, 2.0, 0.0)},
+                           {at(1500), Pose2(50.0, 50.0, 0.0)},
+                           {at(2001), Pose2(-1.0, 0.0, 0.0)},
+                           {at(3000), Pose2(0.0, -2.0, 0.0)}});
   const StampedPath stretched({{at(0), Pose2(1.5, 0.0, 1.0)},
-                               {at(100), Pose2(0.0, 2.0, 1.0)},
-                               {at(200), Pose2(-1.5, 0.0, 1.0)},
-                               {at(250), Pose2(70.0, 70.0, 1.0)},
-                               {at(300), Pose2(0.0, -2.0, 1.0)}});
+                               {at(1000), Pose2(0.0, 2.0, 1.0)},
+                               {at(2000), Pose2(-1.5, 0.0, 1.0)},
+                               {at(2500), Pose2(70.0, 70.0, 1.0)},
+                               {at(3000), Pose2(0.0, -2.0, 1.0)}});
   const PathError error = path_error(stretched, truth);
   EXPECT_EQ(error.position.pairs, 4U);
   EXPECT_NEAR(error.position.mean_m, 0.25, 1e-12);
   EXPECT_NEAR(error.position.max_m, 0.5, 1e-12);
   EXPECT_EQ(error.stamps.exact, 3U);
   EXPECT_EQ(error.stamps.near, 1U);
-  EXPECT_THAT(error.stamps.unmatched, testing::ElementsAre(at(250)));
+  EXPECT_THAT(error.stamps.unmatched, testing::ElementsAre(at(2500)));
+}
+
+TEST(PathError, InterpolatesATruthWhoseStampsAreOthers) {
+  const auto at = [](int ms) { return HostTime(std::chrono::milliseconds(ms)); };
+  std::vector<StampedPose> measured;
+  std::vector<StampedPose> estimated;
+  for (int i = 0; i < 20; ++i) {
+    measured.push_back({at(100 * i), Pose2(0.1 * i, 0.0, 0.0)});
+    estimated.push_back({at(100 * i + 37), Pose2(0.1 * i + 0.037, 0.0, 0.0)});
+  }
+  const PathError error = path_error(StampedPath(estimated), StampedPath(measured));
+  EXPECT_EQ(error.position.pairs, 19U);
+  EXPECT_NEAR(error.position.max_m, 0.0, 1e-9);
+  EXPECT_EQ(error.stamps.between, 19U);
+  EXPECT_THAT(error.stamps.unmatched, testing::ElementsAre(at(1937)));  // beyond the truth's end
+}
+
+TEST(PathError, PairsStampsSomeMillisecondsApartWhereTheTruthIsSparse) {
+  const auto at = [](int ms) { return HostTime(std::chrono::milliseconds(ms)); };
+  const StampedPath measured({{at(0), Pose2(0.0, 0.0, 0.0)}, {at(5000), Pose2(3.0, 0.0, 0.0)}});
+  const StampedPath estimated(
+      {{at(20), Pose2(0.0, 0.0, 0.0)}, {at(2500), Pose2(9.0, 9.0, 0.0)}, {at(4985), Pose2(3.0, 0.0, 0.0)}});
+  const PathError error = path_error(estimated, measured);
+  EXPECT_EQ(error.position.pairs, 2U);
+  EXPECT_NEAR(error.position.max_m, 0.0, 1e-9);
+  EXPECT_THAT(error.stamps.unmatched, testing::ElementsAre(at(2500)));
 }
 
 }  // namespace

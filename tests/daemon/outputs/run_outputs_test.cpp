@@ -35,7 +35,7 @@ TEST(RunOutputs, WritesEveryFileAndNothingElse) {
   ASSERT_TRUE(write_run_outputs(directory.path() / "new", run.view(false)).ok());
   EXPECT_EQ(names_in(directory.path() / "new"),
             (std::set<std::string>{"live.tum", "map.pgm", "map.png", "map.yaml", "odometry.tum",
-                                   "report.json", "trajectory.tum"}));
+                                   "report.json", "thumbnail.png", "trajectory.tum"}));
 }
 
 TEST(RunOutputs, WritesTheTruthWhereItIsKnown) {
@@ -89,10 +89,42 @@ TEST(RunOutputs, AreTheSameBytesForTheSameRun) {
 TEST(RunOutputs, NamesTheFileThatCannotBeWrittenAndKeepsTheOthers) {
   const TemporaryDirectory directory;
   fs::create_directory(directory.path() / "map.png");
-  const Status status = write_run_outputs(directory.path(), FinishedRun().view(false));
-  ASSERT_FALSE(status.ok());
-  EXPECT_THAT(status.error().message, testing::HasSubstr("map.png"));
+  const Result<WrittenOutputs> written = write_run_outputs(directory.path(), FinishedRun().view(false));
+  ASSERT_FALSE(written.ok());
+  EXPECT_THAT(written.error().message, testing::HasSubstr("map.png"));
   EXPECT_EQ(lines_of(directory.path() / "trajectory.tum").size(), 81U);
+}
+
+TEST(RunOutputs, ReplaceAnEarlierRunsFilesAndLeaveNoneOfThem) {
+  const TemporaryDirectory directory;
+  const fs::path& path = directory.path();
+  const Result<WrittenOutputs> first = write_run_outputs(path, FinishedRun().view(true));
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ(replacement_note(path, *first), std::nullopt);
+  std::ofstream(path / "notes.txt") << "mine";
+  const Result<WrittenOutputs> second = write_run_outputs(path, FinishedRun().view(false));
+  ASSERT_TRUE(second.ok());
+  EXPECT_EQ(replacement_note(path, *second),
+            path.string() +
+                " held an earlier run: its files were replaced, removed those that this run "
+                "does not have: ground_truth.tum");
+  EXPECT_FALSE(fs::exists(path / "ground_truth.tum"));
+  EXPECT_EQ(text_of(path / "notes.txt"), "mine");
+}
+
+TEST(RunOutputs, RemoveNoFileThatNoRunWrote) {
+  const TemporaryDirectory directory;
+  const fs::path out = directory.path() / "out";
+  ASSERT_TRUE(write_run_outputs(out, FinishedRun().view(false)).ok());
+  std::ofstream(out / "ground_truth.tum") << "measured by somebody";
+  std::ofstream(directory.path() / "outside") << "mine";
+  ASSERT_TRUE(write_run_outputs(out, FinishedRun().view(false)).ok());
+  EXPECT_EQ(text_of(out / "ground_truth.tum"), "measured by somebody");
+  std::ofstream(out / "report.json") << R"({"files": ["../outside", "..", 7, "gone.tum"]})";
+  const Result<WrittenOutputs> written = write_run_outputs(out, FinishedRun().view(false));
+  ASSERT_TRUE(written.ok());
+  EXPECT_THAT(written->removed, testing::IsEmpty());
+  EXPECT_TRUE(fs::exists(directory.path() / "outside"));
 }
 
 TEST(RunError, PairsByStampAndLeavesOutWhatTheTruthDoesNotKnow) {

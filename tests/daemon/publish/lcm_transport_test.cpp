@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <chrono>
 #include <vector>
 
@@ -31,6 +32,17 @@ TEST(LcmTransport, ComesBackWhenNothingIsToBeHeard) {
   const auto lcm = LcmTransport::open("memq://");
   ASSERT_TRUE(lcm.ok());
   EXPECT_FALSE((*lcm)->receive(milliseconds(10)));
+}
+
+TEST(LcmTransport, SaysNothingOfAnAbsentServerHoweverMuchIsPublished) {
+  testing::internal::CaptureStderr();
+  const auto lcm = LcmTransport::open("tcpq://127.0.0.1:1");
+  ASSERT_TRUE(lcm.ok());
+  (*lcm)->listen("HERE", [](auto /*bytes*/) {});
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE((*lcm)->publish("HERE", std::vector<std::uint8_t>{1}));
+  EXPECT_EQ(errno, ENOTCONN);
+  EXPECT_FALSE((*lcm)->receive(milliseconds(1)));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(LcmTransport, RefusesAUrlThatLcmDoesNotKnow) {

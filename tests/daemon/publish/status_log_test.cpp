@@ -43,9 +43,19 @@ TEST_F(StatusLog, NamesWhatWasRefusedAndWhereAndHowOften) {
   DaemonStatus now;
   now.queues[0].name = "samples";
   now.queues[0].refused = 3;
-  now.frontend.batches_rolled_back = 2;
+  now.backend.solver_failures = 2;
   log_changes(DaemonStatus{}, now);
   EXPECT_THAT(logged(), HasSubstr("queue of samples: full, 3 refused"));
+  EXPECT_THAT(logged(), HasSubstr("solver failures: 2 more"));
+}
+
+TEST_F(StatusLog, TellsOfRollBacksInAVerboseLogAlone) {
+  DaemonStatus now;
+  now.frontend.batches_rolled_back = 2;
+  log_changes(DaemonStatus{}, now);
+  EXPECT_THAT(logged(), IsEmpty());
+  spdlog::set_level(spdlog::level::debug);
+  log_changes(DaemonStatus{}, now);
   EXPECT_THAT(logged(), HasSubstr("batches rolled back: 2 more"));
 }
 

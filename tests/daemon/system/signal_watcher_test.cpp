@@ -22,8 +22,8 @@ TEST(SignalWatcher, RequestsNothingByItself) {
   EXPECT_FALSE(watcher.token().stop_requested());
 }
 
-TEST(SignalWatcher, TurnsEitherSignalIntoARequestToStop) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+TEST(SignalWatcher, TurnsEachSignalIntoARequestToStop) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const SignalWatcher watcher;
     ASSERT_EQ(kill(getpid(), signal), 0);
     EXPECT_TRUE(is_requested_soon(watcher.token())) << signal;
@@ -37,6 +37,17 @@ TEST(SignalWatcher, AHangupIsACallAndNoRequestToStop) {
   for (int i = 0; i < 500 && calls == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(calls, 1);
   EXPECT_FALSE(watcher.token().stop_requested());
+}
+
+TEST(SignalWatcher, AHangupThatTheProgramIgnoredStaysIgnored) {
+  const auto before = ::signal(SIGHUP, SIG_IGN);
+  {
+    const SignalWatcher watcher;
+    ASSERT_EQ(kill(getpid(), SIGHUP), 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    EXPECT_FALSE(watcher.token().stop_requested());
+  }
+  ::signal(SIGHUP, before);
 }
 
 TEST(SignalWatcher, ASignalThatArrivesTwiceIsOneRequest) {

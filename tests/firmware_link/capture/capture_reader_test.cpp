@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <chrono>
 #include <random>
@@ -126,6 +127,30 @@ TEST(CaptureReader, TruncatedAnywhereItYieldsAllThatPrecedesTheEnd) {
       EXPECT_THAT(reading.end.message, HasSubstr("damaged at byte " + std::to_string(last_end) + " of "));
     }
   }
+}
+
+std::string gzip_of(const std::string& bytes) {
+  const TemporaryFile packed("packed");
+  gzFile file = gzopen(packed.path().c_str(), "wb");
+  gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
+  gzclose(file);
+  return packed.read();
+}
+
+TEST(CaptureReader, ReadsACaptureInGzipAndTellsWhereItIsCutOff) {
+  SyntheticCapture capture;
+  const TemporaryFile plain("plain.pcap");
+  write_capture(plain.path(), capture.frames());
+  const std::string packed = gzip_of(plain.read());
+  const TemporaryFile whole("whole.pcap.gz", packed);
+  const WholeRead reading = read_all(whole.path());
+  EXPECT_EQ(reading.records.size(), read_all(plain.path()).records.size());
+  EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording);
+  const TemporaryFile cut("cut.pcap.gz", packed.substr(0, packed.size() - 6));  // its checksum
+  EXPECT_EQ(read_all(cut.path()).end.code, ErrorCode::kDamaged);
+  EXPECT_THAT(read_all(cut.path()).end.message, HasSubstr("the gzip stream is cut off or garbled"));
+  const TemporaryFile other("other.pcap.gz", gzip_of("no capture, and long enough for a header"));
+  EXPECT_THAT(read_all(other.path()).end.message, HasSubstr("not a classic pcap capture"));
 }
 
 TEST(CaptureReader, ReportsImpossibleRecordsAsDamage) {

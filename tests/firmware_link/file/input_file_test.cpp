@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "tests/support/temporary_file.hpp"
 
@@ -33,6 +34,11 @@ TEST(InputFile, ReportsWhyAPathCannotBeRead) {
 TEST(InputFile, DetectsACaptureByItsFirstBytes) {
   EXPECT_TRUE(begins_like_capture(TemporaryFile("classic", "\xD4\xC3\xB2\xA1 and more").path()));
   EXPECT_TRUE(begins_like_capture(TemporaryFile("next_generation", "\n\r\r\n").path()));
+  const TemporaryFile packed("packed.pcap.gz");
+  gzFile file = gzopen(packed.path().c_str(), "wb");
+  gzwrite(file, "\xD4\xC3\xB2\xA1 and more", 13);
+  gzclose(file);
+  EXPECT_TRUE(begins_like_capture(packed.path()));
   EXPECT_FALSE(begins_like_capture(TemporaryFile("laser_log", "FLASER 180").path()));
   EXPECT_FALSE(begins_like_capture(TemporaryFile("short.pcap", "\xD4\xC3").path()));
   EXPECT_FALSE(begins_like_capture("/nonexistent/a.pcap"));

@@ -89,11 +89,12 @@ TEST(CarmenLog, ReportsMalformedLinesAndContinues) {
   ASSERT_TRUE(log.ok());
   EXPECT_EQ(log->scans.size(), 2U);
   ASSERT_EQ(log->problems.size(), 11U);
-  EXPECT_THAT(log->problems[0], HasSubstr(file.path() + ":2: FLASER line cut off"));
+  EXPECT_THAT(log->problems[0],
+              HasSubstr(file.path() + ":2: FLASER line cut off or garbled; the line is left out"));
   EXPECT_THAT(log->problems[1], HasSubstr(":3: ODOM line"));
   EXPECT_THAT(log->problems[2], HasSubstr(":4: FLASER with another number of readings"));
   EXPECT_THAT(log->problems[3], HasSubstr(":6: FLASER line"));
-  EXPECT_THAT(log->problems.back(), HasSubstr("14 more malformed lines"));
+  EXPECT_THAT(log->problems.back(), HasSubstr("14 more malformed lines were left out"));
 }
 
 TEST(CarmenLog, ReportsWhyThereIsNothingToRead) {

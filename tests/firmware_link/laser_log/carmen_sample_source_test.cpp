@@ -99,6 +99,20 @@ TEST(CarmenSampleSource, TakesRangesForOneLineOlderIfTheScansTurnWithThePosesOfT
   EXPECT_EQ((*CarmenSampleSource::open(file.path(), options))->sensor().range_age, Duration::zero());
 }
 
+TEST(CarmenSampleSource, TellsOnceOfBreaksAndOfALogWithoutAnyReturn) {
+  std::string text;
+  for (int i = 0; i < 9; ++i)  // carried off, twice
+    text += flaser_line(180, i < 3 ? 0.1 * i : i < 6 ? 50.0 : -50.0, std::to_string(1.0 + 0.2 * i), 30.0);
+  const TemporaryFile file("a.clf", text);
+  auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  EXPECT_EQ(read_all(**source).size(), 9U);
+  EXPECT_FALSE((*source)->next().ok());
+  EXPECT_THAT((*source)->report().notes,
+              ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("breaks in the dead reckoning: 2"),
+                          HasSubstr("no range is a return (")));
+}
+
 TEST(CarmenSampleSource, CapsRangesAndPicksBeams) {
   const TemporaryFile file("a.clf", flaser_line(180, 0, "1", 4.0));
   SampleSourceOptions options;

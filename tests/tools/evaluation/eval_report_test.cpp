@@ -78,6 +78,20 @@ TEST(EvaluationText, TellsTheErrorOfPositions) {
                         "  not in the truth: 7.000000\n"));
 }
 
+TEST(EvaluationText, SaysFirstThatMostOfItWasNotCompared) {
+  PathError error;
+  error.position.pairs = 1;
+  error.stamps = {1, 0, {at(7'000'000), at(8'000'000)}, 0};
+  EXPECT_THAT(evaluation_text(evaluation_of({"truth.tum", error})),
+              testing::StartsWith("WARNING: truth.tum: only 1 of 3 positions have stamps that match; the "
+                                  "figures are of those alone\ntrajectory.tum: "));
+  error.stamps.unmatched.pop_back();
+  EXPECT_THAT(evaluation_text(evaluation_of({"truth.tum", error})), testing::StartsWith("trajectory.tum: "));
+  error.stamps.between = 4;
+  EXPECT_THAT(evaluation_text(evaluation_of({"truth.tum", error})),
+              HasSubstr("0 within 2 ms, 4 interpolated or within 20 ms, 1 unmatched\n"));
+}
+
 TEST(EvaluationText, TellsWhatOfAFlightWasDrawn) {
   EXPECT_THAT(evaluation_text(of_flight()),
               HasSubstr("flight.pcap: 3000 of 3001 samples drawn along the trajectory\n"

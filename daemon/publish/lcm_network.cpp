@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/publish/lcm_network.hpp"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <memory>
+#include <string_view>
+
+namespace swiftlet {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::string_view kMulticast = "udpm://";
+constexpr std::string_view kServer = "tcpq://";
+constexpr const char* kDefaultGroup = "239.255.76.67";
+constexpr const char* kDefaultHost = "127.0.0.1";
+constexpr const char* kDefaultPort = "7700";
+constexpr std::chrono::seconds kLookEvery{5};
+constexpr int kLookMs = 200;
+
+class Socket {
+ public:
+  explicit Socket(int type) : file_(::socket(AF_INET, type | SOCK_CLOEXEC, 0)) {}
+  ~Socket() {
+    if (file_ >= 0) ::close(file_);
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  [[nodiscard]] int file() const { return file_; }
+
+ private:
+  int file_;
+};
+
+/// Host and port of a URL of this scheme, either may be empty.
+std::optional<std::pair<std::string, std::string>> place_in(const std::string& url, std::string_view scheme) {
+  if (!url.starts_with(scheme)) return std::nullopt;
+  std::string place = url.substr(scheme.size());
+  place = place.substr(0, place.find('?'));
+  const std::size_t colon = place.find(':');
+  if (colon == std::string::npos) return std::pair(place, std::string());
+  return std::pair(place.substr(0, colon), place.substr(colon + 1));
+}
+
+}  // namespace
+
+std::optional<std::string> lcm_group_of(const std::string& url) {
+  const auto place = place_in(url, kMulticast);
+  if (!place) return std::nullopt;
+  return place->first.empty() ? kDefaultGroup : place->first;
+}
+
+bool has_route_to(const std::string& address) {
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(1);  // nothing is sent
+  if (inet_pton(AF_INET, address.c_str(), &to.sin_addr) != 1) return true;
+  const Socket socket(SOCK_DGRAM);
+  return ::connect(socket.file(), reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0 ||
+         (errno != ENETUNREACH && errno != EHOSTUNREACH);
+}
+
+std::optional<LcmServer> LcmServer::of_url(const std::string& url) {
+  const auto place = place_in(url, kServer);
+  if (!place) return std::nullopt;
+  return LcmServer(place->first.empty() ? kDefaultHost : place->first,
+                   place->second.empty() ? kDefaultPort : place->second);
+}
+
+bool LcmServer::is_there() {
+  const auto now = steady_clock::now();
+  if (is_there_ || now < next_look_) return is_there_;
+  is_there_ = accepts();
+  next_look_ = steady_clock::now() + kLookEvery;
+  return is_there_;
+}
+
+bool LcmServer::accepts() const {
+  const addrinfo wanted{.ai_flags = 0,
+                        .ai_family = AF_INET,
+                        .ai_socktype = SOCK_STREAM,
+                        .ai_protocol = 0,
+                        .ai_addrlen = 0,
+                        .ai_addr = nullptr,
+                        .ai_canonname = nullptr,
+                        .ai_next = nullptr};
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found) != 0) return false;
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, ::freeaddrinfo);
+  const Socket socket(SOCK_STREAM | SOCK_NONBLOCK);
+  if (::connect(socket.file(), address->ai_addr, address->ai_addrlen) == 0) return true;
+  if (errno != EINPROGRESS) return false;
+  pollfd answer{.fd = socket.file(), .events = POLLOUT, .revents = 0};
+  int failure = ETIMEDOUT;
+  socklen_t size = sizeof failure;
+  return ::poll(&answer, 1, kLookMs) == 1 &&
+         ::getsockopt(socket.file(), SOL_SOCKET, SO_ERROR, &failure, &size) == 0 && failure == 0;
+}
+
+}  // namespace swiftlet

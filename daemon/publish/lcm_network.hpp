@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace swiftlet {
+
+// What is known of the network before LCM is asked, which tells of every failure in several lines on stderr.
+
+/// The address of a udpm:// URL's group, or LCM's default; nullopt for other URLs.
+[[nodiscard]] std::optional<std::string> lcm_group_of(const std::string& url);
+
+/// Whether datagrams to this IPv4 address leave by any way. True for what is no address.
+[[nodiscard]] bool has_route_to(const std::string& address);
+
+/// The server of a tcpq:// URL. One thread at a time.
+class LcmServer {
+ public:
+  /// nullopt for other URLs.
+  [[nodiscard]] static std::optional<LcmServer> of_url(const std::string& url);
+
+  /// Whether it listened at the last look. Looks again every 5 s while it did not, which takes 0.2 s at most.
+  [[nodiscard]] bool is_there();
+  /// It has gone: the next look is due.
+  void mark_lost() { is_there_ = false; }
+
+ private:
+  LcmServer(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
+  [[nodiscard]] bool accepts() const;
+
+  std::string host_;
+  std::string port_;
+  bool is_there_ = false;
+  std::chrono::steady_clock::time_point next_look_{};
+};
+
+}  // namespace swiftlet
