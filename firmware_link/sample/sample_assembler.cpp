@@ -11,7 +11,9 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReboot = std::chrono::seconds(1);
-constexpr double kMaxHoleInPeriods = 1.5;
+constexpr double kGapInPeriods = 1.5;
+// The ranges that follow one lost packet keep their dead reckoning.
+constexpr double kMaxInterpolationInPeriods = 2.5;
 
 Duration scaled(Duration duration, double factor) { return from_seconds(to_seconds(duration) * factor); }
 
@@ -27,7 +29,7 @@ SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputCounters& co
 
 void SampleAssembler::set_periods(Duration range_period, Duration odometry_period) {
   config_.range_period = range_period;
-  config_.continuity.longest_interpolation = scaled(odometry_period, kMaxHoleInPeriods);
+  config_.continuity.longest_interpolation = scaled(odometry_period, kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
 }
@@ -100,7 +102,7 @@ void SampleAssembler::count_gap(const Reading& reading) {
     const Duration since =
         last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.received - *last_ranges_received_;
     const double periods = to_seconds(since) / to_seconds(config_.range_period);
-    if (periods > kMaxHoleInPeriods) {
+    if (periods > kGapInPeriods) {
       ++counters_.gaps;
       counters_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
     }

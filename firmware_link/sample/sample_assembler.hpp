@@ -50,7 +50,7 @@ class SampleAssembler {
   SampleAssembler(const AssemblyConfig& config, InputCounters& counters);
 
   /// The periods of ranges and dead reckoning, once known. Dead reckoning is then interpolated across at most
-  /// 1.5 periods.
+  /// 2.5 periods: one lost packet.
   void set_periods(Duration range_period, Duration odometry_period);
   /// A duplicate or late reading is dropped and counted; a step back of more than a second is a reboot of the
   /// vehicle.

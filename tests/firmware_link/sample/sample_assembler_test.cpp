@@ -136,6 +136,37 @@ TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndContinuesBehi
   EXPECT_EQ(counters_.gaps, 0U);
 }
 
+/// Packets with pose and ranges every 100 ms, those for which `is_lost` left out: how many samples they make.
+template <typename Lost>
+std::size_t samples_of_packets(int count, Lost is_lost) {
+  InputCounters counters;
+  SampleAssembler assembler(config(), counters);
+  assembler.set_periods(milliseconds(100), milliseconds(100));
+  std::size_t samples = 0;
+  for (int i = 0; i < count; ++i) {
+    if (is_lost(i)) continue;
+    Reading reading;
+    reading.at = device_ms(100L * i);
+    reading.position_odom = Point2{0.05 * i, 0.0};
+    reading.yaw_odom_rad = 0.0;
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    while (const auto sample = assembler.take()) {
+      EXPECT_NEAR(sample->T_odom_body.x_m(), 0.5 * to_seconds(sample->measured_at.time_since_epoch()), 1e-9);
+      ++samples;
+    }
+  }
+  return samples;
+}
+
+TEST(SampleAssembler, APacketThatIsLostAloneCostsItsOwnSampleOnly) {
+  EXPECT_EQ(samples_of_packets(100, [](int) { return false; }), 99U);
+  EXPECT_EQ(samples_of_packets(100, [](int i) { return i == 50; }), 98U);
+  EXPECT_EQ(samples_of_packets(100, [](int i) { return i % 10 == 5; }), 89U);
+  // Two in a row cost the one behind them too: the motion in so wide a hole is not known.
+  EXPECT_EQ(samples_of_packets(100, [](int i) { return i == 50 || i == 51; }), 96U);
+}
+
 TEST_F(SampleAssemblerTest, CountsGapsAndThePacketsTheyStandFor) {
   for (const int i : {0, 1, 2, 4, 5, 9, 10}) ranges(100L * i);
   EXPECT_EQ(counters_.gaps, 2U);
