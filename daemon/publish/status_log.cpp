@@ -58,6 +58,8 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   if (counters_before.segments > 0)
     warn_if_grown("input: new segments (silence, restart or reset)", counters_before.segments,
                   counters.segments);
+  warn_if_grown("input: ranges left out, because the dead reckoning has run away (check the Flow deck)",
+                counters_before.too_far, counters.too_far);
   warn_if_grown("frontend: batches rolled back", before.frontend.batches_rolled_back,
                 now.frontend.batches_rolled_back);
   warn_if_grown("frontend: no room", before.frontend.refused_full, now.frontend.refused_full);
