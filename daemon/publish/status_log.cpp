@@ -60,6 +60,8 @@ std::vector<InputNews> input_news(const InputStatus& before, const InputStatus& 
   if (before.counters.segments > 0)
     warn_if_grown("input: new segments (silence, restart or reset)", before.counters.segments,
                   now.counters.segments);
+  warn_if_grown("input: ranges left out, because the dead reckoning has run away (check the Flow deck)",
+                before.counters.too_far, now.counters.too_far);
   return news;
 }
 

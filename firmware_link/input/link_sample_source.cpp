@@ -18,6 +18,8 @@ constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
 // step across the hole; after longer than a battery lasts it has landed and may have been carried.
 constexpr Duration kUnwatched = std::chrono::seconds(1);
 constexpr Duration kBatteryLasts = std::chrono::minutes(10);
+// Ten times as far as the firmware's estimator lets its position go.
+constexpr double kFarthestM = 1000.0;
 // A vehicle that sends without end, but nothing that samples need, must not block the caller.
 constexpr int kMaxFramesAtOnce = 64;
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
@@ -27,6 +29,7 @@ AssemblyConfig assembly_config(const SensorModel& sensor) {
   config.beams = BeamLayout::multiranger();
   config.sensor = sensor;
   config.continuity.longest_silence = kBatteryLasts;
+  config.continuity.farthest_m = kFarthestM;
   config.unwatched_after = kUnwatched;
   return config;
 }
@@ -167,6 +170,23 @@ void LinkSampleSource::finish_report() {
     report_.notes.push_back("the truth is not known of every sample: the disk of temporary files was full");
 }
 
+void LinkSampleSource::note_breaks() {
+  if (const std::uint64_t wrong = session_.unreadable().wrong_time; wrong > 0)
+    report_.problems.push_back(input_.name + ": " + std::to_string(wrong) +
+                               " log packets have a time that the vehicle's clock cannot show and were left "
+                               "out: they are damaged, or of another program");
+  const InputCounters& counters = report_.counters;
+  if (counters.leaps > 0)
+    report_.notes.push_back("the dead reckoning leaps " + std::to_string(counters.leaps) +
+                            " times as no vehicle can fly (its estimator was reset, or a packet is damaged): "
+                            "segments begin there");
+  if (counters.too_far > 0)
+    report_.problems.push_back(input_.name + ": the dead reckoning has run away, " +
+                               std::to_string(counters.too_far) + " range packets lie more than " +
+                               std::to_string(static_cast<int>(kFarthestM)) +
+                               " m from its beginning and were left out: check the Flow deck");
+}
+
 std::vector<StampedPose> LinkSampleSource::ground_truth() const {
   return input_.truth ? input_.truth->kept.read() : std::vector<StampedPose>{};
 }
@@ -184,7 +204,8 @@ std::string LinkSampleSource::explain_no_samples() const {
            ": no range.front, range.left, range.back or range.right in its log packets; log them";
   if (!extractor_.finds_position())
     return input_.name + ": no position in its log packets; log stateEstimate.x and stateEstimate.y";
-  if (!extractor_.finds_yaw()) return input_.name + ": no yaw in its log packets; log stateEstimate.yaw";
+  if (!extractor_.finds_yaw())
+    return input_.name + ": no yaw in its log packets; log stateEstimate.yaw or stabilizer.yaw";
   return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +
          std::to_string(report_.counters.unpaired) + " range packets)";
 }
@@ -216,6 +237,7 @@ void LinkSampleSource::end() {
   if (input_.shared != nullptr) input_.shared->end_sharing();
   for (const VehicleEvent& event : noted_) report_.notes.push_back(describe(event));
   noted_.clear();
+  note_breaks();
 }
 
 std::optional<double> LinkSampleSource::progress() const {

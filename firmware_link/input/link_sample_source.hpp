@@ -72,7 +72,7 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
   [[nodiscard]] std::optional<LiveStatus> live_status() const override;
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
-  /// Events that are warnings become notes, the first of each kind.
+  /// Events that are warnings become notes, the first of each kind; what the dead reckoning lacks, too.
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
@@ -87,6 +87,7 @@ class LinkSampleSource final : public SampleSource {
   Status answer_failure(const Error& error);
   void follow_periods();
   void finish_report();
+  void note_breaks();
   [[nodiscard]] std::string explain_no_samples() const;
 
   LinkInput input_;

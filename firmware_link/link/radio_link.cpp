@@ -40,9 +40,9 @@ Duration pause_between(std::optional<int> rate_limit_hz) {
 }  // namespace
 
 RadioLink::RadioLink(UsbBus& bus, LinkClock& clock, RadioAddress address)
-    : bus_(bus), clock_(clock), address_(std::move(address)), received_at_(clock.now()), mode_(Mode::kPlain) {
+    : bus_(bus), clock_(clock), address_(std::move(address)), received_at_(clock.now()) {
   statistics_.condition = LinkCondition::kSilent;
-  ask_for_safelink();
+  negotiate_safelink();
 }
 
 Result<LinkFrame> RadioLink::receive(Duration timeout) {
@@ -84,7 +84,7 @@ void RadioLink::open(HostTime now) {
   radio_.emplace(std::get<Crazyradio>(std::move(opened)));
   failures_in_a_row_ = 0;
   active_at_ = now;
-  ask_for_safelink();
+  negotiate_safelink();
 }
 
 void RadioLink::lose_dongle(UsbOutcome failure) {
@@ -143,11 +143,11 @@ void RadioLink::fall_silent() {
     statistics_.condition =
         last_outcome_ == UsbOutcome::kDone ? LinkCondition::kSilent : condition_of(last_outcome_);
   uplink_.clear_requests();
-  ask_for_safelink();
+  negotiate_safelink();
 }
 
-void RadioLink::ask_for_safelink() {
-  mode_ = address_.safelink ? Mode::kAsking : Mode::kPlain;
+void RadioLink::negotiate_safelink() {
+  mode_ = Mode::kAsking;
   sent_ = Sent::kPoll;
   unanswered_asks_ = 0;
   unacknowledged_.reset();
@@ -160,7 +160,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
     const bool asks = silent_ ? now - kAskPeriodInSilence >= asked_at_ : sent_ != Sent::kAsk;
     sent_ = asks ? Sent::kAsk : Sent::kPoll;
     if (asks) asked_at_ = now;
-    return asks ? packet_of(kSafelinkRequest) : packet_of(kPollPacket);
+    return asks ? packet_of(safelink_request(address_.safelink)) : packet_of(kPollPacket);
   }
   if (unacknowledged_) {
     sent_ = Sent::kPoll;  // a request among them was delivered already
@@ -203,10 +203,10 @@ void RadioLink::on_frame(const RadioAnswer& answer, HostTime now) {
 
 void RadioLink::on_while_asking(std::span<const std::uint8_t> payload, HostTime now) {
   if (sent_ == Sent::kAsk) {
-    if (is_safelink_echo(payload)) {
+    if (is_safelink_echo(payload, address_.safelink)) {
       safelink_.restart();
-      mode_ = Mode::kSafelink;
-      statistics_.safelink = true;
+      mode_ = address_.safelink ? Mode::kSafelink : Mode::kPlain;
+      statistics_.safelink = address_.safelink;
       return;
     }
     if (++unanswered_asks_ >= kMaxUnansweredAsks) mode_ = Mode::kPlain;
@@ -228,7 +228,7 @@ void RadioLink::on_by_safelink(std::span<const std::uint8_t> payload, HostTime n
   }
   if (++repeats_ < kMaxRepeats) return;
   repeats_ = 0;
-  ask_for_safelink();
+  negotiate_safelink();
 }
 
 void RadioLink::on_content(std::span<const std::uint8_t> payload, HostTime now) {

@@ -28,9 +28,10 @@ namespace swiftlet {
 ///
 /// Delivers each request once, with the time and the bytes of its first transmission and before its answer,
 /// whether acknowledged or not; and each packet from the vehicle once, without null packets, link bits as
-/// received. With safelink, an unacknowledged packet is sent again until it is acknowledged. Without, it is
-/// not: the vehicle may have executed it and only the acknowledgement is lost; the sender repeats a request
-/// that is not answered. Requests that wait when the vehicle falls silent are dropped.
+/// received. Switches the vehicle's safelink on or off, because it keeps what another program asked for. With
+/// it, an unacknowledged packet is sent again until it is acknowledged. Without, it is not: the vehicle may
+/// have executed it and only the acknowledgement is lost; the sender repeats a request that is not answered.
+/// Requests that wait when the vehicle falls silent are dropped.
 ///
 /// One thread at a time; the arguments of its constructor must outlive it. Allocates only while it opens the
 /// dongle.
@@ -59,7 +60,7 @@ class RadioLink final : public Link {
   [[nodiscard]] bool is_repeating_for_client() const;
   void exchange();
   void fall_silent();
-  void ask_for_safelink();
+  void negotiate_safelink();
   [[nodiscard]] CrtpPacket next_packet(HostTime now);
   void hand_back(const LinkFrame& frame);
   void on_frame(const RadioAnswer& answer, HostTime now);
@@ -87,7 +88,7 @@ class RadioLink final : public Link {
   bool was_acknowledged_ = false;  ///< the last exchange
   bool has_more_ = false;          ///< the last exchange fetched content: there may be more
 
-  Mode mode_;
+  Mode mode_ = Mode::kAsking;
   Sent sent_ = Sent::kPoll;  ///< last
   int unanswered_asks_ = 0;  ///< safelink requests acknowledged with something else
   HostTime asked_at_ = HostTime::min();

@@ -8,12 +8,16 @@
 
 namespace swiftlet {
 
-/// Requests safelink from the vehicle's radio, which acknowledges with the same three bytes.
-inline constexpr std::array<std::uint8_t, 3> kSafelinkRequest{0xFF, 0x05, 0x01};
+/// Switches safelink of the vehicle's radio on or off, which keeps it until told otherwise, whoever asked.
+/// The radio acknowledges with the same three bytes.
+constexpr std::array<std::uint8_t, 3> safelink_request(bool on) {
+  return {0xFF, 0x05, static_cast<std::uint8_t>(on ? 1 : 0)};
+}
 
-/// Whether an acknowledgement's payload confirms kSafelinkRequest. The link bits are ignored.
-constexpr bool is_safelink_echo(std::span<const std::uint8_t> payload) {
-  return payload.size() == 3 && (payload[0] & 0xF3) == 0xF3 && payload[1] == 0x05 && payload[2] == 0x01;
+/// Whether an acknowledgement's payload confirms safelink_request(on). The link bits are ignored.
+constexpr bool is_safelink_echo(std::span<const std::uint8_t> payload, bool on) {
+  return payload.size() == 3 && (payload[0] & 0xF3) == 0xF3 && payload[1] == 0x05 &&
+         payload[2] == safelink_request(on)[2];
 }
 
 /// The host's side of safelink: with one bit a direction in each header, both sides distinguish a packet from

@@ -24,6 +24,7 @@ constexpr Duration kMaxPause = std::chrono::milliseconds(100);
 // Datagrams read without checking the time: a flood of useless ones must not block receive().
 constexpr int kMaxAtOnce = 64;
 constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
+constexpr std::array<std::uint8_t, 1> kFarewell{0xF4};
 constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
 // A longer time means that the machine's clock was set meanwhile.
 constexpr Duration kMaxInSocket = std::chrono::seconds(1);
@@ -95,7 +96,10 @@ Result<UdpLink::Peer> UdpLink::find(const std::string& host, std::uint16_t port)
   return peer;
 }
 
-UdpLink::~UdpLink() { ::close(socket_); }
+UdpLink::~UdpLink() {
+  if (associated_) static_cast<void>(::send(socket_, kFarewell.data(), kFarewell.size(), MSG_NOSIGNAL));
+  ::close(socket_);
+}
 
 Status UdpLink::send(std::span<const std::uint8_t> packet) { return uplink_.push(packet); }
 

@@ -20,7 +20,8 @@ namespace swiftlet {
 /// received it registers every 200 ms, in the ways that are in use (`f3` registers with CrazySim, `ff` is the
 /// client library's scan); then it sends a null packet whenever it has sent nothing for 100 ms, because a
 /// vehicle deletes its log blocks after a second without any. Without requests it sends null packets only.
-/// While no vehicle listens or the network is down, the condition is kSilent and the link keeps trying.
+/// Its destructor says goodbye (`f4`), until which CrazySim answers no other program. While no vehicle
+/// listens or the network is down, the condition is kSilent and the link keeps trying.
 ///
 /// Null packets from the vehicle count as received and are not delivered. Datagrams of other sizes are
 /// dropped. A frame is stamped with the time at which it reached the machine, however late it is read.

@@ -18,6 +18,8 @@ struct InputCounters {
   std::uint64_t gaps = 0;             ///< holes of more than 1.5 periods between range packets
   std::uint64_t missing_packets = 0;  ///< range packets those holes stand for
   std::uint64_t unpaired = 0;         ///< range packets without dead reckoning around them: dropped
+  std::uint64_t leaps = 0;            ///< steps of the dead reckoning that are no motion: segments begin
+  std::uint64_t too_far = 0;          ///< range packets where the dead reckoning has run away: dropped
   std::uint64_t segments = 0;         ///< starts of the dead reckoning (1 for an undisturbed run)
   std::uint64_t hits = 0;             ///< beams by status
   std::uint64_t no_returns = 0;

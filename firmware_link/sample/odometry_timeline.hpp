@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/base/time.hpp"
 #include "core/geometry/angle.hpp"
@@ -20,6 +21,8 @@ struct ContinuityLimits {
   double top_speed_m_per_s = 5.0;    ///< what moves faster (and farther than the slack) was reset
   double jump_slack_m = 0.1;
   double top_turn_rate_rad_per_s = 4.0 * kPi;
+  /// From where the dead reckoning began; what is farther away is an error of it.
+  double farthest_m = std::numeric_limits<double>::infinity();
 };
 
 struct YawReading {
@@ -63,13 +66,17 @@ class OdometryTimeline {
   explicit OdometryTimeline(const ContinuityLimits& limits) : limits_(limits) {}
 
   void set_limits(const ContinuityLimits& limits) { limits_ = limits; }
-  /// Readings not later than the newest are ignored, as are NaN and infinity.
-  void add(DeviceTime at, const Value& value) {
+  /// Readings not later than the newest are ignored. Returns whether the step from there is too wide for a
+  /// motion.
+  bool add(DeviceTime at, const Value& value) {
+    bool is_leap = false;
     if (count_ > 0) {
       const Reading& last = newest();
-      if (at <= last.at) return;
+      if (at <= last.at) return false;
       const Duration elapsed = at - last.at;
-      if (elapsed > limits_.longest_silence || !is_motion(last.value, value, elapsed, limits_)) ++run_;
+      const bool is_silence = elapsed > limits_.longest_silence;
+      is_leap = !is_silence && !is_motion(last.value, value, elapsed, limits_);
+      if (is_silence || is_leap) ++run_;
     }
     readings_[(first_ + count_) % kCapacity] = {at, value, run_};
     if (count_ < kCapacity) {
@@ -77,6 +84,7 @@ class OdometryTimeline {
     } else {
       first_ = (first_ + 1) % kCapacity;
     }
+    return is_leap;
   }
   /// Clears all readings; what follows is a new run.
   void restart() {

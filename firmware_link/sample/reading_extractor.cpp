@@ -114,13 +114,14 @@ void ReadingExtractor::resolve_yaw(const LogRecord& record, Slots& slots) const 
     std::size_t count;
     std::array<std::string_view, 4> names;
   };
-  static constexpr std::array<Row, 4> kRows{
+  static constexpr std::array<Row, 5> kRows{
       {{YawKind::kDegrees, 1, {"stateEstimate.yaw"}},
        {YawKind::kQuaternion,
         4,
         {"stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz", "stateEstimate.qw"}},
        {YawKind::kQuaternion, 4, {"kalman.q1", "kalman.q2", "kalman.q3", "kalman.q0"}},
-       {YawKind::kPackedQuaternion, 1, {"stateEstimateZ.quat"}}}};
+       {YawKind::kPackedQuaternion, 1, {"stateEstimateZ.quat"}},
+       {YawKind::kDegrees, 1, {"stabilizer.yaw"}}}};  // stateEstimate.yaw by another name
   for (const Row& row : kRows) {
     if (!find_all(record, std::span(row.names).first(row.count), slots.yaw_slots)) continue;
     slots.yaw = row.kind;

@@ -23,10 +23,10 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 
 /// Extracts from the vehicle's log records what samples need, by the names of the variables, from any blocks:
 /// the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or stateEstimateZ.x/y);
-/// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ). Each of the three is
-/// taken from one block: of those that run, the one with the lowest number; of blocks whose start was not
-/// seen, the first one received. Names are resolved when a layout changes, not per packet: fixed
-/// storage. One thread at a time; `session` must outlive it.
+/// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ, or stabilizer.yaw).
+/// Each of the three is taken from one block: of those that run, the one with the lowest number; of blocks
+/// whose start was not seen, the first one received. Names are resolved when a layout changes, not per
+/// packet: fixed storage. One thread at a time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}

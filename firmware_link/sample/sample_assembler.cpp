@@ -11,7 +11,9 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReboot = std::chrono::seconds(1);
-constexpr double kMaxHoleInPeriods = 1.5;
+constexpr double kGapInPeriods = 1.5;
+// The ranges that follow one lost packet keep their dead reckoning.
+constexpr double kMaxInterpolationInPeriods = 2.5;
 
 Duration scaled(Duration duration, double factor) { return from_seconds(to_seconds(duration) * factor); }
 
@@ -27,7 +29,7 @@ SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputCounters& co
 
 void SampleAssembler::set_periods(Duration range_period, Duration odometry_period) {
   config_.range_period = range_period;
-  config_.continuity.longest_interpolation = scaled(odometry_period, kMaxHoleInPeriods);
+  config_.continuity.longest_interpolation = scaled(odometry_period, kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
 }
@@ -42,11 +44,13 @@ void SampleAssembler::add(const Reading& reading) {
     yaws_.restart();
   }
   if (reading.position_odom || reading.yaw_odom_rad) ++counters_.odometry_packets;
+  bool leaps = false;
   if (reading.position_odom && std::isfinite(reading.position_odom->x_m) &&
       std::isfinite(reading.position_odom->y_m))
-    positions_.add(reading.at, *reading.position_odom);
+    leaps = positions_.add(reading.at, *reading.position_odom);
   if (reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad))
-    yaws_.add(reading.at, {*reading.yaw_odom_rad});
+    leaps = yaws_.add(reading.at, {*reading.yaw_odom_rad}) || leaps;
+  if (leaps) ++counters_.leaps;
   if (!reading.distance_m.empty()) hold_ranges(reading);
 }
 
@@ -100,7 +104,7 @@ void SampleAssembler::count_gap(const Reading& reading) {
     const Duration since =
         last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.received - *last_ranges_received_;
     const double periods = to_seconds(since) / to_seconds(config_.range_period);
-    if (periods > kMaxHoleInPeriods) {
+    if (periods > kGapInPeriods) {
       ++counters_.gaps;
       counters_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
     }
@@ -127,11 +131,28 @@ std::optional<RangeSample> SampleAssembler::take() {
       continue;
     }
     const Pose2 T_odom_body(position.value.x_m, position.value.y_m, yaw.value.yaw_rad);
-    const RangeSample sample = finish(pending_.front(), T_odom_body, {position.run, yaw.run, at});
+    const Motion motion{position.run, yaw.run, at};
+    if (!is_within_reach(position.value, motion)) {
+      ++counters_.too_far;
+      pending_.erase(0);
+      continue;
+    }
+    const RangeSample sample = finish(pending_.front(), T_odom_body, motion);
     pending_.erase(0);
     return sample;
   }
   return std::nullopt;
+}
+
+bool SampleAssembler::is_of_last_run(const Motion& motion) const {
+  return last_motion_ && last_motion_->position_run == motion.position_run &&
+         last_motion_->yaw_run == motion.yaw_run;
+}
+
+bool SampleAssembler::is_within_reach(const Point2& position_odom, const Motion& motion) {
+  if (!is_of_last_run(motion)) began_at_odom_ = position_odom;
+  return std::hypot(position_odom.x_m - began_at_odom_.x_m, position_odom.y_m - began_at_odom_.y_m) <=
+         config_.continuity.farthest_m;
 }
 
 RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_odom_body,
@@ -141,8 +162,7 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
   sample.measured_at = ranges.measured_at;
   sample.stamp = ranges.received;
   sample.T_odom_body = T_odom_body;
-  const bool runs_on = last_motion_ && last_motion_->position_run == motion.position_run &&
-                       last_motion_->yaw_run == motion.yaw_run;
+  const bool runs_on = is_of_last_run(motion);
   const bool was_watched = runs_on && motion.at - last_motion_->at < config_.unwatched_after;
   sample.starts_segment = !was_watched;
   sample.odometry_ran_on = runs_on && !was_watched;

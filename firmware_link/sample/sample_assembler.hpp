@@ -50,7 +50,7 @@ class SampleAssembler {
   SampleAssembler(const AssemblyConfig& config, InputCounters& counters);
 
   /// The periods of ranges and dead reckoning, once known. Dead reckoning is then interpolated across at most
-  /// 1.5 periods.
+  /// 2.5 periods: one lost packet.
   void set_periods(Duration range_period, Duration odometry_period);
   /// A duplicate or late reading is dropped and counted; a step back of more than a second is a reboot of the
   /// vehicle.
@@ -78,6 +78,10 @@ class SampleAssembler {
   void restart();
   void count_gap(const Reading& reading);
   void hold_ranges(const Reading& reading);
+  /// Whether motion joins it with the last sample.
+  [[nodiscard]] bool is_of_last_run(const Motion& motion) const;
+  /// False when the dead reckoning has run away.
+  bool is_within_reach(const Point2& position_odom, const Motion& motion);
   RangeSample finish(const PendingRanges& ranges, const Pose2& T_odom_body, const Motion& motion);
   void drop_oldest();
 
@@ -92,6 +96,7 @@ class SampleAssembler {
   std::uint32_t boot_ = 0;
   DeviceTime latest_{};  ///< of all readings since the last restart
   std::optional<Motion> last_motion_;
+  Point2 began_at_odom_;  ///< the dead reckoning, with the run of last_motion_
   std::uint32_t next_sequence_ = 0;
   bool ended_ = false;
 };

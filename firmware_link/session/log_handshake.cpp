@@ -14,6 +14,8 @@ constexpr std::uint8_t kFast10ms = 10;
 constexpr std::uint8_t kSlow10ms = 100;
 // The longest wait for the reply to an append, in repetition periods.
 constexpr int kMaxPatience = 20;
+// A damaged packet, or one for another program, may look like a refusal.
+constexpr int kMaxAsksAgain = 3;
 constexpr std::string_view kSourceText = "Bitcraze Crazyflie";
 
 // All values of one instant in one packet: 26 bytes, the most that a block can hold.
@@ -63,6 +65,7 @@ std::optional<CrtpPacket> LogHandshake::next_request(HostTime now) {
     append_patience_ = std::min(append_patience_ + 1, kMaxPatience);
     remake_block();
   }
+  awaits_source_ = step_ == Step::kSource;
   return request_.take_due(now);
 }
 
@@ -86,15 +89,21 @@ void LogHandshake::enter(Step step) {
 }
 
 void LogHandshake::fail(std::string message) {
+  if (asks_again_ < kMaxAsksAgain) {
+    ++asks_again_;
+    if (step_ != Step::kSource) enter(Step::kSource);
+    return;
+  }
   failure_ = Error{ErrorCode::kInvalidInput, std::move(message)};
   enter(Step::kFailed);
 }
 
 void LogHandshake::on_source(std::span<const std::uint8_t> packet) {
   const std::string_view text(reinterpret_cast<const char*>(packet.data()) + 1, packet.size() - 1);
-  if (!text.starts_with(kSourceText))
-    return fail("the vehicle is not a Crazyflie, or older than CRTP protocol 1");
-  enter(Step::kVersion);
+  if (text.starts_with(kSourceText)) return enter(Step::kVersion);
+  // The right answer to the same request may still come.
+  if (std::exchange(awaits_source_, false))
+    fail("the vehicle is not a Crazyflie, or older than CRTP protocol 1");
 }
 
 void LogHandshake::on_version(std::span<const std::uint8_t> packet) {

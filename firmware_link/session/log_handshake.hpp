@@ -49,7 +49,7 @@ class LogHandshake {
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
   /// The blocks that samples are made of. Once finished().
   [[nodiscard]] std::vector<std::uint8_t> essential_blocks() const;
-  /// Why this vehicle cannot be used; final. Lost packets are no failure.
+  /// Why this vehicle cannot be used; final: it was asked four times. Lost packets are no failure.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// CRTP protocol version; 0 until received. kNewestProtocol is the newest that swiftlet was tried with.
   [[nodiscard]] int protocol() const { return protocol_; }
@@ -90,6 +90,8 @@ class LogHandshake {
   std::size_t block_ = 0;          ///< of the plan
   std::size_t block_request_ = 0;  ///< of the block
   int append_patience_ = 1;        ///< in repetition periods
+  int asks_again_ = 0;             ///< from the beginning, after a refusal
+  bool awaits_source_ = false;     ///< the last request has not been answered
   std::optional<Error> failure_;
 };
 

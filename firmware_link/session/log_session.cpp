@@ -18,6 +18,26 @@ namespace {
 // except for eight in its radio.
 constexpr Duration kClocksAgree = std::chrono::seconds(2);
 
+/// How far the vehicle's clock has advanced from one packet to the other.
+Duration device_step(const LogStamp& from, const LogStamp& to) {
+  return std::chrono::milliseconds(
+      DeviceClockUnwrapper::shortest_step_ms(std::int64_t{to.counter_ms} - from.counter_ms));
+}
+
+/// How much less than the host's clock.
+Duration lateness(const LogStamp& from, const LogStamp& to) {
+  using std::chrono::milliseconds;
+  const auto host_ms = (to.received - from.received) / milliseconds(1);
+  return milliseconds(
+      DeviceClockUnwrapper::shortest_step_ms(host_ms - (std::int64_t{to.counter_ms} - from.counter_ms)));
+}
+
+/// Whether both can be of one clock: near each other, or as far apart as the packets were received.
+bool are_of_one_clock(const LogStamp& a, const LogStamp& b) {
+  return std::chrono::abs(device_step(a, b)) <= kClocksAgree ||
+         std::chrono::abs(lateness(a, b)) <= kClocksAgree;
+}
+
 }  // namespace
 
 void LogSession::describe(const BlockDescription& description) {
@@ -44,29 +64,49 @@ std::optional<LogRecord> LogSession::on_frame(const LinkFrame& frame) {
   } else if (is_on(packet, kLogDataTopic)) {
     return read(frame);
   } else if (is_on(packet, kLogTocTopic)) {
-    if (toc_.on_reply(packet)) ++toc_revision_;
+    on_toc_reply(packet);
   } else if (is_on(packet, kLogControlTopic)) {
     blocks_.on_reply(packet);
   }
   return std::nullopt;
 }
 
+/// What nobody asked for does not make it another vehicle.
+void LogSession::on_toc_reply(std::span<const std::uint8_t> packet) {
+  const std::optional<TocInfo> info = read_toc_info(packet);
+  const bool was_asked = info && std::exchange(toc_info_requested_, false);
+  if (info && toc_.info() && *info != *toc_.info() && !was_asked) return;
+  if (toc_.on_reply(packet)) ++toc_revision_;
+}
+
 void LogSession::on_request(std::span<const std::uint8_t> packet) {
+  const bool asks_for_toc_info = is_on(packet, kLogTocTopic) && packet.size() > 1 &&
+                                 packet[1] == static_cast<std::uint8_t>(TocCommand::kInfo);
+  toc_info_requested_ = toc_info_requested_ || asks_for_toc_info;
   if (!is_on(packet, kLogControlTopic)) return;
   blocks_.on_request(packet);
   if (packet.size() > 1 && packet[1] == static_cast<std::uint8_t>(LogCommand::kReset)) reset_received_ = true;
 }
 
+/// The 24-bit clock of one packet cannot be told from noise. A clock that has indeed restarted shows in the
+/// next packet too.
+bool LogSession::is_doubtful(const LogStamp& stamp) {
+  if (!last_data_ || are_of_one_clock(*last_data_, stamp)) return false;
+  return !doubted_ || doubted_->counter_ms == stamp.counter_ms || !are_of_one_clock(*doubted_, stamp);
+}
+
 /// A session begins with a reset, also after the link was lost. If the vehicle's clock did not advance as far
 /// as the host's meanwhile, the vehicle has rebooted (or is another one).
-DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime received) {
+std::optional<DeviceTime> LogSession::time_of(const LogStamp& stamp) {
   const bool is_after_reset = std::exchange(reset_received_, false);
+  if (!is_after_reset && is_doubtful(stamp)) {
+    doubted_ = stamp;
+    return std::nullopt;
+  }
+  doubted_.reset();
   bool has_waited = false;
   if (last_data_) {
-    using std::chrono::milliseconds;
-    const auto host_ms = (received - last_data_->received) / milliseconds(1);
-    const auto device_ms = static_cast<std::int64_t>(counter_ms) - last_data_->counter_ms;
-    const Duration late = milliseconds(DeviceClockUnwrapper::shortest_step_ms(host_ms - device_ms));
+    const Duration late = lateness(*last_data_, stamp);
     if (is_after_reset && std::chrono::abs(late) > kClocksAgree) {
       ++boot_;
       clock_ = {};
@@ -75,8 +115,8 @@ DeviceTime LogSession::time_of(std::uint32_t counter_ms, HostTime received) {
     }
   }
   // The few packets that the vehicle's radio keeps through any silence do not show how the clocks compare.
-  if (!has_waited) last_data_ = {counter_ms, received};
-  return clock_.unwrap(counter_ms);
+  if (!has_waited) last_data_ = stamp;
+  return clock_.unwrap(stamp.counter_ms);
 }
 
 std::optional<LogRecord> LogSession::read(const LinkFrame& frame) {
@@ -87,30 +127,41 @@ std::optional<LogRecord> LogSession::read(const LinkFrame& frame) {
   }
   LogRecord record;
   record.block_id = packet[1];
-  record.at = time_of(static_cast<std::uint32_t>(load_little_endian(packet, 2, 3)), frame.at);
-  record.boot = boot_;
   record.received = frame.at;
   record.values = packet.subspan(kLogDataPrefix);
+  if (!find_layout(record)) return std::nullopt;
+  const std::optional<DeviceTime> at =
+      time_of({static_cast<std::uint32_t>(load_little_endian(packet, 2, 3)), frame.at});
+  if (!at) {
+    ++unreadable_.wrong_time;
+    return std::nullopt;
+  }
+  record.at = *at;
+  record.boot = boot_;
+  return record;
+}
+
+bool LogSession::find_layout(LogRecord& record) {
   record.entry_count = blocks_.entries_in(record.block_id, record.values.size());
   record.block = &blocks_[record.block_id];
   if (is_named(*record.block, std::max<std::size_t>(record.entry_count, 1))) {
-    if (record.entry_count > 0) return record;
+    if (record.entry_count > 0) return true;
     ++unreadable_.misfit;
-    return std::nullopt;
+    return false;
   }
   if (described_blocks_.empty() || !described_blocks_[record.block_id].exists) {
     ++unreadable_.unknown_block;
-    return std::nullopt;
+    return false;
   }
   record.block = &described_blocks_[record.block_id];
   if (byte_count(record.block->entries) != record.values.size()) {
     ++unreadable_.misfit;
-    return std::nullopt;
+    return false;
   }
   record.described = true;
   record.entry_count = record.block->entries.size();
   used_description_ = true;
-  return record;
+  return true;
 }
 
 bool LogSession::is_named(const LogBlock& block, std::size_t entry_count) const {

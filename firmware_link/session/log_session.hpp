@@ -43,6 +43,13 @@ struct LogRecord {
 struct UnreadableRecords {
   std::uint64_t unknown_block = 0;  ///< the contents of the block, or their names, are unknown
   std::uint64_t misfit = 0;         ///< its size is not that of the layout
+  std::uint64_t wrong_time = 0;     ///< its stamp is not of the vehicle's clock
+};
+
+/// The vehicle's 24-bit clock in a log packet, and when the packet was received.
+struct LogStamp {
+  std::uint32_t counter_ms = 0;
+  HostTime received{};
 };
 
 /// Learns from both directions of a link what the vehicle's log packets hold: table of contents, block
@@ -68,13 +75,12 @@ class LogSession {
   [[nodiscard]] const UnreadableRecords& unreadable() const { return unreadable_; }
 
  private:
-  /// The last log data packet.
-  struct LastData {
-    std::uint32_t counter_ms = 0;
-    HostTime received{};
-  };
+  void on_toc_reply(std::span<const std::uint8_t> packet);
   std::optional<LogRecord> read(const LinkFrame& frame);
-  DeviceTime time_of(std::uint32_t counter_ms, HostTime received);
+  /// Sets the layout of a record whose block and size fit one; counts it otherwise.
+  bool find_layout(LogRecord& record);
+  std::optional<DeviceTime> time_of(const LogStamp& stamp);
+  [[nodiscard]] bool is_doubtful(const LogStamp& stamp);
   /// Whether the first `entry_count` entries exist and have names.
   [[nodiscard]] bool is_named(const LogBlock& block, std::size_t entry_count) const;
 
@@ -83,8 +89,10 @@ class LogSession {
   LogToc described_toc_;
   std::vector<LogBlock> described_blocks_;  // by id, empty without a description
   std::uint32_t toc_revision_ = 0;
+  bool toc_info_requested_ = false;
   DeviceClockUnwrapper clock_;
-  std::optional<LastData> last_data_;
+  std::optional<LogStamp> last_data_;
+  std::optional<LogStamp> doubted_;  ///< of the packet before, if its stamp was doubtful
   bool reset_received_ = false;
   std::uint32_t boot_ = 0;
   bool used_description_ = false;

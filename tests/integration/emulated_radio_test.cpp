@@ -125,6 +125,22 @@ TEST_P(LossyRadioTest, CopesWithOldFirmwareThatAnswersEverySecondSafelinkRequest
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LossyRadioTest, testing::Values(1, 2, 3, 4, 5));
 
+TEST(EmulatedRadioTest, ReceivesEverythingWithoutSafelinkAfterAProgramThatUsedIt) {
+  EmulatedFlight flight(1);
+  {
+    RadioLink with_safelink(flight.bus, flight.clock, {});
+    LogListener(with_safelink, flight.clock).listen(seconds(5));
+    ASSERT_TRUE(flight.receiver.safelink());
+  }
+  RadioAddress address;
+  address.safelink = false;
+  RadioLink without(flight.bus, flight.clock, address);
+  LogListener listener(without, flight.clock);
+  listener.listen(seconds(10));
+  EXPECT_FALSE(flight.receiver.safelink());
+  EXPECT_GE(listener.received().size(), 95U);
+}
+
 TEST(EmulatedRadioTest, CountsLossesHonestlyWithoutSafelink) {
   RadioAddress address;
   address.safelink = false;

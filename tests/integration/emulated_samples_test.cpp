@@ -30,12 +30,13 @@ constexpr milliseconds kOldestRange{200};
 
 class EmulatedSamples {
  public:
-  explicit EmulatedSamples(std::uint64_t seed = 1, const VehicleModel& model = vehicle_on_radio())
+  explicit EmulatedSamples(std::uint64_t seed = 1, const VehicleModel& model = vehicle_on_radio(),
+                           const RadioAddress& address = {})
       : flight(seed, model) {
     LinkInput input;
     input.name = "radio://0/80/2M/E7E7E7E7E7";
     input.clock = {std::shared_ptr<LinkClock>(), &flight.clock};  // the flight's own
-    input.link = std::make_unique<RadioLink>(flight.bus, flight.clock, RadioAddress{});
+    input.link = std::make_unique<RadioLink>(flight.bus, flight.clock, address);
     input.starts_logging = true;
     source = std::make_unique<LinkSampleSource>(std::move(input));
   }
@@ -124,6 +125,20 @@ TEST_P(LossySamplesTest, NoneIsLostOrDoubledWithAFifthOfPacketsAndAcksLost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LossySamplesTest, testing::Values(1, 2, 3));
+
+TEST_P(LossySamplesTest, WithoutSafelinkAPacketThatIsLostAloneCostsItsOwnSampleOnly) {
+  RadioAddress address;
+  address.safelink = false;
+  EmulatedSamples flown(GetParam(), vehicle_on_radio(), address);
+  flown.begin();
+  flown.flight.receiver.losses = {.packet = 0.2, .ack = 0.2, .retries_share_fate = true};
+  flown.listen(minutes(10));
+  const InputCounters& counters = flown.report().counters;
+  EXPECT_GT(counters.missing_packets, 1000U);
+  // Behind two losses in a row: 0.2 * 0.2 * 0.8 of all.
+  EXPECT_LT(static_cast<double>(counters.unpaired), 0.045 * 6000.0);
+  EXPECT_GT(flown.samples.size(), 4500U);
+}
 
 TEST(EmulatedSamplesTest, ComeAgainWithinTwoSecondsOfThreeSecondsOfSilence) {
   EmulatedSamples flown;

@@ -15,7 +15,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from simulation import PATIENCE_S, Failed, Simulation, expect
+from simulation import PATIENCE_S, Failed, RegisteringDoor, Simulation, expect
 
 
 class Flight:
@@ -176,6 +176,28 @@ def a_recording_is_followed_while_it_is_written(bench):
     expect(follower.returncode == 0 and len(stamps) > 60, said)
     for name in ("trajectory.tum", "odometry.tum", "map.pgm"):
         expect((out / name).read_bytes() == (flight.out / name).read_bytes(), name + " differs: " + said)
+
+
+def each_program_says_goodbye_to_a_simulator_that_serves_one(bench):
+    vehicle = bench.vehicle()
+    door = RegisteringDoor(vehicle.port)
+    try:
+        for _ in range(2):
+            asked = subprocess.run([bench.swiftlet, "doctor", f"udp://127.0.0.1:{door.port}", "--json"],
+                                   capture_output=True, check=False, text=True)
+            expect("all variables are there and log data flows" in asked.stdout, asked.stdout)
+        recorded = subprocess.run([bench.swiftlet, "record", f"udp://127.0.0.1:{door.port}", "--seconds", "3", "-o",
+                                   str(bench.folder / "recorded.pcap")], capture_output=True, check=False, text=True)
+        expect(recorded.returncode == 0, recorded.stderr)
+        flight = bench.flight(door.port)
+        flight.wait_for("connected to the vehicle")
+        time.sleep(2.0)
+        _, stamps = flight.land()
+        expect(len(stamps) > 10, f"{len(stamps)} samples")
+        expect(door.client is None, "the daemon never said goodbye")
+    finally:
+        door.close()
+        vehicle.end()
 
 
 def a_missing_deck_is_named(bench):

@@ -9,15 +9,12 @@
 
 namespace swiftlet {
 
-CorrectedRun corrected_run(const std::string& uri) {
+CorrectedRun corrected_run(SampleSource& source) {
   CorrectedRun run;
-  const auto source = open_sample_source(uri, {});
-  EXPECT_TRUE(source.ok()) << (source.ok() ? "" : source.error().message);
-  if (!source.ok()) return run;
-  Frontend frontend({}, (*source)->sensor(), (*source)->beams());
-  Backend backend({}, (*source)->sensor(), (*source)->beams());
-  Result<ReceivedSample> received = (*source)->next();
-  for (; received || received.error().code == ErrorCode::kTimeout; received = (*source)->next()) {
+  Frontend frontend({}, source.sensor(), source.beams());
+  Backend backend({}, source.sensor(), source.beams());
+  Result<ReceivedSample> received = source.next();
+  for (; received || received.error().code == ErrorCode::kTimeout; received = source.next()) {
     if (!received) continue;
     run.samples.push_back(received->sample);
     backend.add(frontend.process(received->sample));
@@ -26,9 +23,15 @@ CorrectedRun corrected_run(const std::string& uri) {
   backend.finish();
   for (const auto& [id, scan] : backend.scans().all()) run.T_map_body.push_back(backend.T_map_body(id));
   run.counters = backend.counters();
-  run.truth = (*source)->ground_truth();
-  run.input = (*source)->report();
+  run.truth = source.ground_truth();
+  run.input = source.report();
   return run;
+}
+
+CorrectedRun corrected_run(const std::string& uri) {
+  const auto source = open_sample_source(uri, {});
+  EXPECT_TRUE(source.ok()) << (source.ok() ? "" : source.error().message);
+  return source ? corrected_run(**source) : CorrectedRun{};
 }
 
 std::vector<Pose2> dead_reckoned(const CorrectedRun& run) {

@@ -19,8 +19,9 @@ struct CorrectedRun {
   InputReport input;
 };
 
-/// Opens an input and takes it through frontend and backend, sample by sample and to the final pass. Fails
-/// the running test where it cannot be opened; the run is empty then.
+/// Takes an input through frontend and backend, sample by sample and to the final pass.
+CorrectedRun corrected_run(SampleSource& source);
+/// Opens an input for it. Fails the running test where it cannot be opened; the run is empty then.
 CorrectedRun corrected_run(const std::string& uri);
 
 /// The dead reckoning of each sample: what a run is corrected from.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -180,6 +181,52 @@ TEST(LinkSampleSource, FallsBackToADescriptionAndReportsIt) {
   EXPECT_TRUE(source.find_first_sample().ok());
   EXPECT_EQ(read_all(source).size(), 7U);
   EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("taken from flight.pcap.toml")));
+}
+
+TEST(LinkSampleSource, MapsACaptureWithTheYawOfTheStabilizer) {
+  SyntheticCapture capture;
+  std::vector<LinkFrame> frames = capture.frames();
+  const Bytes before = toc_item_reply(2, LogType::kFloat, "stateEstimate", "yaw");
+  for (LinkFrame& frame : frames)
+    if (std::ranges::equal(frame.packet(), before))
+      frame = received(toc_item_reply(2, LogType::kFloat, "stabilizer", "yaw"), frame.at);
+  LinkSampleSource source(input_of(frames));
+  EXPECT_TRUE(source.find_first_sample().ok());
+  EXPECT_EQ(read_all(source).size(), 7U);
+}
+
+TEST(LinkSampleSource, TellsOfDamageInTheDeadReckoning) {
+  SyntheticCapture capture;
+  capture.packets = 40;
+  std::vector<LinkFrame> frames = capture.frames();
+  LinkFrame damaged = capture.data(20);
+  damaged.bytes[4] = 0x55;
+  frames.insert(frames.end() - 30, damaged);
+  LinkSampleSource source(input_of(frames));
+  EXPECT_EQ(read_all(source).size(), 39U);
+  source.end();
+  EXPECT_EQ(source.report().counters.segments, 1U);
+  EXPECT_THAT(source.report().problems, ElementsAre(HasSubstr("1 log packets have a time that")));
+}
+
+TEST(LinkSampleSource, LeavesOutARunawayOfTheDeadReckoningAndTellsOfIt) {
+  std::vector<LinkFrame> frames = SyntheticCapture{}.handshake();
+  for (int i = 0; i < 4000; ++i) {
+    const LogPacket packet = LogPacket(1, 1000 + 100 * static_cast<std::uint32_t>(i))
+                                 .f32(0.4F * static_cast<float>(i))
+                                 .f32(0.F)
+                                 .f32(0.F)
+                                 .u16(1000)
+                                 .u16(1000)
+                                 .u16(1000)
+                                 .u16(1000);
+    frames.push_back(received(packet.bytes(), host_ms(1'700'000'001'000 + 100L * i)));
+  }
+  LinkSampleSource source(input_of(frames));
+  for (const RangeSample& sample : read_all(source)) ASSERT_LE(sample.T_odom_body.x_m(), 1000.0);
+  source.end();
+  EXPECT_EQ(source.report().counters.segments, 1U);
+  EXPECT_THAT(source.report().problems, ElementsAre(HasSubstr("1498 range packets lie more than 1000 m")));
 }
 
 TEST(LinkSampleSource, ReportsWhyARecordingHoldsNoSample) {

@@ -174,16 +174,34 @@ TEST_F(RadioLinkTest, GivesUpSafelinkAfterTenAnswersThatAreNoEcho) {
   EXPECT_EQ(packets_of(listen(milliseconds(20)), LinkDirection::kFromVehicle).size(), 2U);
 }
 
-TEST_F(RadioLinkTest, NeverRequestsSafelinkIfTheUserSwitchedItOff) {
+TEST_F(RadioLinkTest, TellsTheVehicleToDoWithoutSafelinkIfTheUserSwitchedItOff) {
   address_.safelink = false;
-  static_cast<void>(listen(milliseconds(100)));
+  const auto listen_again = [this] {
+    dongle_.packets.clear();
+    static_cast<void>(listen(milliseconds(100)));
+    EXPECT_EQ(safelink_requests(), 0);
+    EXPECT_EQ(std::ranges::count(sent(), Bytes{0xFF, 0x05, 0x00}), 1);
+    EXPECT_EQ(std::ranges::count(sent(), Bytes{0xFF}), std::ssize(sent()) - 1);
+    EXPECT_FALSE(link().statistics().safelink);
+    EXPECT_EQ(condition(), LinkCondition::kConnected);
+  };
+  listen_again();
   dongle_.is_in_range = [] { return false; };
-  static_cast<void>(listen(seconds(3)));
+  static_cast<void>(listen(milliseconds(3010)));
   dongle_.is_in_range = [] { return true; };
-  static_cast<void>(listen(milliseconds(100)));
-  EXPECT_EQ(safelink_requests(), 0);
-  EXPECT_EQ(condition(), LinkCondition::kConnected);
-  EXPECT_TRUE(std::ranges::all_of(sent(), [](const Bytes& packet) { return packet == Bytes{0xFF}; }));
+  listen_again();
+}
+
+TEST_F(RadioLinkTest, ReceivesEveryPacketWithoutSafelinkAfterAProgramThatUsedIt) {
+  dongle_.vehicle.has_safelink = true;  // it keeps that until told
+  address_.safelink = false;
+  connect();
+  dongle_.vehicle.waiting = {{0x50, 1}, {0x50, 2}, {0x50, 3}};
+  ASSERT_TRUE(link().send(Bytes{0x5C, 3}).ok());
+  const std::vector<LinkFrame> frames = listen(milliseconds(100));
+  EXPECT_EQ(packets_of(frames, LinkDirection::kFromVehicle),
+            (std::vector<Bytes>{{0x50, 1}, {0x50, 2}, {0x50, 3}}));
+  EXPECT_EQ(dongle_.vehicle.accepted.size(), 1U);
 }
 
 TEST_F(RadioLinkTest, DeliversARequestOnceAndBeforeItsAnswer) {

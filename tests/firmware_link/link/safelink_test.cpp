@@ -28,12 +28,14 @@ TEST(Safelink, KeepsTheHeadersBitsUntilThePacketIsAcknowledged) {
 }
 
 TEST(Safelink, AcceptsOnlyTheEchoAsConfirmation) {
-  EXPECT_TRUE(is_safelink_echo(kSafelinkRequest));
-  EXPECT_TRUE(is_safelink_echo(Bytes{0xF3, 5, 1})) << "newer radios overwrite the link bits";
-  EXPECT_FALSE(is_safelink_echo(Bytes{0xFF, 5, 0}));
-  EXPECT_FALSE(is_safelink_echo(Bytes{0xFF, 5}));
-  EXPECT_FALSE(is_safelink_echo(Bytes{0xF3}));
-  EXPECT_FALSE(is_safelink_echo(Bytes{0x5F, 5, 1}));
+  EXPECT_TRUE(is_safelink_echo(safelink_request(true), true));
+  EXPECT_TRUE(is_safelink_echo(Bytes{0xF3, 5, 1}, true)) << "newer radios overwrite the link bits";
+  EXPECT_FALSE(is_safelink_echo(Bytes{0xFF, 5, 0}, true));
+  EXPECT_FALSE(is_safelink_echo(Bytes{0xFF, 5}, true));
+  EXPECT_FALSE(is_safelink_echo(Bytes{0xF3}, true));
+  EXPECT_FALSE(is_safelink_echo(Bytes{0x5F, 5, 1}, true));
+  EXPECT_TRUE(is_safelink_echo(safelink_request(false), false));
+  EXPECT_FALSE(is_safelink_echo(safelink_request(true), false));
 }
 
 /// Sends numbered packets both ways; fate 0: delivered, 1: packet lost, 2: acknowledgement lost.

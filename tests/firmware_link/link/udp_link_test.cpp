@@ -219,6 +219,13 @@ TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndReconnects) {
   EXPECT_EQ(pair.link->statistics().silences, 2U);
 }
 
+TEST(UdpLink, SaysGoodbyeAtItsEnd) {
+  Pair pair;
+  pair.connect();
+  pair.link.reset();
+  EXPECT_THAT(pair.received(1), ElementsAre(hex("f4")));
+}
+
 TEST(UdpLink, WaitsUntilAVehicleListens) {
   SystemLinkClock clock;
   auto peer = std::make_unique<UdpPeer>();

@@ -94,6 +94,29 @@ TEST_F(ReadingExtractorTest, KnowsTheOtherNamesOfPositionAndYaw) {
   EXPECT_DOUBLE_EQ(*extract(LogPacket(2, 10).u32(0xC0000000U))->yaw_odom_rad, 0.0);
 }
 
+/// The blocks of the vendor's example multiranger_pointcloud.py.
+TEST_F(ReadingExtractorTest, ExtractsTheYawOfTheStabilizer) {
+  describe(1, {{"stateEstimate.x", LogType::kFloat},
+               {"stateEstimate.y", LogType::kFloat},
+               {"stateEstimate.z", LogType::kFloat}});
+  describe(2, {{"range.front", LogType::kUint16},
+               {"range.back", LogType::kUint16},
+               {"range.up", LogType::kUint16},
+               {"range.left", LogType::kUint16},
+               {"range.right", LogType::kUint16},
+               {"range.zrange", LogType::kUint16},
+               {"stabilizer.roll", LogType::kFloat},
+               {"stabilizer.pitch", LogType::kFloat},
+               {"stabilizer.yaw", LogType::kFloat}});
+  EXPECT_TRUE(extract(LogPacket(1, 10).f32(1.F).f32(2.F).f32(0.5F))->position_odom.has_value());
+  const auto reading = extract(
+      LogPacket(2, 12).u16(1000).u16(2000).u16(5).u16(3000).u16(4000).u16(500).f32(1.F).f32(2.F).f32(-90.F));
+  ASSERT_TRUE(reading.has_value());
+  ASSERT_TRUE(reading->yaw_odom_rad.has_value());
+  EXPECT_NEAR(*reading->yaw_odom_rad, -kPi / 2.0, 1e-12);
+  EXPECT_THAT(reading->distance_m, ElementsAre(1.F, 3.F, 2.F, 4.F));
+}
+
 TEST_F(ReadingExtractorTest, ExtractsWhetherTheVehicleFlies) {
   describe(1, {{"stateEstimate.yaw", LogType::kFloat}, {"supervisor.info", LogType::kUint16}});
   EXPECT_EQ(extract(LogPacket(1, 10).f32(0.F).u16(0x0018))->is_flying, true);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -136,6 +137,37 @@ TEST_F(SampleAssemblerTest, DropsRangesInAHoleOfTheDeadReckoningAndContinuesBehi
   EXPECT_EQ(counters_.gaps, 0U);
 }
 
+/// Packets with pose and ranges every 100 ms, those for which `is_lost` left out: how many samples they make.
+template <typename Lost>
+std::size_t samples_of_packets(int count, Lost is_lost) {
+  InputCounters counters;
+  SampleAssembler assembler(config(), counters);
+  assembler.set_periods(milliseconds(100), milliseconds(100));
+  std::size_t samples = 0;
+  for (int i = 0; i < count; ++i) {
+    if (is_lost(i)) continue;
+    Reading reading;
+    reading.at = device_ms(100L * i);
+    reading.position_odom = Point2{0.05 * i, 0.0};
+    reading.yaw_odom_rad = 0.0;
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    while (const auto sample = assembler.take()) {
+      EXPECT_NEAR(sample->T_odom_body.x_m(), 0.5 * to_seconds(sample->measured_at.time_since_epoch()), 1e-9);
+      ++samples;
+    }
+  }
+  return samples;
+}
+
+TEST(SampleAssembler, APacketThatIsLostAloneCostsItsOwnSampleOnly) {
+  EXPECT_EQ(samples_of_packets(100, [](int) { return false; }), 99U);
+  EXPECT_EQ(samples_of_packets(100, [](int i) { return i == 50; }), 98U);
+  EXPECT_EQ(samples_of_packets(100, [](int i) { return i % 10 == 5; }), 89U);
+  // Two in a row cost the one behind them too: the motion in so wide a hole is not known.
+  EXPECT_EQ(samples_of_packets(100, [](int i) { return i == 50 || i == 51; }), 96U);
+}
+
 TEST_F(SampleAssemblerTest, CountsGapsAndThePacketsTheyStandFor) {
   for (const int i : {0, 1, 2, 4, 5, 9, 10}) ranges(100L * i);
   EXPECT_EQ(counters_.gaps, 2U);
@@ -226,6 +258,39 @@ TEST_F(SampleAssemblerTest, AfterALongSilenceOrAJumpTheDeadReckoningRestarts) {
     if (samples_[i].starts_segment) starts.push_back(i);
   ASSERT_EQ(starts.size(), 3U);
   EXPECT_NEAR(samples_[starts[1]].T_odom_body.x_m(), 20.0, 0.05);
+}
+
+TEST_F(SampleAssemblerTest, CountsLeapsOfTheDeadReckoning) {
+  for (int i = 0; i < 20; ++i) {
+    position(100L * i, i < 10 ? 0.0 : 3.0);
+    ranges(100L * i + 4, i < 15 ? 0.0 : 2.0);
+  }
+  end();
+  EXPECT_EQ(counters_.leaps, 2U);
+  EXPECT_EQ(counters_.segments, 3U);
+}
+
+TEST_F(SampleAssemblerTest, LeavesOutWhatTheDeadReckoningPutsBeyondItsReach) {
+  AssemblyConfig bounded = config();
+  bounded.continuity.farthest_m = 10.0;
+  bounded.continuity.longest_silence = std::chrono::seconds(30);
+  SampleAssembler assembler(bounded, counters_);
+  const auto run_to = [&](std::int64_t ms, double x_m) {
+    Reading reading;
+    reading.at = device_ms(ms);
+    reading.position_odom = Point2{x_m, 0.0};
+    reading.yaw_odom_rad = 0.0;
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    while (const auto sample = assembler.take()) samples_.push_back(*sample);
+  };
+  // Away at 4 m/s from 100 m on, and back.
+  for (int i = 0; i < 100; ++i) run_to(100L * i, 100.0 + 0.4 * std::min(i, 99 - i));
+  ASSERT_FALSE(samples_.empty());
+  for (const RangeSample& sample : samples_) EXPECT_LE(sample.T_odom_body.x_m(), 110.0);
+  EXPECT_EQ(counters_.too_far, 48U);
+  EXPECT_EQ(counters_.samples, 51U);
+  EXPECT_TRUE(samples_.back().T_odom_body.x_m() < 101.0) << "it has come back";
 }
 
 TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningSurvivesBeginsASegmentWithAGuess) {

@@ -160,6 +160,37 @@ TEST_F(LogHandshakeTest, RepeatsARequestAfterTwoHundredMilliseconds) {
   EXPECT_FALSE(handshake_.next_request(host_ms(1399)).has_value());
 }
 
+/// A handshake in which the first answers to one request are bad ones.
+std::optional<Error> failure_after(ScriptedVehicle vehicle, const Bytes& bad, int times) {
+  LogSession session;
+  TocCache cache;
+  LogHandshake handshake(session, cache);
+  for (std::int64_t ms = 0; ms < 60'000 && !handshake.finished() && !handshake.failure(); ++ms) {
+    const std::optional<CrtpPacket> request = handshake.next_request(host_ms(ms));
+    if (!request) continue;
+    static_cast<void>(session.on_frame(frame_of(LinkDirection::kToVehicle, host_ms(ms), bytes_of(*request))));
+    const bool is_asked =
+        (((*request)[0] ^ bad[0]) & 0xF3) == 0 && (bad[0] == 0xFD || (*request)[1] == bad[1]);
+    std::optional<Bytes> reply = vehicle.answer(bytes_of(*request));
+    if (is_asked && times-- > 0) reply = bad;
+    if (!reply) continue;
+    const LinkFrame frame = received(*reply, host_ms(ms));
+    static_cast<void>(session.on_frame(frame));
+    handshake.on_frame(frame.packet());
+  }
+  EXPECT_TRUE(handshake.finished() || handshake.failure());
+  return handshake.failure();
+}
+
+TEST_F(LogHandshakeTest, AsksThreeTimesMoreBeforeItBelievesARefusal) {
+  for (const char* bad :
+       {"fd 4e 6f 6e 73 65 6e 73 65", "dd 00 02 00 00 00", "5d 05 00 08", "50 02", "5d 06 01 0c"}) {
+    for (int times = 1; times <= 3; ++times)
+      EXPECT_FALSE(failure_after(link_.vehicle, hex(bad), times)) << bad << ", " << times << " times";
+    EXPECT_TRUE(failure_after(link_.vehicle, hex(bad), 4)) << bad;
+  }
+}
+
 TEST_F(LogHandshakeTest, IgnoresRepliesToOtherItemsAndBlocks) {
   run();
   ASSERT_TRUE(handshake_.finished());

@@ -136,6 +136,68 @@ TEST(LogSession, PacketsThatWaitedThroughASilenceAreNoReboot) {
   EXPECT_EQ(boot_of(10, 20'000), 1U);
 }
 
+/// A data packet of the capture, with another stamp.
+LinkFrame stamped(LinkFrame frame, std::uint32_t counter_ms) {
+  for (std::size_t i = 0; i < 3; ++i) frame.bytes[2 + i] = static_cast<std::uint8_t>(counter_ms >> (8 * i));
+  return frame;
+}
+
+TEST(LogSession, OnlyItsOwnBlocksMoveTheClock) {
+  const SyntheticCapture capture;
+  LogSession session;
+  feed_all(session, capture.handshake());
+  const auto expect_time = [&](int i) {
+    const std::optional<LogRecord> record = session.on_frame(capture.data(i));
+    ASSERT_TRUE(record.has_value());
+    EXPECT_EQ(record->at, device_ms(capture.first_ms + 100L * i));
+    EXPECT_EQ(record->boot, 0U);
+  };
+  expect_time(0);
+  LinkFrame of_no_block = stamped(capture.data(1), 0x700000);
+  of_no_block.bytes[1] = 77;
+  LinkFrame of_other_size = stamped(capture.data(1), 0xE00000);
+  --of_other_size.size;
+  feed_all(session, {of_no_block, of_no_block, of_other_size, of_other_size});
+  expect_time(1);
+  EXPECT_EQ(session.unreadable().unknown_block, 2U);
+  EXPECT_EQ(session.unreadable().misfit, 2U);
+}
+
+TEST(LogSession, AnotherTableThatNobodyAskedForIsIgnored) {
+  const SyntheticCapture capture;
+  const LinkFrame other_table = received(hex("50 03 8b 01 8c a1 4c 71 10 80"));
+  LogSession session;
+  feed_all(session, capture.handshake());
+  feed_all(session, {other_table});
+  EXPECT_TRUE(session.on_frame(capture.data(0)).has_value());
+  feed_all(session, {sent(hex("5c 03")), other_table});
+  EXPECT_FALSE(session.on_frame(capture.data(1)).has_value());
+}
+
+TEST(LogSession, AStampThatNoOtherPacketConfirmsIsNotBelieved) {
+  const SyntheticCapture capture;
+  LogSession session;
+  feed_all(session, capture.handshake());
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(session.on_frame(capture.data(i)).has_value());
+  const LinkFrame damaged = stamped(capture.data(5), 0x300000);
+  feed_all(session, {damaged, damaged, stamped(capture.data(5), 0x900000)});
+  const std::optional<LogRecord> next = session.on_frame(capture.data(5));
+  ASSERT_TRUE(next.has_value());
+  EXPECT_EQ(next->at, device_ms(capture.first_ms + 500));
+  EXPECT_EQ(session.unreadable().wrong_time, 3U);
+}
+
+TEST(LogSession, AClockThatHasRestartedIsBelievedFromItsSecondPacketOn) {
+  const SyntheticCapture capture;
+  LogSession session;
+  feed_all(session, capture.handshake());
+  for (int i = 100; i < 105; ++i) EXPECT_TRUE(session.on_frame(capture.data(i)).has_value());
+  feed_all(session, {stamped(capture.data(105), 500)});
+  const std::optional<LogRecord> next = session.on_frame(stamped(capture.data(106), 600));
+  ASSERT_TRUE(next.has_value());
+  EXPECT_EQ(next->at, device_ms(600));
+}
+
 TEST(LogSession, NoTrafficKeepsItFromLearningAgain) {
   std::mt19937 random(11);
   LogSession session;

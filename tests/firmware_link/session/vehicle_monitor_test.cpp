@@ -37,8 +37,8 @@ class VehicleMonitorTest : public testing::Test {
     ASSERT_TRUE(record.has_value());
     monitor_.on_frame(*record);
   }
-  void on_state(std::uint16_t supervisor, std::uint16_t millivolts) {
-    on_frame(LogPacket(1, 100).u16(supervisor).u16(millivolts).bytes());
+  void on_state(std::uint16_t supervisor, std::uint16_t millivolts, std::uint32_t at_ms = 100) {
+    on_frame(LogPacket(1, at_ms).u16(supervisor).u16(millivolts).bytes());
   }
 
   LogSession session_;
@@ -104,7 +104,7 @@ TEST_F(FrozenRangesTest, AreReportedOnceUntilTheyMoveAgain) {
 TEST_F(FrozenRangesTest, AreNotReportedOnTheGroundOrWithNothingInReach) {
   on_state(0, 3800);
   EXPECT_FALSE(warns_within(5000));
-  on_state(kFlying, 3800);
+  on_state(kFlying, 3800, 6000);
   EXPECT_FALSE(warns_within(1900));
   front_mm_ = 32766;
   back_mm_ = 0;
