@@ -40,7 +40,7 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
       assembler_(assembly_config(input_.sensor), report_.counters) {
   report_.notes = input_.notes;
   if (input_.description) session_.describe(*input_.description);
-  if (input_.starts_logging) live_.emplace(session_, cache_);
+  if (input_.starts_logging) live_.emplace(session_, cache_, input_.shared != nullptr);
   follow_periods();
 }
 
