@@ -16,7 +16,7 @@ constexpr Duration kMaxSilence = std::chrono::seconds(1);
 constexpr Duration kTryAgainAfter = std::chrono::seconds(5);
 // Each request is repeated once a second or more, so packet loss alone hardly lasts that long; no vehicle is
 // exchanged sooner.
-constexpr Duration kMaxHandshakeSilence = std::chrono::seconds(3);
+constexpr Duration kMaxHandshakeSilence = std::chrono::seconds(6);
 constexpr Duration kProgressPeriod = std::chrono::seconds(2);
 // No answer to a question of this program comes later after the last one.
 constexpr Duration kLateAnswer = std::chrono::seconds(2);

@@ -354,7 +354,7 @@ TEST(EmulatedRadioTest, ADongleReplugedInMidFlightIsSetUpAnew) {
   radio.listener.listen(seconds(10));
   radio.expect_data_within_two_seconds_of(gone);
   EXPECT_EQ(radio.link.statistics().device_losses, 1U);
-  EXPECT_EQ(radio.flight.dongle.requests().size(), 8U);
+  EXPECT_EQ(radio.flight.dongle.requests().size(), 9U);
 }
 
 TEST(EmulatedRadioTest, HearsAllAcrossTheWrapOfTheVehiclesClock) {

@@ -282,6 +282,8 @@ TEST(LinkSampleSource, ConnectsWithinHalfAMinuteOverALinkOf600MillisecondsThereA
   EXPECT_LT(connect(300, 0.0).seconds, 30.0);
 }
 
+TEST(LinkSampleSource, ConnectsOverASlowAndLossyLink) { EXPECT_LT(connect(300, 0.2).seconds, 60.0); }
+
 TEST(LinkSampleSource, TellsHowMuchOfTheTableOfContentsIsRead) {
   const std::vector<std::int32_t> progress_percent = connect(300, 0.0).progress_percent;
   ASSERT_GT(progress_percent.size(), 4U);
