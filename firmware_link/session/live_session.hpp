@@ -45,6 +45,8 @@ class LiveSession {
   /// would have sent, to be handled as if it had sent them now. Empty afterwards.
   [[nodiscard]] std::vector<CrtpPacket> take_cached_replies();
 
+  /// It waits for answers that it would ask for again soon.
+  [[nodiscard]] bool asks() const { return !handshake_.finished() || !inventory_.finished(); }
   /// Why the first vehicle cannot be used. Later ones are retried.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// The events since the last call, in order. When there are too many, the newest are dropped.

@@ -118,6 +118,7 @@ void LogHandshake::on_toc(std::span<const std::uint8_t> packet, HostTime at) {
   toc_->on_frame(packet, at);
   if (toc_->failure()) return fail(toc_->failure()->message);
   if (!toc_->finished()) return;
+  request_ = PendingRequest(toc_->timer());
   if (toc_->came_from_cache()) restate_cached_toc();
   plan_blocks();
 }

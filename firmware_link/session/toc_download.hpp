@@ -42,6 +42,8 @@ class TocDownload {
   [[nodiscard]] bool came_from_cache() const { return from_cache_; }
   /// The share of the items that is known, 0 to 1.
   [[nodiscard]] double progress() const;
+  /// What it has learnt of the round trip.
+  [[nodiscard]] const RepeatTimer& timer() const { return timer_; }
   /// Once finished.
   [[nodiscard]] const TocInfo& info() const { return info_; }
   /// Once finished: all items, by id.
