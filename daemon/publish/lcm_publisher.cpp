@@ -93,6 +93,8 @@ std::int8_t condition_code(LinkCondition condition) {
       return link_status_t::CONDITION_DEVICE_MUTE;
     case LinkCondition::kDeviceFault:
       return link_status_t::CONDITION_DEVICE_FAULT;
+    case LinkCondition::kDeviceUnsuited:
+      return link_status_t::CONDITION_DEVICE_UNSUITED;
   }
   return link_status_t::CONDITION_NONE;
 }

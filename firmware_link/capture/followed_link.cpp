@@ -75,10 +75,15 @@ Result<LinkFrame> FollowedLink::read_frame() {
     reader_->follow();
   }
   for (;;) {
-    const Result<CaptureRecord> record = reader_->next();
+    Result<CaptureRecord> record = reader_->next();
     if (!record) return record.error();
-    if (!followed_) followed_ = record->vehicle;
-    if (record->vehicle == *followed_) return record->frame;
+    if (!followed_) {
+      followed_ = record->vehicle;
+      if (MinuteStamps::may_be(record->frame.at)) stamps_.emplace();
+    }
+    if (record->vehicle != *followed_) continue;
+    if (stamps_) record->frame.at = stamps_->unwrap(record->frame);
+    return record->frame;
   }
 }
 

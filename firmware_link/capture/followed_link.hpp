@@ -9,6 +9,7 @@
 
 #include "core/base/result.hpp"
 #include "firmware_link/capture/capture_reader.hpp"
+#include "firmware_link/capture/minute_stamps.hpp"
 #include "firmware_link/link/link.hpp"
 
 namespace swiftlet {
@@ -41,6 +42,7 @@ class FollowedLink final : public Link {
   bool fifo_has_ended_ = false;
   std::optional<CaptureReader> reader_;
   std::optional<CaptureVehicle> followed_;
+  std::optional<MinuteStamps> stamps_;  // if its first stamp may be of that kind
 };
 
 }  // namespace swiftlet

@@ -3,6 +3,7 @@
 #include "firmware_link/capture/replay_link.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "firmware_link/crtp/crtp_packet.hpp"
 
@@ -20,6 +21,9 @@ Result<std::unique_ptr<ReplayLink>> ReplayLink::open(const std::string& path) {
 Status ReplayLink::survey() {
   std::vector<CaptureVehicle> vehicles;  // in order of appearance
   bool sends_log_data = false;
+  HostTime last{};
+  bool steps_back = false;
+  stamps_.emplace();
   for (;;) {
     const Result<CaptureRecord> record = reader_.next();
     if (!record) {
@@ -30,6 +34,9 @@ Status ReplayLink::survey() {
       break;
     }
     const CaptureVehicle& vehicle = record->vehicle;
+    if (!MinuteStamps::may_be(record->frame.at)) stamps_.reset();
+    steps_back = steps_back || last - record->frame.at > std::chrono::seconds(30);
+    last = record->frame.at;
     if (std::find(vehicles.begin(), vehicles.end(), vehicle) == vehicles.end()) vehicles.push_back(vehicle);
     if (!sends_log_data && record->frame.direction == LinkDirection::kFromVehicle &&
         is_on(record->frame.packet(), kLogDataTopic)) {
@@ -43,6 +50,10 @@ Status ReplayLink::survey() {
       notes_.push_back("follows " + followed_.text() + ", leaves out " + vehicle.text());
   if (reader_.skipped() > 0)
     notes_.push_back(std::to_string(reader_.skipped()) + " records passed over that hold no CRTP packet");
+  if (stamps_ && steps_back)
+    notes_.push_back(
+        "its stamps hold the seconds of their minute alone (the vendor's client of 2022 to May 2024 wrote "
+        "them): continued by the vehicle's clock, the date is unknown");
   reader_.rewind();
   return {};
 }
@@ -51,7 +62,9 @@ Result<LinkFrame> ReplayLink::receive(Duration /*timeout*/) {
   for (;;) {
     Result<CaptureRecord> record = reader_.next();
     if (!record) return record.error();
-    if (record->vehicle == followed_) return record->frame;
+    if (record->vehicle != followed_) continue;
+    if (stamps_) record->frame.at = stamps_->unwrap(record->frame);
+    return record->frame;
   }
 }
 

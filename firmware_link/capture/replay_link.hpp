@@ -3,17 +3,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "firmware_link/capture/capture_reader.hpp"
+#include "firmware_link/capture/minute_stamps.hpp"
 #include "firmware_link/link/link.hpp"
 
 namespace swiftlet {
 
 /// A capture as a link, as fast as it is read: both directions of one vehicle. If several vehicles share the
-/// capture: of the one whose log data comes first.
+/// capture: of the one whose log data comes first. Stamps that wrap each minute are continued.
 class ReplayLink final : public Link {
  public:
   /// Reads the capture once to find its vehicles. Errors as CaptureReader::open, and kInvalidInput for a
@@ -36,6 +38,7 @@ class ReplayLink final : public Link {
 
   CaptureReader reader_;
   CaptureVehicle followed_;
+  std::optional<MinuteStamps> stamps_;  // if its stamps may be of that kind
   std::vector<std::string> notes_;
 };
 

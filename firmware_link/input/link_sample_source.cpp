@@ -13,6 +13,7 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
+constexpr Duration kTimeoutWhileAsking = RepeatTimer::kShortest;
 // After a second without the radio the vehicle gives up the link, and so does the source: the motion
 // meanwhile is a guess. The estimate runs on aboard, so the guess is good if the vehicle can have flown the
 // step across the hole; after longer than a battery lasts it has landed and may have been carried.
@@ -43,7 +44,7 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
       assembler_(assembly_config(input_.sensor), report_.counters) {
   report_.notes = input_.notes;
   if (input_.description) session_.describe(*input_.description);
-  if (input_.starts_logging) live_.emplace(session_, cache_);
+  if (input_.starts_logging) live_.emplace(session_, cache_, input_.shared != nullptr);
   follow_periods();
 }
 
@@ -87,8 +88,9 @@ Status LinkSampleSource::step() {
     Status sent = send_request();
     if (!sent) return sent;
   }
-  const Result<LinkFrame> frame = input_.link->receive(kReceiveTimeout);
-  if (!frame) return answer_failure(frame.error());
+  const Duration timeout = live_ && live_->asks() ? kTimeoutWhileAsking : kReceiveTimeout;
+  const Result<LinkFrame> frame = input_.link->receive(timeout);
+  if (!frame) return answer_failure(frame.error(), timeout);
   now_ = std::max(now_, frame->at);
   on_frame(*frame);
   return {};
@@ -126,9 +128,9 @@ void LinkSampleSource::on_cached_toc(HostTime at) {
   }
 }
 
-Status LinkSampleSource::answer_failure(const Error& error) {
+Status LinkSampleSource::answer_failure(const Error& error, Duration waited) {
   if (error.code == ErrorCode::kTimeout) {
-    now_ += kReceiveTimeout;  // with a clock, the next call corrects it
+    now_ += waited;  // with a clock, the next call corrects it
     return error;
   }
   assembler_.end();

@@ -84,7 +84,7 @@ class LinkSampleSource final : public SampleSource {
   Status send_request();
   void on_frame(const LinkFrame& frame);
   void on_cached_toc(HostTime at);
-  Status answer_failure(const Error& error);
+  Status answer_failure(const Error& error, Duration waited);
   void follow_periods();
   void finish_report();
   void note_breaks();

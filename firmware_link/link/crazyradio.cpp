@@ -3,6 +3,7 @@
 #include "firmware_link/link/crazyradio.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <utility>
@@ -25,6 +26,10 @@ constexpr std::uint8_t kSetRetryDelay = 0x05;
 constexpr std::uint8_t kSetRetries = 0x06;
 constexpr std::uint8_t kSetAcknowledge = 0x10;
 constexpr std::uint8_t kSetCarrier = 0x20;
+constexpr std::uint8_t kSetModeOfPa = 0x22;
+constexpr std::uint8_t kSetRadioModeOf2 = 0x24;
+// Never to be sent to a Crazyradio PA, which takes it for a register of its radio.
+constexpr std::uint8_t kSimulateLossOf2 = 0x30;
 
 constexpr std::uint16_t kFullPower = 3;
 constexpr std::uint16_t kDelayFor32Bytes = 0xA0;
@@ -47,20 +52,28 @@ std::optional<std::size_t> index_in(const std::string& name) {
   return is_number && name.size() < 10 ? std::optional(index) : std::nullopt;
 }
 
-using Opened = std::variant<std::unique_ptr<UsbDevice>, UsbOutcome>;
+struct OpenedDongle {
+  std::unique_ptr<UsbDevice> device;
+  bool is_crazyradio_2 = false;
+};
+using Opened = std::variant<OpenedDongle, UsbOutcome>;
 
-Opened open_dongle(UsbBus& bus, const UsbIdentity& identity) {
+Opened open_dongle(UsbBus& bus, const UsbIdentity& identity, const RadioAddress& address) {
   // Permission may be granted at this moment, but this may not be the dongle that was requested.
   if (identity.access == UsbOutcome::kAccessDenied) return identity.access;
   if (identity.release_bcd < kOldestCrazyradioRelease) return UsbOutcome::kFault;
-  return bus.open(identity, 0);
+  if (!radio_range(is_crazyradio_2(identity)).holds(address)) return UsbOutcome::kUnsuited;
+  auto device = bus.open(identity, 0);
+  if (device.index() == 1) return std::get<UsbOutcome>(device);
+  return OpenedDongle{std::get<0>(std::move(device)), is_crazyradio_2(identity)};
 }
 
 /// The first of those named that can be opened, else why the first cannot.
-Opened open_dongle(UsbBus& bus, const std::string& name) {
+Opened open_dongle(UsbBus& bus, const RadioAddress& address) {
   UsbOutcome failure = UsbOutcome::kDone;
-  for (const UsbIdentity& identity : dongles_named(name, bus.list(kCrazyradioVendor, kCrazyradioProduct))) {
-    Opened opened = open_dongle(bus, identity);
+  for (const UsbIdentity& identity :
+       dongles_named(address.dongle, bus.list(kCrazyradioVendor, kCrazyradioProduct))) {
+    Opened opened = open_dongle(bus, identity, address);
     if (opened.index() == 0) return opened;
     if (failure == UsbOutcome::kDone) failure = std::get<UsbOutcome>(opened);
   }
@@ -84,25 +97,27 @@ std::vector<UsbIdentity> dongles_named(const std::string& name, std::vector<UsbI
 }
 
 std::variant<Crazyradio, UsbOutcome> Crazyradio::open(UsbBus& bus, const RadioAddress& address) {
-  Opened opened = open_dongle(bus, address.dongle);
+  Opened opened = open_dongle(bus, address);
   if (opened.index() == 1) return std::get<UsbOutcome>(opened);
   // A client that crashed leaves the dongle in any state.
-  UsbOutcome outcome = std::get<0>(opened)->reset();
+  UsbOutcome outcome = std::get<0>(opened).device->reset();
   if (outcome == UsbOutcome::kNoDevice) {
     opened = UsbOutcome::kNoDevice;  // closed first: it came back under another number
-    opened = open_dongle(bus, address.dongle);
+    opened = open_dongle(bus, address);
     if (opened.index() == 1) return std::get<UsbOutcome>(opened);
     outcome = UsbOutcome::kDone;
   }
   if (outcome != UsbOutcome::kDone) return outcome;
-  Crazyradio radio(std::get<0>(std::move(opened)));
+  OpenedDongle& dongle = std::get<0>(opened);
+  Crazyradio radio(std::move(dongle.device), dongle.is_crazyradio_2);
   outcome = radio.initialise(address);
   if (outcome != UsbOutcome::kDone) return outcome;
   return radio;
 }
 
 UsbOutcome Crazyradio::initialise(const RadioAddress& address) {
-  UsbOutcome outcome = set_rate(address.rate);
+  UsbOutcome outcome = leave_modes();
+  if (outcome == UsbOutcome::kDone) outcome = set_rate(address.rate);
   if (outcome == UsbOutcome::kDone) outcome = set_channel(address.channel);
   if (outcome == UsbOutcome::kDone) outcome = request(kSetCarrier, 0);
   if (outcome == UsbOutcome::kDone) outcome = set_address(address.address);
@@ -114,12 +129,25 @@ UsbOutcome Crazyradio::initialise(const RadioAddress& address) {
   return outcome;
 }
 
+/// Another program may have left it in one of them, and a reset does not end them: Crazyradio 2.0 listens to
+/// others or drops packets on purpose, PA does not send. Firmware that has no such mode stalls the request.
+UsbOutcome Crazyradio::leave_modes() {
+  const auto known = [](UsbOutcome outcome) {
+    return outcome == UsbOutcome::kStall ? UsbOutcome::kDone : outcome;
+  };
+  if (!is_crazyradio_2_) return known(request(kSetModeOfPa, 0));
+  constexpr std::array<std::uint8_t, 2> kNoLoss{0, 0};
+  const UsbOutcome outcome = known(request(kSetRadioModeOf2, 0));
+  return outcome == UsbOutcome::kDone ? known(request(kSimulateLossOf2, 0, kNoLoss)) : outcome;
+}
+
 UsbOutcome Crazyradio::request(std::uint8_t request, std::uint16_t value,
                                std::span<const std::uint8_t> data) {
   return device_->control_out(request, value, 0, data, kControlTimeout).outcome;
 }
 
 UsbOutcome Crazyradio::set_rate(RadioRate rate) {
+  SWIFTLET_CHECK(rate >= range().slowest, "the dongle has that data rate");
   if (rate_ == rate) return UsbOutcome::kDone;
   const UsbOutcome outcome = request(kSetRate, static_cast<std::uint16_t>(rate));
   if (outcome == UsbOutcome::kDone) rate_ = rate;
@@ -127,7 +155,7 @@ UsbOutcome Crazyradio::set_rate(RadioRate rate) {
 }
 
 UsbOutcome Crazyradio::set_channel(std::uint8_t channel) {
-  SWIFTLET_CHECK(channel <= 125, "the dongle has channels 0 to 125");
+  SWIFTLET_CHECK(channel <= range().last_channel, "the dongle has that channel");
   if (channel_ == channel) return UsbOutcome::kDone;
   const UsbOutcome outcome = request(kSetChannel, channel);
   if (outcome == UsbOutcome::kDone) channel_ = channel;

@@ -24,6 +24,23 @@ inline constexpr std::uint16_t kCrazyradioProduct = 0x7777;
 inline constexpr std::uint16_t kOldestCrazyradioRelease = 0x0040;
 inline constexpr std::size_t kMaxRadioPayload = 32;
 
+/// Of Crazyradio PA and 2.0 the latter: bcdDevice counts 0.40 to 0.99 for the PA (99.55 if self-built).
+[[nodiscard]] constexpr bool is_crazyradio_2(const UsbIdentity& dongle) {
+  const int major = dongle.release_bcd >> 8;
+  return major != 0 && major != 0x99;
+}
+/// What a dongle can be tuned to. A Crazyradio 2.0 accepts more, and then nothing is ever acknowledged.
+struct RadioRange {
+  RadioRate slowest = RadioRate::k250Kbps;
+  std::uint8_t last_channel = 125;
+  [[nodiscard]] bool holds(const RadioAddress& address) const {
+    return address.rate >= slowest && address.channel <= last_channel;
+  }
+};
+[[nodiscard]] constexpr RadioRange radio_range(bool is_crazyradio_2) {
+  return is_crazyradio_2 ? RadioRange{RadioRate::k1Mbps, 100} : RadioRange{};
+}
+
 /// The dongles that RadioAddress::dongle selects: by index, by serial number, or all of them ("*"). If none
 /// has that serial number: those whose serial number may not be read.
 [[nodiscard]] std::vector<UsbIdentity> dongles_named(const std::string& name,
@@ -47,8 +64,9 @@ struct RadioAnswer {
 /// A Crazyradio PA or 2.0: sends one packet, fetches one. One thread at a time; must not outlive the bus.
 class Crazyradio {
  public:
-  /// Finds the dongle that `address` names, resets it and tunes it. Failures: kNoDevice, kAccessDenied (also
-  /// where the serial numbers may not be read), kBusy, kFault (also firmware before 0.40), kStall, kTimeout.
+  /// Finds the dongle that `address` names, resets it, ends the modes that survive a reset and tunes it.
+  /// Failures: kNoDevice, kAccessDenied (also where the serial numbers may not be read), kBusy, kFault (also
+  /// firmware before 0.40), kStall, kTimeout, kUnsuited (not in its range()).
   [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const RadioAddress& address);
 
   /// One packet out, its answer in. Takes about 1 ms, 10 ms without an acknowledgement, 0.25 s without an
@@ -56,17 +74,20 @@ class Crazyradio {
   /// Precondition: 1 to 32 bytes.
   [[nodiscard]] RadioAnswer exchange(std::span<const std::uint8_t> packet);
 
-  // Settings. A value that is set already is not sent again.
+  [[nodiscard]] RadioRange range() const { return radio_range(is_crazyradio_2_); }
+
+  // Settings. A value that is set already is not sent again. Precondition: in its range().
   [[nodiscard]] UsbOutcome set_rate(RadioRate rate);
-  /// Precondition: 0..125.
   [[nodiscard]] UsbOutcome set_channel(std::uint8_t channel);
   [[nodiscard]] UsbOutcome set_address(const std::array<std::uint8_t, 5>& address);
   /// Retransmissions after the first try. Precondition: 0..15.
   [[nodiscard]] UsbOutcome set_retries(std::uint8_t retries);
 
  private:
-  explicit Crazyradio(std::unique_ptr<UsbDevice> device) : device_(std::move(device)) {}
+  Crazyradio(std::unique_ptr<UsbDevice> device, bool is_crazyradio_2)
+      : device_(std::move(device)), is_crazyradio_2_(is_crazyradio_2) {}
   [[nodiscard]] UsbOutcome initialise(const RadioAddress& address);
+  [[nodiscard]] UsbOutcome leave_modes();
   [[nodiscard]] UsbOutcome request(std::uint8_t request, std::uint16_t value,
                                    std::span<const std::uint8_t> data = {});
   /// After a failed transfer: makes the endpoint usable again, if possible.
@@ -81,6 +102,7 @@ class Crazyradio {
   [[nodiscard]] RadioAnswer decode(std::size_t size) const;
 
   std::unique_ptr<UsbDevice> device_;
+  bool is_crazyradio_2_;
   std::optional<RadioRate> rate_;
   std::optional<std::uint8_t> channel_;
   std::optional<std::array<std::uint8_t, 5>> address_;

@@ -3,10 +3,15 @@
 #pragma once
 
 #include <poll.h>
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <ctime>
+#include <span>
 #include <thread>
 
+#include "core/base/check.hpp"
 #include "core/base/monotonic_time.hpp"
 #include "core/base/time.hpp"
 
@@ -31,8 +36,12 @@ class LinkClock {
     return std::chrono::steady_clock::now();
   }
   virtual void sleep_for(Duration duration) = 0;
-  /// Sleeps for that long, or until there is something to read. Simulated time passes whole.
-  virtual void sleep_until_readable(int /*file*/, Duration duration) { sleep_for(duration); }
+  /// Sleeps for that long, or until there is something to read in one of `files`, at most kMaxFiles; negative
+  /// ones are none. Simulated time passes whole.
+  virtual void sleep_until_readable(std::span<const int> /*files*/, Duration duration) {
+    sleep_for(duration);
+  }
+  static constexpr std::size_t kMaxFiles = 2;
 };
 
 /// Unix time as it was at the start, continued by the monotonic clock: a correction of the machine's clock
@@ -50,12 +59,16 @@ class SystemLinkClock final : public LinkClock {
     return steady_start_ + (at.time_since_epoch() - unix_start_);
   }
   void sleep_for(Duration duration) override { std::this_thread::sleep_for(duration); }
-  void sleep_until_readable(int file, Duration duration) override {
+  void sleep_until_readable(std::span<const int> files, Duration duration) override {
+    SWIFTLET_CHECK(files.size() <= kMaxFiles, "a link waits for its socket and its client's");
+    duration = std::max(duration, Duration::zero());
     const auto whole = std::chrono::floor<std::chrono::seconds>(duration);
     const timespec longest{.tv_sec = whole.count(),
                            .tv_nsec = (duration - whole) / std::chrono::nanoseconds(1)};
-    pollfd watched{.fd = file, .events = POLLIN, .revents = 0};
-    static_cast<void>(::ppoll(&watched, 1, &longest, nullptr));
+    std::array<pollfd, kMaxFiles> watched{};
+    for (std::size_t i = 0; i < files.size(); ++i)
+      watched[i] = {.fd = files[i], .events = POLLIN, .revents = 0};
+    static_cast<void>(::ppoll(watched.data(), files.size(), &longest, nullptr));
   }
 
  private:

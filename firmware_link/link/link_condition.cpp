@@ -33,6 +33,9 @@ std::string_view describe(LinkCondition condition) {
     case LinkCondition::kDeviceFault:
       return "the USB device fails (I/O error): unplug it and plug it in again, without a hub or into a "
              "USB 2 port";
+    case LinkCondition::kDeviceUnsuited:
+      return "a Crazyradio 2.0 has neither 250K nor channels above 100: set the vehicle to 1M or 2M and a "
+             "channel up to 100, or use a Crazyradio PA";
   }
   SWIFTLET_CHECK(false, "every condition has its line");
 }
@@ -53,6 +56,8 @@ LinkCondition condition_of(UsbOutcome failure) {
       return LinkCondition::kDeviceOverflows;
     case UsbOutcome::kFault:
       return LinkCondition::kDeviceFault;
+    case UsbOutcome::kUnsuited:
+      return LinkCondition::kDeviceUnsuited;
     case UsbOutcome::kDone:
       break;
   }

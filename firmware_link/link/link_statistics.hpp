@@ -22,6 +22,7 @@ enum class LinkCondition : std::uint8_t {
   kDeviceOverflows,  ///< it sends more than it may
   kDeviceMute,       ///< it does not answer in time
   kDeviceFault,      ///< any other error: I/O
+  kDeviceUnsuited,   ///< it has not the data rate or the channel asked for
 };
 
 /// Counters of a link since it was opened; copied into the status message. Rates are differences of them.

@@ -11,23 +11,26 @@ namespace swiftlet {
 namespace {
 
 constexpr std::array kRates{RadioRate::k250Kbps, RadioRate::k1Mbps, RadioRate::k2Mbps};
-constexpr std::uint8_t kLastChannel = 125;
 constexpr std::uint8_t kRetries = 1;
 constexpr std::array<std::uint8_t, 1> kPollPacket{0xFF};
 
 }  // namespace
 
 std::variant<std::vector<RadioAddress>, UsbOutcome> scan_radio(UsbBus& bus, const RadioAddress& wanted) {
-  std::variant<Crazyradio, UsbOutcome> opened = Crazyradio::open(bus, wanted);
+  RadioAddress address = wanted;
+  // What every dongle has.
+  address.rate = RadioRate::k2Mbps;
+  address.channel = 0;
+  std::variant<Crazyradio, UsbOutcome> opened = Crazyradio::open(bus, address);
   if (const UsbOutcome* failure = std::get_if<UsbOutcome>(&opened)) return *failure;
   Crazyradio& radio = std::get<Crazyradio>(opened);
   if (const UsbOutcome outcome = radio.set_retries(kRetries); outcome != UsbOutcome::kDone) return outcome;
   std::vector<RadioAddress> found;
-  RadioAddress address = wanted;
   for (const RadioRate rate : kRates) {
+    if (rate < radio.range().slowest) continue;
     address.rate = rate;
     if (const UsbOutcome outcome = radio.set_rate(rate); outcome != UsbOutcome::kDone) return outcome;
-    for (address.channel = 0; address.channel <= kLastChannel; ++address.channel) {
+    for (address.channel = 0; address.channel <= radio.range().last_channel; ++address.channel) {
       if (const UsbOutcome outcome = radio.set_channel(address.channel); outcome != UsbOutcome::kDone)
         return outcome;
       const RadioAnswer answer = radio.exchange(kPollPacket);

@@ -10,9 +10,9 @@
 
 namespace swiftlet {
 
-/// Sends one poll at each data rate and channel and returns the addresses that acknowledged: `wanted` with
-/// the rates and channels found; or why the dongle cannot be used. Takes one to two seconds with a real
-/// dongle. Not while a RadioLink uses the same dongle.
+/// Sends one poll at each data rate and channel that the dongle has and returns the addresses that
+/// acknowledged: `wanted` with the rates and channels found; or why the dongle cannot be used. Takes one to
+/// two seconds with a real dongle. Not while a RadioLink uses the same dongle.
 [[nodiscard]] std::variant<std::vector<RadioAddress>, UsbOutcome> scan_radio(UsbBus& bus,
                                                                              const RadioAddress& wanted);
 

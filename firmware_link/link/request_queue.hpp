@@ -19,7 +19,8 @@ namespace swiftlet {
 /// twice, and a request without room is dropped: requests without an answer are repeated anyway.
 class RequestQueue {
  public:
-  static constexpr std::size_t kCapacity = 8;
+  /// More than a session has outstanding at a time.
+  static constexpr std::size_t kCapacity = 24;
 
   /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet, which may switch the vehicle off.
   Status push(std::span<const std::uint8_t> packet) {

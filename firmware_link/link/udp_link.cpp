@@ -3,7 +3,6 @@
 #include "firmware_link/link/udp_link.hpp"
 
 #include <netdb.h>
-#include <poll.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
@@ -184,10 +183,8 @@ std::optional<LinkFrame> UdpLink::take_datagrams() {
 }
 
 void UdpLink::wait_until(HostTime wake_at, HostTime now) const {
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::max(wake_at - now, Duration::zero()));
-  std::array<pollfd, 2> watched{{{.fd = socket_, .events = POLLIN, .revents = 0},
-                                 {.fd = uplink_.arrivals(), .events = POLLIN, .revents = 0}}};
-  static_cast<void>(::poll(watched.data(), watched.size(), static_cast<int>(left.count())));
+  const std::array<int, 2> files{socket_, uplink_.arrivals()};
+  clock_.sleep_until_readable(files, wake_at - now);
 }
 
 /// Whether the system accepted it.

@@ -29,7 +29,8 @@ namespace swiftlet {
 class UdpLink final : public Link {
  public:
   /// Looks the name up (this may take seconds); IPv4 if it has both, because the vendor's simulators support
-  /// nothing else. `clock` must keep pace with real time and outlive the link. Errors: kNotFound: there is no
+  /// nothing else. `clock` must outlive the link, and in it waiting for the socket take no
+  /// longer than until something arrives. Errors: kNotFound: there is no
   /// such host. kInvalidInput: no socket to be had.
   [[nodiscard]] static Result<std::unique_ptr<UdpLink>> open(const std::string& host, std::uint16_t port,
                                                              LinkClock& clock);

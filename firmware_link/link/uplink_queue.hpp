@@ -42,7 +42,8 @@ class UplinkQueue {
   /// Sleeps for that long, or until something of the client's arrives.
   void sleep_for(Duration duration, LinkClock& clock) const {
     if (client_ == nullptr) return clock.sleep_for(duration);
-    clock.sleep_until_readable(client_->arrivals(), duration);
+    const int arrivals = client_->arrivals();
+    clock.sleep_until_readable({&arrivals, 1}, duration);
   }
   /// For poll(); -1, which it ignores: not shared.
   [[nodiscard]] int arrivals() const { return client_ == nullptr ? -1 : client_->arrivals(); }

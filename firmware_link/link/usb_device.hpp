@@ -24,6 +24,7 @@ enum class UsbOutcome : std::uint8_t {
   kAccessDenied,  ///< LIBUSB_ERROR_ACCESS
   kBusy,          ///< LIBUSB_ERROR_BUSY: another program has claimed the interface
   kFault,         ///< LIBUSB_ERROR_IO and all others
+  kUnsuited,      ///< it works, but lacks what was asked for
 };
 
 struct UsbTransfer {

@@ -12,9 +12,11 @@
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 #include "firmware_link/crtp/crtp_packet.hpp"
+#include "firmware_link/crtp/toc_item.hpp"
 #include "firmware_link/link/link.hpp"
 #include "firmware_link/session/log_handshake.hpp"
 #include "firmware_link/session/log_session.hpp"
+#include "firmware_link/session/other_program_watch.hpp"
 #include "firmware_link/session/round_trip.hpp"
 #include "firmware_link/session/toc_cache.hpp"
 #include "firmware_link/session/vehicle_event.hpp"
@@ -30,7 +32,8 @@ namespace swiftlet {
 /// packet first; `cache` must outlive it.
 class LiveSession {
  public:
-  LiveSession(const LogSession& session, TocCache& cache);
+  /// `is_shared`: a client of the same link asks the vehicle, too, and is no other program.
+  LiveSession(const LogSession& session, TocCache& cache, bool is_shared = false);
 
   /// The packet to send now, if any.
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
@@ -38,9 +41,12 @@ class LiveSession {
   void on_frame(const LinkFrame& frame, const std::optional<LogRecord>& record);
   /// The dead reckoning of each sample.
   void on_odometry(const Pose2& T_odom_body) { monitor_.on_odometry(T_odom_body); }
-  /// As LogHandshake's: replies to be handled as if the vehicle had sent them now.
-  [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return handshake_.take_cached_replies(); }
+  /// If a table of contents came from the cache, the log's or the parameters': the replies that the vehicle
+  /// would have sent, to be handled as if it had sent them now. Empty afterwards.
+  [[nodiscard]] std::vector<CrtpPacket> take_cached_replies();
 
+  /// It waits for answers that it would ask for again soon.
+  [[nodiscard]] bool asks() const { return !handshake_.finished() || !inventory_.finished(); }
   /// Why the first vehicle cannot be used. Later ones are retried.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// The events since the last call, in order. When there are too many, the newest are dropped.
@@ -60,18 +66,26 @@ class LiveSession {
   void report(VehicleEvent::Kind kind, std::int32_t value = 0);
   void on_handshake(const LinkFrame& frame);
   void on_inventory(const LinkFrame& frame);
+  void restate_cached_params();
+  void watch_for_others(const LinkFrame& frame, const std::optional<LogRecord>& record);
   void watch_for_silence(HostTime now);
+  void report_progress(HostTime now);
 
   const LogSession& session_;
   TocCache& cache_;
   LogHandshake handshake_;
   VehicleInventory inventory_;
-  bool inventory_reported_ = false;
+  std::optional<HostTime> inventory_at_;  ///< when it was complete
+  std::optional<TocInfo> known_params_;   ///< this table was downloaded or restated
+  std::vector<CrtpPacket> cached_params_;
   RoundTrip round_trip_;
   VehicleMonitor monitor_;
+  bool is_shared_;
+  OtherProgramWatch other_program_;
   FixedVector<Stream, 2> streams_;
-  std::optional<HostTime> received_at_;  ///< the last packet, in the handshake
+  std::optional<HostTime> received_at_;  ///< the last packet
   std::optional<HostTime> refused_at_;   ///< the handshake failed
+  std::optional<HostTime> progress_at_;  ///< reported, of the table of contents; or its beginning
   bool was_connected_ = false;
   std::uint32_t boot_ = 0;
   std::optional<Error> failure_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t kFast10ms = 10;
 constexpr std::uint8_t kSlow10ms = 100;
-// The longest wait for the reply to an append, in repetition periods.
+// The longest wait for the reply to an append, in usual waits.
 constexpr int kMaxPatience = 20;
 // A damaged packet, or one for another program, may look like a refusal.
 constexpr int kMaxAsksAgain = 3;
@@ -69,10 +69,11 @@ std::optional<CrtpPacket> LogHandshake::next_request(HostTime now) {
   return request_.take_due(now);
 }
 
-void LogHandshake::on_frame(std::span<const std::uint8_t> packet) {
+void LogHandshake::on_frame(std::span<const std::uint8_t> packet, HostTime at) {
+  request_.on_frame(packet, at);
   if (step_ == Step::kSource && is_on(packet, kLinkSourceTopic)) return on_source(packet);
   if (step_ == Step::kVersion && is_on(packet, kPlatformVersionTopic)) return on_version(packet);
-  if (step_ == Step::kToc && is_on(packet, kLogTocTopic)) return on_toc(packet);
+  if (step_ == Step::kToc && is_on(packet, kLogTocTopic)) return on_toc(packet, at);
   if (!is_on(packet, kLogControlTopic) || packet.size() < 4) return;
   if (!request_.packet() || packet[1] != (*request_.packet())[1]) return;
   if (step_ == Step::kReset) return on_reset(packet);
@@ -85,7 +86,7 @@ void LogHandshake::enter(Step step) {
   if (step == Step::kSource) request_.ask(source_request());
   if (step == Step::kVersion) request_.ask(version_request(VersionQuery::kProtocol));
   if (step == Step::kReset) request_.ask(log_reset_request());
-  if (step == Step::kToc) toc_.emplace(kLogTocTopic, *cache_);
+  if (step == Step::kToc) toc_.emplace(kLogTocTopic, *cache_, request_.timer());
 }
 
 void LogHandshake::fail(std::string message) {
@@ -122,10 +123,11 @@ void LogHandshake::on_reset(std::span<const std::uint8_t> packet) {
   enter(Step::kToc);
 }
 
-void LogHandshake::on_toc(std::span<const std::uint8_t> packet) {
-  toc_->on_frame(packet);
+void LogHandshake::on_toc(std::span<const std::uint8_t> packet, HostTime at) {
+  toc_->on_frame(packet, at);
   if (toc_->failure()) return fail(toc_->failure()->message);
   if (!toc_->finished()) return;
+  request_ = PendingRequest(toc_->timer());
   if (toc_->came_from_cache()) restate_cached_toc();
   plan_blocks();
 }
@@ -237,7 +239,7 @@ void LogHandshake::next_block() {
 void LogHandshake::send_block_request() {
   const CrtpPacket& request = plan_[block_].requests[block_request_];
   // A slow reply must not cost the block again and again.
-  request_.ask(request, PendingRequest::kRepeatAfter * (is_append(request) ? append_patience_ : 1));
+  request_.ask(request, is_append(request) ? append_patience_ : 1);
 }
 
 void LogHandshake::remake_block() { request_.ask(log_block_request(LogCommand::kDelete, plan_[block_].id)); }

@@ -28,11 +28,11 @@ inline constexpr int kNewestProtocol = 12;
 inline constexpr std::size_t kMaxOwnLogBlocks = 3;
 inline constexpr std::size_t kMaxOwnLogVariables = 25;
 
-/// Starts the log of a live vehicle: determines the next request, one outstanding, repeated after 200 ms,
-/// from the replies. Source, protocol version, reset of the log, table of contents, then creates and starts
-/// the blocks: pose and ranges at 10 Hz, the vehicle's health at 1 Hz. No link, no clock: the caller passes
-/// the time. One thread at a time; allocates; `session` must outlive it and receive each packet first,
-/// `cache` must outlive it.
+/// Starts the log of a live vehicle: determines the next request from the replies. One is outstanding, of
+/// the table of contents several; what is not answered is repeated. Source, protocol version, reset of the
+/// log, table of contents, then creates and starts the blocks: pose and ranges at 10 Hz, the vehicle's health
+/// at 1 Hz. No link, no clock: the caller passes the time. One thread at a time; allocates; `session` must
+/// outlive it and receive each packet first, `cache` must outlive it.
 class LogHandshake {
  public:
   LogHandshake(const LogSession& session, TocCache& cache);
@@ -40,11 +40,15 @@ class LogHandshake {
   /// The packet to send now, if any.
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   /// A packet from the vehicle.
-  void on_frame(std::span<const std::uint8_t> packet);
+  void on_frame(std::span<const std::uint8_t> packet, HostTime at);
   /// If the table of contents came from the cache: the replies that the vehicle would have sent, for all that
   /// learn from replies. Empty afterwards.
   [[nodiscard]] std::vector<CrtpPacket> take_cached_replies() { return std::exchange(cached_replies_, {}); }
 
+  /// The share of the table of contents that is downloaded, while it is.
+  [[nodiscard]] std::optional<double> toc_progress() const {
+    return step_ == Step::kToc ? std::optional(toc_->progress()) : std::nullopt;
+  }
   /// All blocks are started: log data flows.
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
   /// The blocks that samples are made of. Once finished().
@@ -66,7 +70,7 @@ class LogHandshake {
   void fail(std::string message);
   void on_source(std::span<const std::uint8_t> packet);
   void on_version(std::span<const std::uint8_t> packet);
-  void on_toc(std::span<const std::uint8_t> packet);
+  void on_toc(std::span<const std::uint8_t> packet, HostTime at);
   void on_reset(std::span<const std::uint8_t> packet);
   void on_block_reply(std::span<const std::uint8_t> packet);
   void restate_cached_toc();
@@ -89,9 +93,9 @@ class LogHandshake {
   std::vector<PlannedBlock> plan_;
   std::size_t block_ = 0;          ///< of the plan
   std::size_t block_request_ = 0;  ///< of the block
-  int append_patience_ = 1;        ///< in repetition periods
   int asks_again_ = 0;             ///< from the beginning, after a refusal
   bool awaits_source_ = false;     ///< the last request has not been answered
+  int append_patience_ = 1;        ///< in usual waits
   std::optional<Error> failure_;
 };
 

@@ -23,6 +23,10 @@ class RoundTrip {
     is_open_ = true;
     return make_crtp_packet(kLinkEchoTopic, {'s', 'w', 'l', number_});
   }
+  /// Whether an echo is of this program.
+  [[nodiscard]] static bool is_own(std::span<const std::uint8_t> echo) {
+    return echo.size() == 5 && echo[1] == 's' && echo[2] == 'w' && echo[3] == 'l';
+  }
   void on_frame(std::span<const std::uint8_t> packet, HostTime at) {
     if (!is_open_ || !is_on(packet, kLinkEchoTopic) || packet.size() != 5 || packet[4] != number_) return;
     is_open_ = false;

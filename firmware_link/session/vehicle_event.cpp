@@ -7,13 +7,15 @@ namespace swiftlet {
 using Kind = VehicleEvent::Kind;
 
 bool is_warning(const VehicleEvent& event) {
-  return event.kind != Kind::kConnected && event.kind != Kind::kClientConnected &&
-         event.kind != Kind::kClientGone;
+  return event.kind != Kind::kReadingTable && event.kind != Kind::kConnected &&
+         event.kind != Kind::kClientConnected && event.kind != Kind::kClientGone;
 }
 
 std::string describe(const VehicleEvent& event) {
   const std::string value = std::to_string(event.value);
   switch (event.kind) {
+    case Kind::kReadingTable:
+      return "reading the vehicle's table of contents, " + value + " % so far; once only for each firmware";
     case Kind::kConnected:
       return "connected to the vehicle, CRTP protocol " + value + "; log data flows";
     case Kind::kProtocolNewer:
@@ -41,6 +43,13 @@ std::string describe(const VehicleEvent& event) {
       return "none of the ranges has changed for two seconds: a range sensor hangs, and what is mapped now "
              "is "
              "wrong; land and restart the vehicle";
+    case Kind::kOtherProgram:
+      return "another program talks to this vehicle: each takes the other's answers and log data; close it, "
+             "or let it share the link (swiftletd --share)";
+    case Kind::kDoubledData:
+      return "log data arrives twice, and is used once: another program talks to this vehicle, or the "
+             "network "
+             "doubles packets";
     case Kind::kClientConnected:
       return "a client has connected from port " + value + " and has the vehicle";
     case Kind::kClientGone:

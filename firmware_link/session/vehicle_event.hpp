@@ -12,6 +12,7 @@ namespace swiftlet {
 /// it.
 struct VehicleEvent {
   enum class Kind : std::uint8_t {
+    kReadingTable,   ///< its table of contents, not known yet; value: per cent
     kConnected,      ///< log data flows; value: CRTP protocol version
     kProtocolNewer,  ///< value: CRTP protocol version
     kDataStopped,    ///< no log data for a second: the session restarts when the vehicle is received
@@ -22,6 +23,8 @@ struct VehicleEvent {
     kYawTrap,          ///< it is carried or pushed with its motors off
     kBatteryLow,       ///< value: millivolts
     kRangesFrozen,     ///< in flight none of them has changed for seconds
+    kOtherProgram,     ///< the vehicle answers questions that were not asked here, or its log is stopped
+    kDoubledData,      ///< log data arrives twice
     kClientConnected,  ///< another program shares the link; value: its port
     kClientGone,       ///< it has left, or has sent nothing for seconds
     kClientRefused,    ///< a second one; value: its port

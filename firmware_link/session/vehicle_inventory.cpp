@@ -35,13 +35,14 @@ void VehicleInventory::ask_version(Step step, VersionQuery query) {
   request_.ask(version_request(query));
 }
 
-void VehicleInventory::on_frame(std::span<const std::uint8_t> packet) {
+void VehicleInventory::on_frame(std::span<const std::uint8_t> packet, HostTime at) {
+  request_.on_frame(packet, at);
   if (is_on(packet, kPlatformVersionTopic)) {
     if (step_ == Step::kFirmware) return on_version(packet, VersionQuery::kFirmware, firmware_);
     if (step_ == Step::kDeviceType) return on_version(packet, VersionQuery::kDeviceType, device_type_);
   }
   if (step_ == Step::kToc && is_on(packet, kParamTocTopic)) {
-    toc_.on_frame(packet);
+    toc_.on_frame(packet, at);
     if (toc_.failure()) step_ = Step::kFinished;
     if (toc_.finished()) plan_decks();
   } else if (step_ == Step::kDecks && is_on(packet, kParamReadTopic)) {

@@ -24,12 +24,14 @@ class VehicleInventory {
  public:
   explicit VehicleInventory(TocCache& cache);
 
-  /// The packet to send now, if any: one outstanding, repeated after 200 ms.
+  /// The packet to send now, if any.
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   /// A packet from the vehicle.
-  void on_frame(std::span<const std::uint8_t> packet);
+  void on_frame(std::span<const std::uint8_t> packet, HostTime at);
 
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
+  /// Of the parameters.
+  [[nodiscard]] const TocDownload& toc() const { return toc_; }
 
   // Once finished. Texts are empty if the vehicle does not report them: firmware of 2018 does not report its
   // type.

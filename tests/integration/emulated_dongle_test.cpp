@@ -112,8 +112,8 @@ TEST_F(EmulatedDongleTest, IsFoundWithItsTexts) {
   const std::vector<UsbIdentity> found =
       bus_->list(EmulatedCrazyradio::kVendor, EmulatedCrazyradio::kProduct);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].release_bcd, EmulatedCrazyradio::kReleaseBcd);
-  EXPECT_EQ(found[0].name, EmulatedCrazyradio::kName);
+  EXPECT_EQ(found[0].release_bcd, 0x0053);
+  EXPECT_EQ(found[0].name, EmulatedCrazyradio::kNameOfPa);
   EXPECT_EQ(found[0].serial, EmulatedCrazyradio::kSerial);
   EXPECT_EQ(found[0].access, UsbOutcome::kDone);
 }
@@ -121,9 +121,15 @@ TEST_F(EmulatedDongleTest, IsFoundWithItsTexts) {
 TEST_F(EmulatedDongleTest, IsInitialisedInOrderBeforeTheFirstSample) {
   connect();
   expect_sample_within(kConnecting);
-  const std::vector<VendorRequest> expected{
-      {0x03, 2, 0, {}}, {0x01, 80, 0, {}}, {0x20, 0, 0, {}},    {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
-      {0x04, 3, 0, {}}, {0x06, 3, 0, {}},  {0x05, 0xA0, 0, {}}, {0x10, 1, 0, {}}};
+  const std::vector<VendorRequest> expected{{0x22, 0, 0, {}},
+                                            {0x03, 2, 0, {}},
+                                            {0x01, 80, 0, {}},
+                                            {0x20, 0, 0, {}},
+                                            {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
+                                            {0x04, 3, 0, {}},
+                                            {0x06, 3, 0, {}},
+                                            {0x05, 0xA0, 0, {}},
+                                            {0x10, 1, 0, {}}};
   mock_up_->with([&](EmulatedCrazyradio& dongle) { EXPECT_EQ(dongle.requests(), expected); });
 }
 

@@ -51,8 +51,11 @@ std::size_t doubled_in(const std::vector<Bytes>& contents) {
 class EmulatedRadio {
  public:
   explicit EmulatedRadio(std::uint64_t seed = 1, const RadioAddress& address = {},
-                         const VehicleModel& model = vehicle_on_radio())
-      : flight(seed, model), link(flight.bus, flight.clock, address), listener(link, flight.clock) {}
+                         const VehicleModel& model = vehicle_on_radio(),
+                         DongleModel dongle_model = DongleModel::kPa)
+      : flight(seed, model, dongle_model),
+        link(flight.bus, flight.clock, address),
+        listener(link, flight.clock) {}
 
   /// Everything that the vehicle had for us was received once and in order, but for what is still on its way.
   void expect_none_lost_or_doubled() const {
@@ -78,10 +81,41 @@ class EmulatedRadio {
 TEST(EmulatedRadioTest, InitialisesTheDongleInOrder) {
   EmulatedRadio radio;
   radio.listener.listen(seconds(1));
-  const std::vector<VendorRequest> expected{
-      {0x03, 2, 0, {}}, {0x01, 80, 0, {}}, {0x20, 0, 0, {}},    {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
-      {0x04, 3, 0, {}}, {0x06, 3, 0, {}},  {0x05, 0xA0, 0, {}}, {0x10, 1, 0, {}}};
+  const std::vector<VendorRequest> expected{{0x22, 0, 0, {}},
+                                            {0x03, 2, 0, {}},
+                                            {0x01, 80, 0, {}},
+                                            {0x20, 0, 0, {}},
+                                            {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
+                                            {0x04, 3, 0, {}},
+                                            {0x06, 3, 0, {}},
+                                            {0x05, 0xA0, 0, {}},
+                                            {0x10, 1, 0, {}}};
   EXPECT_EQ(radio.flight.dongle.requests(), expected);
+}
+
+TEST(EmulatedRadioTest, EndsWhatAnotherProgramLeftACrazyradio2In) {
+  EmulatedRadio radio(1, {}, vehicle_on_radio(), DongleModel::k2);
+  for (const VendorRequest& request : {VendorRequest{0x24, 1, 0, {}}, VendorRequest{0x30, 0, 0, {100, 100}}})
+    ASSERT_EQ(radio.flight.dongle.control_out(request), UsbOutcome::kDone);
+  radio.listener.listen(minutes(1));
+  EXPECT_GE(radio.listener.received().size(), 580U);
+  radio.expect_none_lost_or_doubled();
+}
+
+TEST(EmulatedRadioTest, EndsTheModeThatACrazyradioPaWasLeftIn) {
+  EmulatedRadio radio;
+  ASSERT_EQ(radio.flight.dongle.control_out({0x22, 2, 0, {}}), UsbOutcome::kDone);
+  radio.listener.listen(minutes(1));
+  EXPECT_GE(radio.listener.received().size(), 580U);
+}
+
+TEST(EmulatedRadioTest, TellsWhatACrazyradio2DoesNotHave) {
+  RadioAddress address;
+  address.rate = RadioRate::k250Kbps;
+  EmulatedRadio radio(1, address, vehicle_on_radio(), DongleModel::k2);
+  radio.listener.listen(seconds(5));
+  EXPECT_EQ(radio.link.statistics().condition, LinkCondition::kDeviceUnsuited);
+  EXPECT_EQ(radio.flight.dongle.packets_sent(), 0U);
 }
 
 TEST(EmulatedRadioTest, HearsTenMinutesAtTenHertzWithoutALoss) {
@@ -336,7 +370,7 @@ TEST(EmulatedRadioTest, ADongleReplugedInMidFlightIsSetUpAnew) {
   radio.listener.listen(seconds(10));
   radio.expect_data_within_two_seconds_of(gone);
   EXPECT_EQ(radio.link.statistics().device_losses, 1U);
-  EXPECT_EQ(radio.flight.dongle.requests().size(), 8U);
+  EXPECT_EQ(radio.flight.dongle.requests().size(), 9U);
 }
 
 TEST(EmulatedRadioTest, HearsAllAcrossTheWrapOfTheVehiclesClock) {

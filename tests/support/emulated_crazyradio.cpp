@@ -9,6 +9,7 @@ namespace swiftlet {
 namespace {
 
 constexpr int kLastChannel = 125;
+constexpr int kLastChannelOf2 = 100;
 constexpr std::size_t kMaxPacket = 32;
 // One in the endpoint and one behind it: then the dongle no longer looks at its OUT endpoint.
 constexpr std::size_t kMaxAnswers = 2;
@@ -64,7 +65,6 @@ bool EmulatedCrazyradio::apply(const VendorRequest& request) {
       return true;
     case 0x04:  // power
     case 0x05:  // retransmission delay
-    case 0x22:  // mode
       return true;
     case 0x06:
       settings_.retransmissions = request.value & 0x0F;
@@ -76,8 +76,34 @@ bool EmulatedCrazyradio::apply(const VendorRequest& request) {
       settings_.carrier = request.value != 0;
       return true;
     default:
+      return apply_of_model(request);
+  }
+}
+
+bool EmulatedCrazyradio::apply_of_model(const VendorRequest& request) {
+  const bool is_pa = model_ == DongleModel::kPa;
+  switch (request.request) {
+    case 0x22:
+      if (is_pa) settings_.mode = request.value;
+      return true;
+    case 0x24:
+      if (is_pa || request.value > 1) return false;
+      settings_.is_sniffing = request.value == 1;
+      return true;
+    case 0x30:
+      if (is_pa) settings_.mode = 0xFF;  // a register of its radio: no longer what it was
+      if (!is_pa && !request.data.empty()) settings_.packet_loss = request.data[0];
+      return true;
+    default:
       return false;
   }
+}
+
+/// A Crazyradio 2.0 accepts a rate and channels that it does not have.
+bool EmulatedCrazyradio::reaches_the_air() const {
+  const bool is_tunable = model_ == DongleModel::kPa || (settings_.air.rate != RadioRate::k250Kbps &&
+                                                         settings_.air.channel <= kLastChannelOf2);
+  return settings_.sends() && is_tunable;
 }
 
 std::optional<DongleFault> EmulatedCrazyradio::take_fault() {
@@ -98,7 +124,9 @@ UsbOutcome EmulatedCrazyradio::bulk_out(std::span<const std::uint8_t> bytes) {
   }
   if (now == DongleFault::kNoAnswer) return UsbOutcome::kDone;
   const auto packet = bytes.first(std::min(bytes.size(), kMaxPacket));
-  const AirExchange exchange = receiver_.exchange(settings_.air, packet, settings_.retransmissions);
+  const AirExchange exchange = reaches_the_air()
+                                   ? receiver_.exchange(settings_.air, packet, settings_.retransmissions)
+                                   : AirExchange{};
   ++packets_sent_;
   if (!settings_.ack) return UsbOutcome::kDone;
   Answer answer{answer_of(exchange), now_ + exchange.duration, now == DongleFault::kOverflow};

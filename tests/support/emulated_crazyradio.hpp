@@ -33,15 +33,17 @@ enum class DongleFault : std::uint8_t {
   kOverflow,    ///< the answer is longer than what the host reads
 };
 
-/// A Crazyradio PA as USB shows it (firmware 0.53, with ACKs and no inline mode), a vehicle's radio in range.
-/// Knows nothing of how the host gets at it. Time only as it is told. One thread at a time; allocates.
+enum class DongleModel : std::uint8_t { kPa, k2 };
+
+/// A Crazyradio PA as USB shows it (firmware 0.53, with ACKs) or a Crazyradio 2.0 (5.4), without inline mode,
+/// a vehicle's radio in range. Knows nothing of how the host gets at it. Time only as it is told. One thread
+/// at a time; allocates.
 class EmulatedCrazyradio {
  public:
   static constexpr std::uint16_t kVendor = 0x1915;
   static constexpr std::uint16_t kProduct = 0x7777;
-  static constexpr std::uint16_t kReleaseBcd = 0x0053;
   static constexpr const char* kManufacturer = "Bitcraze";
-  static constexpr const char* kName = "Crazyradio PA USB Dongle";
+  static constexpr const char* kNameOfPa = "Crazyradio PA USB Dongle";
   static constexpr const char* kSerial = "E7C0FFEE01";
   static constexpr std::uint8_t kOut = 0x01;
   static constexpr std::uint8_t kIn = 0x81;
@@ -52,7 +54,11 @@ class EmulatedCrazyradio {
   std::optional<DongleFault> standing_fault;  ///< of every exchange from now on
 
   /// The receiver must outlive it. Plugged in.
-  explicit EmulatedCrazyradio(EmulatedReceiver& receiver) : receiver_(receiver) {}
+  explicit EmulatedCrazyradio(EmulatedReceiver& receiver, DongleModel model = DongleModel::kPa)
+      : receiver_(receiver), model_(model) {}
+
+  [[nodiscard]] std::uint16_t release_bcd() const { return model_ == DongleModel::kPa ? 0x0053 : 0x0504; }
+  [[nodiscard]] const char* name() const { return model_ == DongleModel::kPa ? kNameOfPa : "Crazyradio 2.0"; }
 
   void unplug();
   /// Under a new bus address, with the settings of power-up.
@@ -88,6 +94,10 @@ class EmulatedCrazyradio {
     int retransmissions = 3;
     bool ack = true;
     bool carrier = false;
+    std::uint16_t mode = 0;        ///< PA: 0 sends packets
+    bool is_sniffing = false;      ///< 2.0
+    std::uint8_t packet_loss = 0;  ///< 2.0, simulated: per cent
+    [[nodiscard]] bool sends() const { return mode == 0 && !is_sniffing && packet_loss < 100; }
   };
   struct Answer {
     std::vector<std::uint8_t> bytes;
@@ -96,9 +106,12 @@ class EmulatedCrazyradio {
   };
 
   [[nodiscard]] bool apply(const VendorRequest& request);
+  [[nodiscard]] bool apply_of_model(const VendorRequest& request);
+  [[nodiscard]] bool reaches_the_air() const;
   [[nodiscard]] std::optional<DongleFault> take_fault();
 
   EmulatedReceiver& receiver_;
+  DongleModel model_;
   Settings settings_;
   Duration now_{};
   bool plugged_in_ = true;

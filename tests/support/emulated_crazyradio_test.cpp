@@ -111,6 +111,35 @@ TEST_F(EmulatedCrazyradioTest, DoesNotReadPacketsWhileItsCarrierIsOn) {
   EXPECT_EQ(write({0xFF}), UsbOutcome::kDone);
 }
 
+TEST_F(EmulatedCrazyradioTest, ACrazyradio2AcceptsWhatItDoesNotHaveAndAcknowledgesNothing) {
+  EmulatedCrazyradio radio2(receiver_, DongleModel::k2);
+  const auto answers = [&](const VendorRequest& setting) {
+    EXPECT_EQ(radio2.control_out(request(0x01, 80)), UsbOutcome::kDone);
+    EXPECT_EQ(radio2.control_out(request(0x03, 2)), UsbOutcome::kDone);
+    EXPECT_EQ(radio2.control_out(setting), UsbOutcome::kDone);
+    EXPECT_EQ(radio2.bulk_out(Bytes{0xFF}), UsbOutcome::kDone);
+    radio2.advance(milliseconds(10));
+    std::array<std::uint8_t, 64> buffer{};
+    return radio2.bulk_in(buffer).size > 1;
+  };
+  EXPECT_TRUE(answers(request(0x22, 2)));
+  EXPECT_FALSE(answers(request(0x03, 0)));
+  EXPECT_FALSE(answers(request(0x01, 101)));
+  EXPECT_FALSE(answers({0x30, 0, 0, {100, 0}}));
+  EXPECT_EQ(radio2.reset(), UsbOutcome::kDone);
+  EXPECT_FALSE(answers(request(0x06, 3))) << "loss is simulated on";
+  EXPECT_TRUE(answers({0x30, 0, 0, {0, 0}}));
+  EXPECT_FALSE(answers(request(0x24, 1)));
+  EXPECT_EQ(radio2.control_out(request(0x24, 2)), UsbOutcome::kStall);
+}
+
+TEST_F(EmulatedCrazyradioTest, APaInAnotherModeSendsNothingNorAfterAReset) {
+  EXPECT_EQ(dongle_.control_out(request(0x22, 2)), UsbOutcome::kDone);
+  EXPECT_EQ(dongle_.reset(), UsbOutcome::kDone);
+  EXPECT_EQ(write({0xFF}), UsbOutcome::kDone);
+  EXPECT_THAT(read(), ElementsAre(0x00));
+}
+
 TEST_F(EmulatedCrazyradioTest, GivesNoAnswersWithAcksOff) {
   EXPECT_EQ(dongle_.control_out(request(0x10, 0)), UsbOutcome::kDone);
   EXPECT_EQ(write({0xFF}), UsbOutcome::kDone);

@@ -21,8 +21,11 @@ inline VehicleModel vehicle_on_radio() {
 
 /// Vehicle, radio chip, dongle and bus in simulated time, wired up. One thread at a time.
 struct EmulatedFlight {
-  explicit EmulatedFlight(std::uint64_t seed, const VehicleModel& model = vehicle_on_radio())
-      : vehicle(make_simulated_world("office").value(), model, seed), receiver(vehicle, seed) {
+  explicit EmulatedFlight(std::uint64_t seed, const VehicleModel& model = vehicle_on_radio(),
+                          DongleModel dongle_model = DongleModel::kPa)
+      : vehicle(make_simulated_world("office").value(), model, seed),
+        receiver(vehicle, seed),
+        dongle(receiver, dongle_model) {
     clock.on_step = [this](Duration by) { dongle.advance(by); };
   }
   EmulatedFlight(const EmulatedFlight&) = delete;
@@ -32,7 +35,7 @@ struct EmulatedFlight {
   ScheduledLinkClock clock;
   SimulatedVehicle vehicle;
   EmulatedReceiver receiver;
-  EmulatedCrazyradio dongle{receiver};
+  EmulatedCrazyradio dongle;
   EmulatedUsbBus bus{dongle, clock};
 };
 

@@ -74,14 +74,14 @@ std::vector<UsbIdentity> EmulatedUsbBus::list(std::uint16_t vendor, std::uint16_
   UsbIdentity identity;
   identity.vendor = vendor;
   identity.product = product;
-  identity.release_bcd = EmulatedCrazyradio::kReleaseBcd;
+  identity.release_bcd = dongle_.release_bcd();
   identity.bus = kBus;
   identity.address = dongle_.bus_address();
   if (dongle_.denies_access) {
     identity.access = UsbOutcome::kAccessDenied;
   } else {
     identity.manufacturer = EmulatedCrazyradio::kManufacturer;
-    identity.name = EmulatedCrazyradio::kName;
+    identity.name = dongle_.name();
     identity.serial = EmulatedCrazyradio::kSerial;
   }
   return {identity};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "firmware_link/link/link_clock.hpp"
@@ -22,10 +23,9 @@ class ScheduledLinkClock final : public LinkClock {
   [[nodiscard]] HostTime now() override { return now_; }
   void sleep_for(Duration duration) override { advance(duration); }
   /// In steps: what is to happen on the way may write the file.
-  void sleep_until_readable(int file, Duration duration) override {
+  void sleep_until_readable(std::span<const int> files, Duration duration) override {
     constexpr Duration kStep = std::chrono::microseconds(100);
-    pollfd watched{.fd = file, .events = POLLIN, .revents = 0};
-    for (const HostTime end = now_ + duration; now_ < end && ::poll(&watched, 1, 0) == 0;)
+    for (const HostTime end = now_ + duration; now_ < end && !is_readable(files);)
       advance(std::min(kStep, end - now_));
   }
   /// Rounds up to whole microseconds.
@@ -42,6 +42,12 @@ class ScheduledLinkClock final : public LinkClock {
   void after(Duration delay, std::function<void()> event) { events_.emplace(now_ + delay, std::move(event)); }
 
  private:
+  static bool is_readable(std::span<const int> files) {
+    return std::ranges::any_of(files, [](int file) {
+      pollfd watched{.fd = file, .events = POLLIN, .revents = 0};
+      return ::poll(&watched, 1, 0) > 0;
+    });
+  }
   void step_to(HostTime to) {
     const Duration by = to - now_;
     now_ = to;

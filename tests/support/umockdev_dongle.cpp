@@ -88,7 +88,7 @@ int errno_of(UsbOutcome outcome) {
 /// String descriptors: 0 lists the languages, the others as the device descriptor numbers them.
 Bytes string_descriptor(std::uint8_t index) {
   if (index == 0) return {4, kStringDescriptor, 0x09, 0x04};
-  constexpr std::array kTexts{EmulatedCrazyradio::kManufacturer, EmulatedCrazyradio::kName,
+  constexpr std::array kTexts{EmulatedCrazyradio::kManufacturer, EmulatedCrazyradio::kNameOfPa,
                               EmulatedCrazyradio::kSerial};
   if (index > kTexts.size()) return {};
   Bytes bytes{0, kStringDescriptor};

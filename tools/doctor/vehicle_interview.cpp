@@ -35,8 +35,8 @@ void VehicleInterview::on_frame(const LinkFrame& frame) {
     logs_ = true;
     monitor_.on_frame(*record);
   }
-  if (log_ended_at_) return inventory_.on_frame(frame.packet());
-  handshake_.on_frame(frame.packet());
+  if (log_ended_at_) return inventory_.on_frame(frame.packet(), frame.at);
+  handshake_.on_frame(frame.packet(), frame.at);
   for (const CrtpPacket& reply : handshake_.take_cached_replies())
     static_cast<void>(session_.on_frame(frame_of(LinkDirection::kFromVehicle, frame.at, bytes_of(reply))));
   if (handshake_.finished() || handshake_.failure()) log_ended_at_ = frame.at;

@@ -20,6 +20,7 @@ namespace {
 
 using testing::ElementsAreArray;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 std::string as_text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
@@ -184,6 +185,78 @@ TEST(CaptureReader, NoCorruptionMakesItFail) {
     EXPECT_LE(reading.records.size(), SyntheticCapture{}.frames().size() + 1);
     EXPECT_FALSE(reading.end.message.empty());
   }
+}
+
+/// The bytes of one record as the vendor's USB driver writes it, in two pieces.
+struct UsbRecord {
+  std::string header;
+  std::string body;
+  Bytes packet;
+};
+
+UsbRecord usb_record(std::uint8_t seconds, const std::string& packet) {
+  UsbRecord record{.header = {}, .body = {}, .packet = hex(packet)};
+  const auto length = static_cast<std::uint8_t>(16 + record.packet.size());
+  record.header = as_text({seconds, 0, 0, 0, 5, 0, 0, 0, length, 0, 0, 0, length, 0, 0, 0});
+  record.body = as_text(hex("02 01 30 00 1f 00 11 51 33 33 38 34 39 35 00 02")) + as_text(record.packet);
+  return record;
+}
+
+std::vector<Bytes> packets_of(const WholeRead& reading) {
+  std::vector<Bytes> packets;
+  for (const CaptureRecord& record : reading.records)
+    packets.emplace_back(record.frame.packet().begin(), record.frame.packet().end());
+  return packets;
+}
+
+TEST(CaptureReader, ReadsRecordsThatTwoThreadsHaveInterleaved) {
+  // Seconds 1 and 2 look like the beginning of a body.
+  const UsbRecord a = usb_record(2, "52 01 8e 11 00 aa");
+  const UsbRecord b = usb_record(1, "ff");
+  const UsbRecord c = usb_record(2, "52 01 f2 11 00 bb");
+  const std::string begin = as_text(hex(kHeader)) + c.header + c.body;
+  const std::string end = c.header + c.body;
+  const TemporaryFile file("a.pcap");
+  for (const std::string& middle :
+       {a.header + b.header + a.body + b.body, a.header + b.header + b.body + a.body,
+        b.header + a.header + a.body + b.body, b.header + a.header + b.body + a.body}) {
+    file.write(begin + middle + end);
+    const WholeRead reading = read_all(file.path());
+    EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording) << reading.end.message;
+    EXPECT_THAT(packets_of(reading), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet));
+  }
+  // The one thread writes its next record while the other has written half of its own.
+  file.write(begin + a.header + b.header + a.body + c.header + b.body + c.body + end);
+  const WholeRead reading = read_all(file.path());
+  EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording) << reading.end.message;
+  EXPECT_THAT(packets_of(reading), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet, c.packet));
+}
+
+TEST(CaptureReader, ReadsOnBehindDamageAndNamesTheBytesLeftOut) {
+  const std::vector<LinkFrame> frames = SyntheticCapture{}.frames();
+  const TemporaryFile whole("whole.pcap");
+  write_capture(whole.path(), frames);
+  const std::string bytes = whole.read();
+  std::vector<std::size_t> begins{kPcapFileHeader};
+  for (const LinkFrame& frame : frames)
+    begins.push_back(begins.back() + kPcapRecordHeader + record_prefix(CaptureLinkKind::kRadio) + frame.size);
+  const std::string range = std::to_string(begins[4]) + " to " + std::to_string(begins[5]);
+
+  const TemporaryFile file("damaged.pcap");
+  for (const std::size_t byte : {8U, 9U, 11U, 12U, 7U}) {  // of a record's header: lengths and time
+    std::string damaged = bytes;
+    damaged[begins[4] + byte] = '\x7f';
+    file.write(damaged);
+    const WholeRead reading = read_all(file.path());
+    EXPECT_EQ(reading.records.size(), frames.size() - 1) << byte;
+    EXPECT_EQ(reading.end.code, ErrorCode::kDamaged);
+    EXPECT_THAT(reading.end.message, HasSubstr("from byte " + range)) << byte;
+  }
+  file.write(bytes.substr(0, begins[6]) + "seven b" + bytes.substr(begins[6]));
+  const WholeRead reading = read_all(file.path());
+  EXPECT_EQ(reading.records.size(), frames.size());
+  EXPECT_THAT(reading.end.message,
+              HasSubstr("from byte " + std::to_string(begins[6]) + " to " + std::to_string(begins[6] + 7)));
 }
 
 TEST(CaptureReader, ReportsWhyAFileIsNoCapture) {

@@ -58,6 +58,34 @@ TEST(ReplayLink, ReplaysTheVehicleThatSendsLogDataFirstAndReportsTheOthers) {
                           "follows radio E7E7E7E702 channel 80, leaves out radio E7E7E7E702 channel 90"));
 }
 
+TEST(ReplayLink, ContinuesStampsThatWrapEachMinuteByTheVehiclesClock) {
+  const TemporaryFile file("a.pcap");
+  std::vector<LinkFrame> written;
+  std::vector<HostTime> true_times;
+  // From 50 s past the minute; the link is silent for 170 s and for 12 s.
+  for (const int second : {50, 51, 59, 60, 62, 119, 289, 290, 301, 313}) {
+    for (const LinkFrame& frame :
+         {sent(hex("ff"), host_ms(1000L * second)),
+          received(LogPacket(1, static_cast<std::uint32_t>(1000 * second + 16'700'000)).u8(0).bytes(),
+                   host_ms(1000L * second + 3))}) {
+      true_times.push_back(frame.at);
+      written.push_back(frame);
+      written.back().at = HostTime((frame.at.time_since_epoch()) % std::chrono::minutes(1));
+    }
+  }
+  write_capture(file.path(), written);
+  auto link = ReplayLink::open(file.path());
+  ASSERT_TRUE(link.ok());
+  EXPECT_THAT((*link)->notes(), ElementsAre(HasSubstr("seconds of their minute alone")));
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const Result<LinkFrame> frame = (*link)->receive(Duration::zero());
+    ASSERT_TRUE(frame.ok());
+    // What precedes the log data after a silence can not tell how long that was.
+    if (frame->direction == LinkDirection::kToVehicle) continue;
+    EXPECT_EQ(frame->at, true_times[i]) << i;
+  }
+}
+
 TEST(ReplayLink, ReportsDamageAfterWhatPrecedesIt) {
   const TemporaryFile file("a.pcap");
   const std::vector<LinkFrame> frames = SyntheticCapture{}.frames();

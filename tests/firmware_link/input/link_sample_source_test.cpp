@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/firmware_link/distant_link.hpp"
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/firmware_link/synthetic_capture.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -291,6 +293,81 @@ TEST(LinkSampleSource, NotesEachKindOfWarningOnceHoweverLongTheFlight) {
   EXPECT_GT(stops, 5U);
   source.end();
   EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("no log data for a second")));
+}
+
+/// A connection to a vehicle whose table of contents is unknown, in simulated time.
+struct Connection {
+  double seconds = 0.0;  ///< to its first sample
+  std::vector<std::int32_t> progress_percent;
+};
+
+Connection connect(std::int64_t one_way_ms, double loss_share) {
+  auto link = std::make_unique<DistantLink>();
+  link->one_way_ms = one_way_ms;
+  link->loss_share = loss_share;
+  const DistantLink& watched = *link;
+  LinkInput input;
+  input.clock = std::make_shared<DistantClock>(*link);
+  input.link = std::move(link);
+  input.starts_logging = true;
+  LinkSampleSource source(std::move(input));
+  Connection connection;
+  while (!source.next() && watched.now_ms < 600'000)
+    while (const auto event = source.take_event())
+      if (event->kind == VehicleEvent::Kind::kReadingTable)
+        connection.progress_percent.push_back(event->value);
+  connection.seconds = static_cast<double>(watched.now_ms) / 1000.0;
+  return connection;
+}
+
+TEST(LinkSampleSource, ConnectsWithinTenSecondsIfAFifthIsLostEachWay) {
+  EXPECT_LT(connect(1, 0.2).seconds, 10.0);
+}
+
+TEST(LinkSampleSource, ConnectsWithinHalfAMinuteOverALinkOf600MillisecondsThereAndBack) {
+  EXPECT_LT(connect(300, 0.0).seconds, 30.0);
+}
+
+TEST(LinkSampleSource, ConnectsOverASlowAndLossyLink) { EXPECT_LT(connect(300, 0.2).seconds, 60.0); }
+
+TEST(LinkSampleSource, TellsHowMuchOfTheTableOfContentsIsRead) {
+  const std::vector<std::int32_t> progress_percent = connect(300, 0.0).progress_percent;
+  ASSERT_GT(progress_percent.size(), 4U);
+  EXPECT_TRUE(std::ranges::is_sorted(progress_percent));
+  EXPECT_GT(progress_percent.back(), 80);
+  EXPECT_TRUE(connect(1, 0.0).progress_percent.empty()) << "it takes a second";
+}
+
+/// Keeps the answers to requests for items of tables of contents, by port.
+class TocRecording final : public FrameSink {
+ public:
+  void take(const LinkFrame& frame) noexcept override {
+    if (frame.direction == LinkDirection::kToVehicle || !read_toc_item(frame.packet())) return;
+    if (is_on(frame.packet(), kLogTocTopic)) ++log_items;
+    if (is_on(frame.packet(), kParamTocTopic)) ++param_items;
+  }
+  std::size_t log_items = 0;
+  std::size_t param_items = 0;
+};
+
+TEST(LinkSampleSource, RecordsBothTablesOfContentsAlsoIfTheyComeFromTheCache) {
+  const TemporaryFile cache("cache");
+  for (const bool is_cached : {false, true}) {
+    TocRecording recording;
+    auto link = std::make_unique<ScriptedLink>();
+    link->vehicle.variables = ScriptedVehicle::modern_variables();
+    const ScriptedLink& watched = *link;
+    LinkInput input;
+    input.clock = std::make_shared<ScriptedClock>(*link);
+    input.link = std::move(link);
+    input.starts_logging = true;
+    input.cache_directory = cache.path();
+    input.recording = &recording;
+    LinkSampleSource source(std::move(input));
+    while (watched.now_ms < 10'000) static_cast<void>(source.next());
+    EXPECT_EQ(recording.log_items, ScriptedVehicle::modern_variables().size()) << is_cached;
+    EXPECT_EQ(recording.param_items, watched.vehicle.params.size()) << is_cached;
+  }
 }
 
 TEST(LinkSampleSource, ReportsWhyAVehicleCannotBeUsed) {

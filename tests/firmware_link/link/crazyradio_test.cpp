@@ -47,11 +47,48 @@ TEST_F(CrazyradioTest, IsResetAndTunedInOrder) {
   address_.rate = RadioRate::k1Mbps;
   address_.address = {0xE7, 0xE7, 0xE7, 0xE7, 0x01};
   static_cast<void>(open());
-  const std::vector<FakeDongle::Request> wanted{
-      {0x03, 1, {}}, {0x01, 90, {}}, {0x20, 0, {}},    {0x02, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0x01}},
-      {0x04, 3, {}}, {0x06, 3, {}},  {0x05, 0xA0, {}}, {0x10, 1, {}}};
+  const std::vector<FakeDongle::Request> wanted{{0x22, 0, {}},
+                                                {0x03, 1, {}},
+                                                {0x01, 90, {}},
+                                                {0x20, 0, {}},
+                                                {0x02, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0x01}},
+                                                {0x04, 3, {}},
+                                                {0x06, 3, {}},
+                                                {0x05, 0xA0, {}},
+                                                {0x10, 1, {}}};
   EXPECT_EQ(dongle_.requests, wanted);
   EXPECT_EQ(dongle_.resets, 1);
+}
+
+TEST_F(CrazyradioTest, EndsTheModesOfACrazyradio2ThatSurviveAReset) {
+  dongle_.plugged_in[0].release_bcd = 0x0504;
+  static_cast<void>(open());
+  ASSERT_GT(dongle_.requests.size(), 2U);
+  EXPECT_EQ(dongle_.requests[0], (FakeDongle::Request{0x24, 0, {}}));
+  EXPECT_EQ(dongle_.requests[1], (FakeDongle::Request{0x30, 0, {0, 0}}));
+  for (const FakeDongle::Request& request : dongle_.requests) EXPECT_NE(request.number, 0x22);
+}
+
+TEST_F(CrazyradioTest, NeverSendsACrazyradioPaWhatItTakesForARegister) {
+  for (const int release : {0x0053, 0x9955}) {
+    dongle_.plugged_in[0].release_bcd = static_cast<std::uint16_t>(release);
+    static_cast<void>(open());
+  }
+  for (const FakeDongle::Request& request : dongle_.requests) EXPECT_LT(request.number, 0x23);
+}
+
+TEST_F(CrazyradioTest, RefusesARateOrChannelThatACrazyradio2DoesNotHave) {
+  dongle_.plugged_in[0].release_bcd = 0x0504;
+  address_.channel = 101;
+  EXPECT_EQ(failure(), UsbOutcome::kUnsuited);
+  address_.channel = 100;
+  EXPECT_EQ(failure(), UsbOutcome::kDone);
+  address_.rate = RadioRate::k250Kbps;
+  EXPECT_EQ(failure(), UsbOutcome::kUnsuited);
+  plug_in("A1B2C3D4E6");
+  dongle_.plugged_in[1].release_bcd = 0x0053;
+  address_.dongle = "*";
+  EXPECT_EQ(failure(), UsbOutcome::kDone) << "another one has it";
 }
 
 TEST_F(CrazyradioTest, SendsSettingsOnlyWhenTheyChange) {

@@ -34,6 +34,7 @@ TEST(LinkCondition, FollowsFromTheFailureOfTheDevice) {
   EXPECT_EQ(condition_of(UsbOutcome::kStall), LinkCondition::kDeviceStalls);
   EXPECT_EQ(condition_of(UsbOutcome::kOverflow), LinkCondition::kDeviceOverflows);
   EXPECT_EQ(condition_of(UsbOutcome::kFault), LinkCondition::kDeviceFault);
+  EXPECT_EQ(condition_of(UsbOutcome::kUnsuited), LinkCondition::kDeviceUnsuited);
 }
 
 }  // namespace

@@ -432,7 +432,7 @@ TEST_F(RadioLinkTest, ReopensTheDongleAfterItWasUnplugged) {
   dongle_.plugged_in = dongles;
   ASSERT_TRUE(link().send(Bytes{0x5C, 3}).ok());
   EXPECT_EQ(listen(milliseconds(1500)).size(), 1U);
-  EXPECT_EQ(dongle_.requests.size(), 8U) << "tuned again";
+  EXPECT_EQ(dongle_.requests.size(), 9U) << "tuned again";
   EXPECT_EQ(condition(), LinkCondition::kConnected);
   EXPECT_TRUE(link().statistics().safelink);
   EXPECT_EQ(link().statistics().device_losses, 1U);

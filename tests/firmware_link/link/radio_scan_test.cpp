@@ -50,6 +50,22 @@ TEST_F(RadioScanTest, FindsEachRateAndChannelThatAnswers) {
   for (const FakeDongle::Packet& packet : dongle_.packets) EXPECT_EQ(packet.bytes, Bytes{0xFF});
 }
 
+TEST_F(RadioScanTest, SearchesWhereACrazyradio2CanTune) {
+  dongle_.plugged_in[0].release_bcd = 0x0504;
+  wanted_.rate = RadioRate::k250Kbps;
+  wanted_.channel = 120;
+  std::set<std::pair<int, int>> asked;
+  dongle_.is_in_range = [&] {
+    asked.insert(rate_and_channel());
+    return rate_and_channel() == std::pair(1, 100);
+  };
+  const auto scanned = scan_radio(dongle_, wanted_);
+  ASSERT_EQ(scanned.index(), 0U);
+  ASSERT_EQ(std::get<0>(scanned).size(), 1U);
+  EXPECT_EQ(std::get<0>(scanned)[0].channel, 100);
+  EXPECT_EQ(asked.size(), 2U * 101U);
+}
+
 TEST_F(RadioScanTest, FindsNothingWithoutAVehicle) {
   dongle_.is_in_range = [] { return false; };
   dongle_.fates = {Fate::kNeverAnswered, Fate::kInStalls};

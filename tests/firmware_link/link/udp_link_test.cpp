@@ -152,14 +152,15 @@ TEST(UdpLink, RefusesAnInvalidRequest) {
 TEST(UdpLink, DropsRequestsWithoutRoom) {
   Pair pair;
   pair.connect();
-  for (std::uint8_t i = 0; i < 9; ++i) EXPECT_TRUE(pair.link->send(Bytes{0x5C, i}).ok());
-  for (std::uint8_t i = 0; i < 8; ++i) {
+  for (std::uint8_t i = 0; i <= RequestQueue::kCapacity; ++i)
+    EXPECT_TRUE(pair.link->send(Bytes{0x5C, i}).ok());
+  for (std::uint8_t i = 0; i < RequestQueue::kCapacity; ++i) {
     const std::optional<LinkFrame> frame = pair.look();
     ASSERT_TRUE(frame.has_value());
     EXPECT_EQ(bytes_of(*frame), (Bytes{0x5C, i}));
   }
   EXPECT_FALSE(pair.look().has_value());
-  EXPECT_EQ(pair.received(8).size(), 8U);
+  EXPECT_EQ(pair.received(RequestQueue::kCapacity).size(), RequestQueue::kCapacity);
 }
 
 TEST(UdpLink, DoesNotDeliverNullPacketsAndWrongSizes) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::Not;
 using Kind = VehicleEvent::Kind;
 
@@ -112,6 +114,47 @@ TEST_F(LiveSessionTest, ReconnectingDownloadsNoTableOfContentsAgain) {
   EXPECT_THAT(link_.requests, Contains(hex("5c 03")));
 }
 
+TEST_F(LiveSessionTest, TellsThatAnotherProgramTalksToTheVehicle) {
+  run_until(4000);
+  EXPECT_THAT(events_, ElementsAre(Kind::kConnected));
+  // As the vendor's client connects: what it asks is answered to all that receive.
+  for (const char* answer : {"fc 07 00 00 00", "5d 06 04 00", "50 02 01 00 07 61 00 62 00"})
+    on_frame(received(hex(answer), host_ms(link_.now_ms)));
+  run_until(5000);
+  EXPECT_THAT(events_, ElementsAre(Kind::kConnected, Kind::kOtherProgram));
+  EXPECT_THAT(describe({Kind::kOtherProgram}), HasSubstr("another program talks to this vehicle"));
+}
+
+TEST_F(LiveSessionTest, TellsThatAnotherProgramStopsTheLog) {
+  for (const std::int64_t ms : {5000, 10'000, 15'000}) {
+    run_until(ms);
+    link_.vehicle.blocks.clear();
+  }
+  run_until(20'000);
+  EXPECT_EQ(std::ranges::count(events_, Kind::kOtherProgram), 1);
+}
+
+TEST_F(LiveSessionTest, TellsThatLogDataArrivesTwice) {
+  run_until(3000);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    const std::uint32_t ms = 3000 + 100 * i;
+    for (int copy = 0; copy < 2; ++copy)
+      for (const Bytes& packet : link_.vehicle.data(ms)) on_frame(received(packet, host_ms(ms)));
+  }
+  run_until(7000);
+  EXPECT_EQ(std::ranges::count(events_, Kind::kDoubledData), 1);
+  EXPECT_THAT(describe({Kind::kDoubledData}), HasSubstr("another program talks to this vehicle"));
+}
+
+TEST_F(LiveSessionTest, AFewDoubledOrLatePacketsAreNoOtherProgram) {
+  run_until(4000);
+  for (int i = 0; i < 2; ++i) on_frame(received(hex("50 02 01 00 07 61 00 62 00"), host_ms(link_.now_ms)));
+  for (int i = 0; i < 2; ++i)
+    for (const Bytes& packet : link_.vehicle.data(4000)) on_frame(received(packet, host_ms(link_.now_ms)));
+  run_until(60'000);
+  EXPECT_THAT(events_, ElementsAre(Kind::kConnected));
+}
+
 TEST_F(LiveSessionTest, RestartsWhenOnlyTheSlowBlockArrives) {
   run_until(5000);
   link_.vehicle.blocks.erase(1);
@@ -132,12 +175,13 @@ TEST_F(LiveSessionTest, RestartsWhenOneOfTwoBlocksStops) {
 
 TEST_F(LiveSessionTest, AfterASilenceInTheHandshakeAnotherVehicleMayAnswer) {
   link_.fate = [this](auto) {
-    const bool is_silent = link_.requests.size() >= 10 && link_.now_ms < 4000;
+    const bool is_silent = link_.requests.size() >= 10 && link_.now_ms < 7000;
     return is_silent ? ScriptedLink::Fate::kRequestLost : ScriptedLink::Fate::kArrives;
   };
-  run_until(3900);
+  run_until(6900);
   ASSERT_THAT(link_.requests.back(), ElementsAre(0xFD, 0));
-  run_until(6000);
+  run_until(9000);
+  std::erase(events_, Kind::kReadingTable);
   EXPECT_THAT(events_, ElementsAre(Kind::kConnected));
   EXPECT_GT(data_ms_.size(), 10U);
 }

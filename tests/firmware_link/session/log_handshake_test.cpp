@@ -36,7 +36,7 @@ class LogHandshakeTest : public testing::Test {
       const Result<LinkFrame> frame = link.receive(std::chrono::milliseconds(10));
       if (!frame) continue;
       static_cast<void>(session.on_frame(*frame));
-      if (frame->direction == LinkDirection::kFromVehicle) handshake.on_frame(frame->packet());
+      if (frame->direction == LinkDirection::kFromVehicle) handshake.on_frame(frame->packet(), frame->at);
       for (const CrtpPacket& reply : handshake.take_cached_replies())
         static_cast<void>(session.on_frame(received({reply.begin(), reply.end()}, frame->at)));
     }
@@ -137,8 +137,8 @@ TEST_F(LogHandshakeTest, RefusesFirmwareThatIsTooOldAndAcceptsNewer) {
   LogSession session;
   TocCache cache;
   LogHandshake newer(session, cache);
-  newer.on_frame(hex("fd 42 69 74 63 72 61 7a 65 20 43 72 61 7a 79 66 6c 69 65 00"));
-  newer.on_frame(hex("dd 00 0d 00 00 00"));
+  newer.on_frame(hex("fd 42 69 74 63 72 61 7a 65 20 43 72 61 7a 79 66 6c 69 65 00"), host_ms(0));
+  newer.on_frame(hex("dd 00 0d 00 00 00"), host_ms(0));
   EXPECT_FALSE(newer.failure().has_value());
   EXPECT_EQ(newer.protocol(), 13);
 }
@@ -197,9 +197,9 @@ TEST_F(LogHandshakeTest, IgnoresRepliesToOtherItemsAndBlocks) {
   LogSession session;
   TocCache cache;
   LogHandshake handshake(session, cache);
-  handshake.on_frame(hex("5d 03 01 00"));
-  handshake.on_frame(hex("50 02"));
-  handshake.on_frame(hex("52 01 00 00 00 00"));
+  handshake.on_frame(hex("5d 03 01 00"), host_ms(0));
+  handshake.on_frame(hex("50 02"), host_ms(0));
+  handshake.on_frame(hex("52 01 00 00 00 00"), host_ms(0));
   EXPECT_FALSE(handshake.failure().has_value());
   EXPECT_EQ((*handshake.next_request(host_ms(0)))[0], 0xFD);
 }
@@ -297,7 +297,7 @@ TEST_F(LogHandshakeTest, AcceptsAnswersThatTakeLongerThanTheRepetitionPeriod) {
       }
       for (; !replies.empty() && replies.front().at <= host_ms(ms); replies.pop_front()) {
         static_cast<void>(session.on_frame(replies.front()));
-        handshake.on_frame(replies.front().packet());
+        handshake.on_frame(replies.front().packet(), replies.front().at);
       }
     }
     EXPECT_TRUE(handshake.finished()) << delay_ms;

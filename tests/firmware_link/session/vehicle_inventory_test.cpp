@@ -16,7 +16,7 @@ void ask(VehicleInventory& inventory, ScriptedVehicle& vehicle) {
     const auto request = inventory.next_request(host_ms(ms));
     if (!request || ++passed % 4 == 0) continue;
     const auto reply = vehicle.answer(bytes_of(*request));
-    if (reply && ++passed % 4 != 0) inventory.on_frame(*reply);
+    if (reply && ++passed % 4 != 0) inventory.on_frame(*reply, host_ms(ms));
   }
 }
 
@@ -79,7 +79,7 @@ TEST(VehicleInventory, DownloadsTheTableOfContentsOnce) {
   for (std::int64_t ms = 0; !second.finished() && ms < 100; ++ms) {
     if (const auto request = second.next_request(host_ms(ms))) {
       ++requests;
-      second.on_frame(*vehicle.answer(bytes_of(*request)));
+      second.on_frame(*vehicle.answer(bytes_of(*request)), host_ms(ms));
     }
   }
   EXPECT_EQ(requests, 2 + 1 + 2);  // versions, length and crc, decks
