@@ -58,13 +58,11 @@ void FaultySampleSource::place(RangeSample& sample) {
 }
 
 std::vector<StampedPose> FaultySampleSource::ground_truth() const {
-  std::vector<StampedPose> truth = flight_->ground_truth();
-  for (StampedPose& pose : truth) {
-    Duration added{};
-    for (const auto& [since, sum] : added_since_)
-      if (pose.stamp >= since) added = sum;
-    pose.stamp += added;
-  }
+  const std::vector<StampedPose> flown = flight_->ground_truth();
+  std::vector<StampedPose> truth;
+  for (const Delivered& sample : delivered_)
+    if (sample.number < flown.size())
+      truth.push_back({flown[sample.number].stamp + sample.added, flown[sample.number].pose});
   return truth;
 }
 
@@ -73,6 +71,7 @@ Result<ReceivedSample> FaultySampleSource::next() {
     Result<ReceivedSample> received = flight_->next();
     if (!received) return received;
     RangeSample& sample = received->sample;
+    const std::size_t number = received_++;
     if (!first_at_) first_at_ = sample.measured_at;
     const Duration at = sample.measured_at - *first_at_;
     const auto is_over = [&](const MotionFault& fault) {
@@ -84,10 +83,10 @@ Result<ReceivedSample> FaultySampleSource::next() {
       if (hides_samples(lasting_->kind)) continue;
     } else if (lasting_) {
       begin(*lasting_, sample);
-      added_since_.emplace_back(sample.stamp, added_);
       lasting_.reset();
     }
     place(sample);
+    delivered_.push_back({number, added_});
     return received;
   }
 }

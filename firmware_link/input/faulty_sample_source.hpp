@@ -32,6 +32,10 @@ class FaultySampleSource final : public SampleSource {
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
  private:
+  struct Delivered {
+    std::size_t number = 0;  // among the flight's samples
+    Duration added{};        // to its stamp
+  };
   void begin(const MotionFault& fault, RangeSample& sample);
   void place(RangeSample& sample);
 
@@ -39,11 +43,12 @@ class FaultySampleSource final : public SampleSource {
   std::vector<MotionFault> faults_;
   std::size_t next_fault_ = 0;
   std::optional<DeviceTime> first_at_;
-  std::optional<MotionFault> lasting_;                      // what hides the flight now
-  Duration added_{};                                        // to all stamps
-  std::vector<std::pair<HostTime, Duration>> added_since_;  // likewise, by the flight's stamps
-  Pose2 T_fault_odom_;                                      // what faults have done to the estimate
-  Pose2 T_odom_last_;                                       // of the last sample, before faults
+  std::optional<MotionFault> lasting_;  // what hides the flight now
+  Duration added_{};                    // to all stamps
+  std::size_t received_ = 0;            // of the flight's samples
+  std::vector<Delivered> delivered_;
+  Pose2 T_fault_odom_;  // what faults have done to the estimate
+  Pose2 T_odom_last_;   // of the last sample, before faults
 };
 
 }  // namespace swiftlet

@@ -20,7 +20,8 @@ struct SimulationAddress {
   std::vector<MotionFault> faults;
 };
 
-/// `WORLD[?seed=N&laps=N&fault=FAULTS]`; faults as in parse_motion_faults(). Error: kInvalidInput: what is wrong. Does not check that the world exists.
+/// `WORLD[?seed=N&laps=N&fault=FAULTS]`, faults as in parse_motion_faults(). Error: kInvalidInput: what is
+/// wrong. Does not check that the world exists.
 [[nodiscard]] Result<SimulationAddress> parse_simulation_address(std::string_view text);
 
 }  // namespace swiftlet

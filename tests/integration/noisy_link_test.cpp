@@ -10,9 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <utility>
-#include <vector>
 
-#include "core/evaluation/trajectory_error.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/simulation/link.hpp"
 #include "tests/support/corrected_run.hpp"
@@ -34,14 +32,6 @@ CorrectedRun office_run(Duration noise_period) {
   input.link = std::make_unique<NoisyLink>(std::move(simulated), kLength, noise_period, 1);
   LinkSampleSource source(std::move(input));
   return corrected_run(source);
-}
-
-double error_m(const CorrectedRun& run) {
-  std::vector<Point2> found_m;
-  for (const Pose2& T_map_body : run.T_map_body) found_m.push_back(T_map_body.position());
-  std::vector<Point2> true_m;
-  for (const StampedPose& at : run.truth) true_m.push_back(at.pose.position());
-  return trajectory_error(found_m, true_m).rmse_m;
 }
 
 double farthest_m(const CorrectedRun& run) {

@@ -5,19 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
-#include "core/evaluation/trajectory_error.hpp"
 #include "tests/support/corrected_run.hpp"
 
 namespace swiftlet {
 namespace {
-
-std::vector<Point2> positions(const std::vector<Pose2>& poses) {
-  std::vector<Point2> points;
-  for (const Pose2& pose : poses) points.push_back(pose.position());
-  return points;
-}
 
 class OfficeFlights : public testing::TestWithParam<int> {};
 
@@ -25,10 +17,8 @@ TEST_P(OfficeFlights, AreCorrectedToAFifthOfTheOdometrysError) {
   const CorrectedRun run = corrected_run("sim://office?seed=" + std::to_string(GetParam()));
   ASSERT_GT(run.samples.size(), 4000U);
   ASSERT_EQ(run.truth.size(), run.samples.size());
-  std::vector<Point2> truth_m;
-  for (const StampedPose& at : run.truth) truth_m.push_back(at.pose.position());
-  const double before_m = trajectory_error(positions(dead_reckoned(run)), truth_m).rmse_m;
-  const double after_m = trajectory_error(positions(run.T_map_body), truth_m).rmse_m;
+  const double before_m = error_m(run, dead_reckoned(run));
+  const double after_m = error_m(run);
   EXPECT_LE(after_m, 0.2 * before_m) << before_m << " m before, " << after_m << " m after";
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 
@@ -32,6 +33,14 @@ CorrectedRun corrected_run(const std::string& uri) {
   const auto source = open_sample_source(uri, {});
   EXPECT_TRUE(source.ok()) << (source.ok() ? "" : source.error().message);
   return source ? corrected_run(**source) : CorrectedRun{};
+}
+
+double error_m(const CorrectedRun& run, const std::vector<Pose2>& poses) {
+  std::vector<Point2> found_m;
+  for (const Pose2& pose : poses) found_m.push_back(pose.position());
+  std::vector<Point2> true_m;
+  for (const StampedPose& at : run.truth) true_m.push_back(at.pose.position());
+  return trajectory_error(found_m, true_m).rmse_m;
 }
 
 std::vector<Pose2> dead_reckoned(const CorrectedRun& run) {

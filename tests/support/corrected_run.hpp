@@ -24,6 +24,11 @@ CorrectedRun corrected_run(SampleSource& source);
 /// Opens an input for it. Fails the running test where it cannot be opened; the run is empty then.
 CorrectedRun corrected_run(const std::string& uri);
 
+/// Root mean square error of the positions, aligned; one pose a sample. Precondition: the truth is known.
+double error_m(const CorrectedRun& run, const std::vector<Pose2>& poses);
+/// The same of the corrected poses.
+inline double error_m(const CorrectedRun& run) { return error_m(run, run.T_map_body); }
+
 /// The dead reckoning of each sample: what a run is corrected from.
 std::vector<Pose2> dead_reckoned(const CorrectedRun& run);
 

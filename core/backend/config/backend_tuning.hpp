@@ -252,7 +252,7 @@ struct WallPatchesTuning {
 
 /// A node of rigid dead reckoning ends before the first of these is exceeded. Over this way dead reckoning
 /// errs by about as much as one reading, 2 cm. Turn and duration are set by hand. Nodes of 0.1 m and 0.1 rad
-/// turn ACES by 0.005 deg less, and take 18 % more memory on Killian (docs/real_time_evidence.md has the limit).
+/// turn ACES by 0.005 deg less, and take 18 % more memory on Killian (limit: docs/real_time_evidence.md).
 struct RigidNodesTuning {
   double way_m = 0.15;
   double turn_rad = 0.25;

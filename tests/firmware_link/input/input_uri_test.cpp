@@ -38,6 +38,8 @@ TEST(InputUri, AcceptsASimulationWithAndWithoutSeedAndLaps) {
   EXPECT_EQ(plain->seed, 1U);
   EXPECT_EQ(plain->laps, 1);
   EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=1000")->as<SimulationAddress>()->laps, 1000);
+  EXPECT_EQ(parse_input_uri("sim://office?fault=reset@60,slip@90:5")->as<SimulationAddress>()->faults.size(),
+            2U);
   EXPECT_EQ(parse_input_uri("sim://maze?seed=18446744073709551615")->as<SimulationAddress>()->seed,
             18446744073709551615U);
 }
@@ -114,7 +116,7 @@ TEST(InputUri, ReportsWhatIsWrongAndShowsAnExample) {
       {"radio:0/80", "two slashes follow 'radio:'"},
       {"sim://", "names no world"},
       {"sim://?seed=1", "names no world"},
-      {"sim://office?speed=1", "unknown parameter 'speed', known: seed, laps"},
+      {"sim://office?speed=1", "unknown parameter 'speed', known: seed, laps, fault"},
       {"sim://office?", "unknown parameter ''"},
       {"sim://office?seed", "seed must be a whole number"},
       {"sim://office?seed=", "seed must be a whole number"},

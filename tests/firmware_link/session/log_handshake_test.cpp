@@ -176,7 +176,7 @@ std::optional<Error> failure_after(ScriptedVehicle vehicle, const Bytes& bad, in
     if (!reply) continue;
     const LinkFrame frame = received(*reply, host_ms(ms));
     static_cast<void>(session.on_frame(frame));
-    handshake.on_frame(frame.packet());
+    handshake.on_frame(frame.packet(), frame.at);
   }
   EXPECT_TRUE(handshake.finished() || handshake.failure());
   return handshake.failure();

@@ -47,10 +47,10 @@ class LoopDetectorTest : public testing::Test {
     }
   }
 
-  FoundLoops find_all(KeyframeId query) {
+  FoundLoops find_all(KeyframeId query, KeyframeId since = {}) {
     tried_ = 0;
     return LoopDetector(config_, run_.scans(), run_.chain())
-        .find(query, submaps_, graph_, run_.T_local_keyframe(), tried_);
+        .find(query, since, submaps_, graph_, run_.T_local_keyframe(), tried_);
   }
   std::vector<LoopClosure> find(KeyframeId query) { return find_all(query).confirmed; }
   [[nodiscard]] Pose2 T_from_to_truth(const LoopClosure& c) const {
@@ -74,6 +74,13 @@ TEST_F(LoopDetectorTest, FindsThePlacesOfTheFirstLapInTheSecond) {
     EXPECT_FALSE(c.dropped);
     EXPECT_LT(chi_square_against(c, T_from_to_truth(c)), kChiSquare99);
   }
+}
+
+TEST_F(LoopDetectorTest, AcrossABreakOfMotionNoMatchIsSureAlone) {
+  const FoundLoops watched = find_all(run_.newest());
+  const FoundLoops across = find_all(run_.newest(), run_.newest());
+  EXPECT_TRUE(across.confirmed.empty());
+  EXPECT_GE(across.tentative.size(), watched.confirmed.size());
 }
 
 TEST_F(LoopDetectorTest, FindsThemFromAPredictionThatHasDrifted) {

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
+#include "core/backend/pose_graph/relative_uncertainty.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 #include "tests/support/pose_near.hpp"
 
 namespace swiftlet {
@@ -22,7 +25,7 @@ class KeyframeGraphTest : public testing::Test {
     for (std::uint32_t i = 0; i < keyframes; ++i) add_keyframe();
   }
   /// Returns whether the graph moved.
-  bool add_keyframe() {
+  bool add_keyframe(bool has_restarted = false) {
     const KeyframeId made_id = T_local_keyframe_.end_id();
     FrontendStep step;
     step.keyframe = made_id;
@@ -30,7 +33,7 @@ class KeyframeGraphTest : public testing::Test {
     chain_.add(scans_.add(step));
     Keyframe made;
     made.id = made_id;
-    made.starts_segment = made_id == id(0);
+    made.starts_segment = has_restarted || made_id == id(0);
     made.motion_covariance = Covariance3::from_matrix(Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal());
     EXPECT_TRUE(made.T_local_keyframe.try_push_back(step.sample.T_odom_body));
     T_local_keyframe_.push_back(step.sample.T_odom_body);
@@ -54,6 +57,23 @@ TEST_F(KeyframeGraphTest, FollowsTheMotionWhileNothingElseIsKnown) {
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
   EXPECT_EQ(graph_.counters().optimizations, 0U);
   EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
+}
+
+TEST_F(KeyframeGraphTest, AVehicleThatRestartedMostLikelyStoodStillUntilClosuresContradict) {
+  fly(10);
+  add_keyframe(true);
+  fly(9);
+  const auto sigma_m = [&] {
+    return std::sqrt(relative_covariances(graph_.graph(), id(9), config_.tuning.covariance)[id(10)](0, 0));
+  };
+  EXPECT_NEAR(sigma_m(), kStoodStill.xy_m, 0.01);
+  const std::vector<RelativePoseFactor<KeyframeId>> elsewhere{closure_to(12, 6.0), closure_to(15, 6.0),
+                                                              closure_to(18, 6.0)};
+  ASSERT_TRUE(graph_.accommodate(elsewhere));
+  for (const RelativePoseFactor<KeyframeId>& closure : elsewhere) graph_.add_closure(closure);
+  graph_.optimize();
+  EXPECT_NEAR(graph_.T_map_keyframe()[id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[id(9)].x_m(), 9 * kStepM, 0.05);
 }
 
 TEST_F(KeyframeGraphTest, AnExpectedClosureWaitsForOthersButNotForEver) {
