@@ -11,6 +11,24 @@ bool is_warning(const VehicleEvent& event) {
          event.kind != Kind::kClientConnected && event.kind != Kind::kClientGone;
 }
 
+namespace {
+
+std::string describe_other_program(Kind kind, const std::string& value) {
+  if (kind == Kind::kOtherProgram)
+    return "another program talks to this vehicle: each takes the other's answers and log data; close it, "
+           "or let it share the link (swiftletd --share)";
+  if (kind == Kind::kDoubledData)
+    return "log data arrives twice, and is used once: another program talks to this vehicle, or the network "
+           "doubles packets";
+  if (kind == Kind::kClientConnected)
+    return "a client has connected from port " + value + " and has the vehicle";
+  if (kind == Kind::kClientGone)
+    return "the client is gone; its setpoints end with it, and the vehicle's own watchdog acts";
+  return "a second client, from port " + value + ", is refused: one at a time";
+}
+
+}  // namespace
+
 std::string describe(const VehicleEvent& event) {
   const std::string value = std::to_string(event.value);
   switch (event.kind) {
@@ -44,18 +62,11 @@ std::string describe(const VehicleEvent& event) {
              "is "
              "wrong; land and restart the vehicle";
     case Kind::kOtherProgram:
-      return "another program talks to this vehicle: each takes the other's answers and log data; close it, "
-             "or let it share the link (swiftletd --share)";
     case Kind::kDoubledData:
-      return "log data arrives twice, and is used once: another program talks to this vehicle, or the "
-             "network "
-             "doubles packets";
     case Kind::kClientConnected:
-      return "a client has connected from port " + value + " and has the vehicle";
     case Kind::kClientGone:
-      return "the client is gone; its setpoints end with it, and the vehicle's own watchdog acts";
     case Kind::kClientRefused:
-      return "a second client, from port " + value + ", is refused: one at a time";
+      return describe_other_program(event.kind, value);
   }
   return {};
 }
