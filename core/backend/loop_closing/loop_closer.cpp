@@ -31,7 +31,8 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
     if (made.id != chain_->all().first_id()) {
       unplaced_since_ = made.id;
       const ScanId scan = chain_->scan_of(made.id);
-      forget_places((*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp);
+      const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
+      forget_places(made.odometry_ran_on ? Duration::zero() : unwatched);  // its estimate tells the way
     }
   }
   const double here_m = chain_->path_m(made.id);
