@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""docs/results/faults.md: breaks of motion in simulated flights."""
+
+import math
+import statistics
+
+import benchmark_page as page
+import fault_runs
+
+NONE = "–"
+GOOD_M = 0.15
+WRONG_M = 1.0
+HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", f"over {WRONG_M:g} m:", "found back:",
+            "way p50, m:", "p90, m:"]
+
+
+def percent(flags):
+    return f"{100 * statistics.mean(flags):.0f} %"
+
+
+def p90(values):
+    """The smallest of them that no more than a tenth exceed."""
+    return sorted(values)[math.ceil(0.9 * len(values)) - 1]
+
+
+def way_cells(ways):
+    """`ways`: None where a run did not find back."""
+    known = [way for way in ways if way is not None]
+    figures = [f"{figure(known):.1f}" for figure in (statistics.median, p90)] if known else [NONE, NONE]
+    return [percent(way is not None for way in ways), *figures]
+
+
+def cells(results):
+    """Of the runs of one world and fault."""
+    finals = [result["final_m"] for result in results]
+    ways = [result["way_back_m"] for result in results if "way_back_m" in result]
+    return [str(len(finals)), f"{statistics.median(finals):.3f}", f"{max(finals):.3f}",
+            percent(final < GOOD_M for final in finals), percent(final > WRONG_M for final in finals),
+            *(way_cells(ways) if ways else [NONE] * 3)]
+
+
+def world_table(rows):
+    faults = dict.fromkeys(run.fault for run, _ in rows)
+    return page.table(["break", *HEADINGS],
+                      [[f"`{fault.text()}`", *cells([result for run, result in rows if run.fault == fault])]
+                       for fault in faults])
+
+
+def tables(report):
+    """All tables, for stdout and for the page."""
+    worlds = dict.fromkeys(run.log.name for run, _ in report["rows"])
+    return "\n".join(f"## {world}\n\n{world_table([row for row in report['rows'] if row[0].log.name == world])}\n"
+                     for world in worlds)
+
+
+def wrong_though_told(rows):
+    """Markdown: the runs whose final map believes a wrong place although the input told of the break."""
+    wrong = [f"- `{run.title()}`: {result['final_m']:.1f} m" for run, result in rows
+             if run.fault.is_told() and result["final_m"] > WRONG_M]
+    return "\n".join(wrong or ["- none"])
+
+
+def document(report):
+    at_s, near_m = fault_runs.BREAK_S, fault_runs.NEAR_M
+    return f"""{page.head("Breaks of motion", "benchmark-faults", report)}
+Simulated flights whose dead reckoning breaks once, {at_s} s after the first sample, seeds 1 to {report['seeds']}:
+`swiftlet map 'sim://office?seed=1&fault=carried@{at_s}:60' -o out`. Amounts are in seconds, of a `jump` in degrees. In
+a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in flight, a `restart` the
+vehicle where it is; one that was `carried` restarts where it would have been by then. Nothing tells of a `jump` of the
+heading, of a `slip` (the estimate stays while the vehicle flies on) and of a `teleport` (it is carried and the estimate
+goes on).
+
+"Final error" is the RMSE of the corrected path. "Over {WRONG_M:g} m" are the runs whose final map still believes a
+wrong place. "Found back" are the runs whose live pose came within {near_m} m of the truth while flying and stayed
+there, the live poses before the break put onto the truth; "way" is what these runs flew from the end of the break until
+then.
+`none` shows how often and how long the live pose is more than {near_m} m off after {at_s} s without any break.
+
+{tables(report)}
+## Known not to work
+
+Jumps of the heading by 20 degrees and more, slips and teleports are not noticed: nothing tells of them, and nothing
+looks for them yet. Loop closures mend some jumps nonetheless; the other maps stay bent or apart, as the final errors
+show.
+
+Runs over {WRONG_M:g} m though the input told of the break:
+
+{wrong_though_told(report['rows'])}
+"""
