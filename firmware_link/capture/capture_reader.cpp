@@ -24,7 +24,7 @@ constexpr std::size_t kMaxUnpackedBytes = 1'000'000'000;
 constexpr std::size_t kMaxKnownRecord = record_prefix(CaptureLinkKind::kUsb) + kMaxCrtpPacket;
 constexpr std::size_t kBuffer = 65536;
 // Between the headers of two records that are interleaved; a stamp may be that of its minute alone.
-constexpr std::int64_t kMaxApart_s = 60;
+constexpr std::int64_t kMaxApartS = 60;
 constexpr std::size_t kMaxNamedDamages = 5;
 
 std::optional<CaptureLinkKind> kind_of(std::uint8_t byte) {
@@ -150,7 +150,7 @@ bool CaptureReader::is_interleaved() {
   const std::optional<Header> next = certain_header_at(offset_);
   if (!next) return false;
   const std::int64_t apart_s = next->seconds - pending_.front().seconds;
-  return apart_s <= kMaxApart_s && -apart_s <= kMaxApart_s;
+  return apart_s <= kMaxApartS && -apart_s <= kMaxApartS;
 }
 
 /// Which of the two headers the next body belongs to. nullopt: neither, as far as is there.
