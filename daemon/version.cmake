@@ -24,4 +24,5 @@ add_custom_target(swiftlet_commit BYPRODUCTS ${source} VERBATIM
   COMMAND ${CMAKE_COMMAND} -D CHECKOUT=${PROJECT_SOURCE_DIR} -D SOURCE=${source} -D VERSION=${PROJECT_VERSION}
     -D "LIBRARIES=${libraries}" -P ${CMAKE_CURRENT_LIST_FILE})
 swiftlet_add_library(swiftlet_version SOURCES ${source})
+set_target_properties(swiftlet_version PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # links nothing
 add_dependencies(swiftlet_version swiftlet_commit)
