@@ -62,11 +62,8 @@ std::string flight_folder_name(const std::string& input, HostTime began) {
 }
 
 Result<OutputDirectory> OutputDirectory::open(const fs::path& directory) {
-  if (directory.empty()) {
-    std::string message = "-o names no directory; leave it out for a folder of its own in ";
-    message += kFlightsDirectory;
-    return Error{ErrorCode::kInvalidInput, std::move(message)};
-  }
+  if (directory.empty())
+    return Error{ErrorCode::kInvalidInput, "-o names no directory; leave it out for a folder of its own"};
   std::error_code unknown;
   const bool is_new = !fs::exists(directory, unknown) && !unknown;
   if (Status ready = prepare_output_directory(directory); !ready) return ready.error();
