@@ -96,7 +96,6 @@ struct ClosureGroupTuning {
 
 struct PlaceHypothesesTuning {
   double way_between_m = 2.0;           ///< travel between queries
-  double likelihood_per_score = 20.0;   ///< of a match: three queries contain the same travel
   double track_m = 0.5;                 ///< what dead reckoning may drift from one query to the next
   double track_rad = 0.1;               ///< likewise
   double same_place_m = 0.7;            ///< closer ones are one hypothesis
@@ -113,7 +112,6 @@ struct PlaceHypothesesTuning {
 
   static constexpr TuningValue<PlaceHypothesesTuning> kValues[] = {
       {"way_between_m", &PlaceHypothesesTuning::way_between_m},
-      {"likelihood_per_score", &PlaceHypothesesTuning::likelihood_per_score},
       {"track_m", &PlaceHypothesesTuning::track_m},
       {"track_rad", &PlaceHypothesesTuning::track_rad},
       {"same_place_m", &PlaceHypothesesTuning::same_place_m},

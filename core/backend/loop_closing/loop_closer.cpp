@@ -32,7 +32,8 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
       unplaced_since_ = made.id;
       const ScanId scan = chain_->scan_of(made.id);
       const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
-      forget_places(made.odometry_ran_on ? Duration::zero() : unwatched);  // its estimate tells the way
+      forget_places();
+      places_.begin(made.odometry_ran_on ? Duration::zero() : unwatched);  // its estimate tells the way
     }
   }
   const double here_m = chain_->path_m(made.id);
@@ -98,8 +99,8 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
   accept_group(places_.decided(), graph);
 }
 
-void LoopCloser::forget_places(Duration unwatched) {
-  places_.begin(unwatched);
+void LoopCloser::forget_places() {
+  places_.begin_again();
   elsewhere_.stop();
   proposed_.clear();
 }
@@ -117,7 +118,7 @@ void LoopCloser::accept_group(std::span<const LoopClosure> group, KeyframeGraph&
   if (!graph.accommodate(factors)) return;
   if (unplaced_since_ && group.front().from < *unplaced_since_) {
     unplaced_since_.reset();
-    forget_places({});
+    forget_places();
   }
   for (const LoopClosure& closure : group) accept(closure, graph);
 }
@@ -146,7 +147,7 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
   groups_.clear();
-  forget_places({});
+  forget_places();
 }
 
 std::optional<KeyframeId> LoopCloser::open_since() const {

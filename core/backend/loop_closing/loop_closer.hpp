@@ -53,7 +53,7 @@ class LoopCloser {
 
  private:
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
-  void forget_places(Duration unwatched);
+  void forget_places();
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);

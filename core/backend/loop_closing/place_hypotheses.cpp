@@ -50,6 +50,11 @@ void PlaceHypotheses::begin(Duration unwatched) {
   hypotheses_.clear();
 }
 
+/// So many contain the same travel, and count as one.
+double PlaceHypotheses::queries_alike() const {
+  return std::max(1.0, config_->multiscan_length_m / config_->tuning.places.way_between_m);
+}
+
 PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T_map_query,
                                                     std::span<const std::shared_ptr<const Submap>> submaps,
                                                     const PoseGraph& graph) const {
@@ -79,7 +84,8 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
                               .covariance = Covariance3::from_matrix(match->covariance),
                               .score = match->score};
   }
-  found.log_likelihood = tuning.likelihood_per_score * seen(*best, query.points, T_submap_query).excess /
+  found.log_likelihood = config_->tuning.matcher.likelihood_per_score / queries_alike() *
+                         seen(*best, query.points, T_submap_query).excess /
                          static_cast<double>(query.points.size());
   if (!match || found.log_likelihood <= 0.0 || query.cross_check.holds(*best, T_submap_query)) return found;
   return {};
@@ -129,8 +135,7 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
   if (hypotheses_.empty()) {
     const double prior = std::log(tuning.not_moved_odds);
-    hypotheses_.push_back(
-        {graph.T_map_keyframe[query] * T_local_keyframe[query].inverse(), prior, {}, prior, {}});
+    hypotheses_.push_back({graph.T_map_keyframe[query] * T_local_keyframe[query].inverse(), prior, {}, {}});
   }
   if (queries_.size() == tuning.most_queries) forget_oldest();
   for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, T_local_keyframe, h);
@@ -162,7 +167,7 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   const double reach_m = tuning.unmoved_reach_m + tuning.carrying_speed_m_per_s * to_seconds(unwatched_);
   if (std::hypot(T_map_query.x_m() - not_moved.x_m, T_map_query.y_m() - not_moved.y_m) > reach_m) return;
   const double prior = -std::log(tuning.places_per_submap * static_cast<double>(submaps.size()));
-  Hypothesis proposed{T_map_query * T_local_query.inverse(), prior, {}, prior, {}};
+  Hypothesis proposed{T_map_query * T_local_query.inverse(), prior, {}, {}};
   for (std::size_t i = queries_.size(); i-- > 0;)  // from where it was found, dead reckoning drifts
     weigh(queries_[i], submaps, graph, T_local_keyframe, proposed);
   proposed.T_map_local = T_map_query * T_local_query.inverse();
@@ -172,8 +177,7 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   merge(T_local_query);
 }
 
-/// Of the position that the matches give, in the worst direction: a corridor says nothing along itself. Three
-/// queries contain the same travel and count as one.
+/// Of the position that the matches give, in the worst direction: a corridor says nothing along itself.
 double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const LoopClosure& match : hypothesis.matches) {
@@ -181,7 +185,7 @@ double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
     const Eigen::Matrix2d R =
         Eigen::Rotation2Dd(query->yaw_local_rad - match.T_from_to.yaw_rad()).toRotationMatrix();
     const Eigen::Matrix2d position = match.covariance.matrix().topLeftCorner<2, 2>();
-    information += R * position.inverse() * R.transpose() / 3.0;
+    information += R * position.inverse() * R.transpose() / queries_alike();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information);
   return 1.0 / std::sqrt(std::max(solver.eigenvalues()(0), 1e-9));

@@ -30,9 +30,11 @@ class PlaceHypotheses {
   PlaceHypotheses(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
       : config_(&config), scans_(&scans), chain_(&chain) {}
 
-  /// Forgets all; begins with one hypothesis: the travel lies as the graph has it. `unwatched`: for how long
-  /// nobody watched.
+  /// Forgets all; the first query begins with one hypothesis: the travel lies as the graph has it.
+  /// `unwatched`: for how long nobody watched.
   void begin(Duration unwatched);
+  /// Forgets all but how long nobody watched: keyframes are pruned.
+  void begin_again() { begin(unwatched_); }
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
   /// `submaps`: those of before. Returns whether it was taken.
   bool add_query(KeyframeId query, const ScanRange& recent,
@@ -44,7 +46,6 @@ class PlaceHypotheses {
   /// The matches of the hypothesis that is believed, one for each query that shows known walls; empty while
   /// none is.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
-  [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
 
  private:
   struct Query {
@@ -55,9 +56,8 @@ class PlaceHypotheses {
   };
   struct Hypothesis {
     Pose2 T_map_local;
-    double prior_log_odds = 0.0;
+    double log_odds = 0.0;                // prior, and the sum of
     std::vector<double> log_likelihoods;  // by query
-    double log_odds = 0.0;                // the sum
     std::vector<LoopClosure> matches;     // with the queries that show known walls
   };
   struct Evidence {
@@ -71,6 +71,7 @@ class PlaceHypotheses {
              const KeyframePoses& T_local_keyframe, Hypothesis& hypothesis) const;
   void merge(const Pose2& T_local_query);
   void forget_oldest();
+  [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;
 
   const BackendConfig* config_;
