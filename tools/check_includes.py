@@ -14,7 +14,7 @@ from pathlib import Path
 
 SENSING = ["core/base", "core/geometry", "core/sensing"]
 BACKEND = ["core/backend/config", "core/backend/store", "core/backend/pose_graph", "core/backend/loop_closing",
-           "core/backend/refinement", "core/backend/pruning"]
+           "core/backend/refinement", "core/backend/pruning", "core/backend/confidence"]
 SLAM = SENSING + ["core/frontend", "core/backend"]
 CORE = SLAM + BACKEND + ["core/mapping", "core/mapping/picture", "core/evaluation", "core/calibration"]
 LINK = ["firmware_link/crtp", "firmware_link/link"]
@@ -34,6 +34,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "core/backend/store": SENSING,
     "core/backend/pose_graph": SENSING + BACKEND[:2],
     "core/backend/loop_closing": SENSING + BACKEND[:3],
+    "core/backend/confidence": SENSING + BACKEND[:4],
     "core/backend/refinement": SENSING + BACKEND[:3],
     "core/backend/pruning": SENSING + BACKEND[:3],
     "core/mapping": SLAM + BACKEND,

@@ -107,7 +107,13 @@ Status run_map_command(const MapCommand& command) {
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
   std::vector<StampedPose> truth = source.ground_truth();
   std::optional<KnownPlaceError> known_places;
-  if (observer) known_places = observer->error(StampedPath(truth));
+  std::optional<RunConsistency> run_consistency;
+  if (observer) {
+    const StampedPath path(truth);
+    known_places = observer->error(path);
+    run_consistency = {consistency(observer->doubted_poses(), path),
+                       count_alarms(observer->doubted_poses(), known_places->errors)};
+  }
   const RunView run{.backend = pipeline.backend(),
                     .map = pipeline.map(),
                     .input = report,
@@ -120,6 +126,7 @@ Status run_map_command(const MapCommand& command) {
                     .mended = source.mended(),
                     .pruned = &*pruned,
                     .known_places = known_places,
+                    .consistency = run_consistency,
                     .peak_memory_mb = peak_of_run_mb};
   const Result<WrittenOutputs> written = write_run_outputs(output->path(), run);
   if (!written) return written.error();

@@ -2,6 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/backend.hpp"
 
+#include <cmath>
+#include <optional>
+
+#include "core/backend/confidence/map_agreement.hpp"
+#include "core/backend/confidence/pose_covariances.hpp"
 #include "core/backend/loop_closing/loop_closer.hpp"
 #include "core/backend/pose_graph/keyframe_graph.hpp"
 #include "core/backend/refinement/run_refinement.hpp"
@@ -16,6 +21,10 @@ struct Backend::State {
   [[nodiscard]] const KeyframePoses& T_map_keyframe() const { return graph.T_map_keyframe(); }
   bool follow_graph(bool has_moved);
   ScanRange refine_window(const BackendUpdate& update);
+  void correct_newest(const Pose2& T_local_body);
+  void compare_newest_scan(const FrontendStep& step);
+  [[nodiscard]] Tracking tracking() const;
+  [[nodiscard]] PoseConfidence computed_confidence() const;
 
   BackendConfig config;
   ScanStore scans;
@@ -25,6 +34,10 @@ struct Backend::State {
   LoopCloser loops{config, scans, chain};
   RunRefinement refinement;
   Pruner pruner{config, scans, chain};
+  MapAgreement agreement{config.tuning.confidence, scans};
+  MapCorrection correction;  // at the newest keyframe
+  std::optional<PoseConfidence>
+      confidence;             // as it was last computed; nothing once it does not hold any more
   std::uint32_t version = 0;  // counts up whenever earlier keyframes have moved
   std::uint64_t scans_pruned = 0;
 };
@@ -46,6 +59,44 @@ ScanRange Backend::State::refine_window(const BackendUpdate& update) {
   return refined;
 }
 
+/// At the newest keyframe. What contradicts a pose says nothing of the one it is corrected to.
+void Backend::State::correct_newest(const Pose2& T_local_body) {
+  const Pose2 T_map_newest = refinement.T_map_newest(T_map_keyframe(), T_local_keyframe());
+  const Point2 was = correction.T_map_local * T_local_body.position();
+  correction = {chain.all().last_id(), T_map_newest * T_local_keyframe().values().back().inverse(), version};
+  const Point2 is = correction.T_map_local * T_local_body.position();
+  if (std::hypot(is.x_m - was.x_m, is.y_m - was.y_m) > config.tuning.confidence.tolerance_m)
+    agreement.begin_again();
+}
+
+/// With the older map, at the pose that the newest correction gives it.
+void Backend::State::compare_newest_scan(const FrontendStep& step) {
+  const Pose2 T_map_body = correction.T_map_local * step.T_local_body;
+  if (step.has_keyframe)
+    agreement.look_around(T_map_body, chain.path_m(step.made.id), loops.submaps(), T_map_keyframe());
+  if (!loops.unplaced_since()) agreement.add_newest_scan(T_map_body);
+}
+
+/// A break whose motion the vehicle's estimate tells makes the covariance grow and no more.
+Tracking Backend::State::tracking() const {
+  if (loops.unplaced_since() && !loops.estimate_ran_on())
+    return loops.places_weighed() > 1 ? Tracking::kRelocalizing : Tracking::kLost;
+  return agreement.is_contradicted() ? Tracking::kUncertain : Tracking::kTracking;
+}
+
+PoseConfidence Backend::State::computed_confidence() const {
+  const ConfidenceTuning& tuning = config.tuning.confidence;
+  const PoseCovariances covariances =
+      newest_pose_covariances(graph.graph(), chain, config.tuning.covariance, tuning);
+  return {.keyframe = correction.keyframe,
+          .T_local_keyframe = T_local_keyframe().values().back(),
+          .yaw_map_local_rad = correction.T_map_local.yaw_rad(),
+          .from_start = covariances.from_start,
+          .from_surroundings = covariances.from_surroundings,
+          .slip = {tuning.slip_along_m2_per_m, tuning.slip_yaw_rad2_per_m},
+          .figures = {}};
+}
+
 Backend::Backend(const BackendConfig& config, const SensorModel& sensor, const BeamLayout& beams) {
   SWIFTLET_CHECK(config.validate().empty(), "the backend's configuration is valid");
   state_ = std::make_unique<State>(config, sensor, beams);
@@ -59,6 +110,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   BackendUpdate update;
   if (!step.has_keyframe) {
     s.loops.search_elsewhere(s.T_local_keyframe(), s.graph.graph());
+    s.compare_newest_scan(step);
     return update;
   }
   SWIFTLET_CHECK(s.chain.add(scan) == step.made.id, "no keyframe is left out");
@@ -69,6 +121,9 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   update.new_closures = s.loops.close_loops(s.T_local_keyframe(), s.graph);
   update.poses_changed = s.follow_graph(s.graph.settle());
   update.refined = s.refine_window(update);
+  s.correct_newest(step.T_local_body);
+  s.compare_newest_scan(step);
+  if (update.new_closures > 0 || step.made.starts_segment) s.confidence.reset();
   return update;
 }
 
@@ -84,6 +139,7 @@ BackendUpdate Backend::finish() {
     update.poses_changed = true;
     ++s.version;
   }
+  if (s.chain.size() > 0) s.correct_newest(s.T_local_keyframe().values().back());
   return update;
 }
 
@@ -113,11 +169,41 @@ Pose2 Backend::T_map_keyframe(KeyframeId id) const { return T_map_body(state_->c
 Pose2 Backend::T_map_body(ScanId scan) const {
   return state_->refinement.T_map_body(scan, state_->T_map_keyframe());
 }
-MapCorrection Backend::correction() const {
+MapCorrection Backend::correction() const { return state_->correction; }
+
+TrackingFigures Backend::tracking() const {
   const State& s = *state_;
   if (s.chain.size() == 0) return {};
-  const Pose2 T_map_newest = s.refinement.T_map_newest(s.T_map_keyframe(), s.T_local_keyframe());
-  return {s.chain.all().last_id(), T_map_newest * s.T_local_keyframe().values().back().inverse(), s.version};
+  const double here_m = s.chain.path_m(s.chain.all().last_id());
+  const auto since_m = [&](KeyframeId id) { return here_m - s.chain.path_m(id); };
+  const IdMap<ClosureId, LoopClosure>& closures = s.loops.closures();
+  const std::optional<KeyframeId> unplaced = s.loops.unplaced_since();
+  return {.tracking = s.tracking(),
+          .contradiction = s.agreement.contradiction(),
+          .contradicting_share = s.agreement.contradicting_share(),
+          .returns_compared = s.agreement.returns_compared(),
+          .times_uncertain = s.agreement.times_contradicted(),
+          .places_weighed = unplaced ? static_cast<std::uint32_t>(s.loops.places_weighed()) : 0,
+          .way_since_closure_m = closures.empty() ? here_m : since_m(closures.values().back().to),
+          .way_unplaced_m = unplaced ? since_m(*unplaced) : 0.0};
+}
+
+PoseConfidence Backend::confidence() {
+  State& s = *state_;
+  const Pose2& T_local_newest = s.T_local_keyframe().values().back();
+  const auto is_far = [&](const PoseConfidence& known) {
+    const Pose2 way = between(known.T_local_keyframe, T_local_newest);
+    return std::hypot(way.x_m(), way.y_m()) > s.config.tuning.confidence.recompute_after_m;
+  };
+  if (!s.confidence || is_far(*s.confidence)) s.confidence = s.computed_confidence();
+  PoseConfidence newest = *s.confidence;
+  newest.from_start = carried_on(s.confidence->from_start, *s.confidence, T_local_newest);
+  newest.from_surroundings = carried_on(s.confidence->from_surroundings, *s.confidence, T_local_newest);
+  newest.keyframe = s.correction.keyframe;
+  newest.T_local_keyframe = T_local_newest;
+  newest.yaw_map_local_rad = s.correction.T_map_local.yaw_rad();
+  newest.figures = tracking();
+  return newest;
 }
 const IdMap<ClosureId, LoopClosure>& Backend::closures() const { return state_->loops.closures(); }
 const std::vector<Wall>& Backend::walls() const { return state_->estimates.walls(); }

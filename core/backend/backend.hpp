@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/backend/confidence/pose_confidence.hpp"
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/pruning/pruning.hpp"
@@ -85,6 +86,12 @@ class Backend {
   [[nodiscard]] Pose2 T_map_body(ScanId scan) const;
   /// Leads to the newest keyframe; with refinement, to where the last few put it on average.
   [[nodiscard]] MapCorrection correction() const;
+  /// What the newest pose can be relied on for.
+  [[nodiscard]] TrackingFigures tracking() const;
+  /// The same with the covariances of the newest keyframe's pose. They are computed anew, in O(n log n) of
+  /// keyframes, once a closure was accepted and every few metres; between, they are carried on. Precondition:
+  /// there is a keyframe, and finish() was not called.
+  [[nodiscard]] PoseConfidence confidence();
   [[nodiscard]] const IdMap<ClosureId, LoopClosure>& closures() const;
   [[nodiscard]] const std::vector<Wall>& walls() const;
   [[nodiscard]] BackendCounters counters() const;

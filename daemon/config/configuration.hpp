@@ -151,6 +151,7 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
   visit("backend_groups", backend.groups);
   visit("backend_places", backend.places);
   visit("backend_covariance", backend.covariance);
+  visit("backend_confidence", backend.confidence);
   visit("backend_axis", backend.axis);
   visit("backend_walls", backend.walls);
   visit("backend_graph", backend.graph);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "core/backend/backend.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/systematic_prior.hpp"
+#include "core/evaluation/consistency.hpp"
 #include "core/evaluation/known_place_error.hpp"
 #include "core/evaluation/trajectory_error.hpp"
 #include "core/frontend/frontend.hpp"
@@ -19,6 +21,12 @@
 #include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
+
+/// What was published of its confidence, against the truth.
+struct RunConsistency {
+  std::array<std::optional<ConsistencyAt>, kConsistencyDistancesM.size()> at{};
+  AlarmCounts alarms;
+};
 
 /// A finished run, as seen by whoever writes it down. The references must outlive it.
 struct RunView {
@@ -34,6 +42,7 @@ struct RunView {
   std::vector<MendedPositions> mended{};          ///< where the backend's dead reckoning is not as reported
   const PrunedScans* pruned = nullptr;            ///< where the backend may have pruned scans
   std::optional<KnownPlaceError> known_places{};  ///< of the poses published, where somebody kept them
+  std::optional<RunConsistency> consistency{};    ///< likewise
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 

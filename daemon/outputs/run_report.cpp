@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "daemon/outputs/consistency_json.hpp"
 #include "daemon/outputs/known_place_json.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 
@@ -94,6 +95,16 @@ Json backend_json(const Backend& backend) {
           {"solver_failures", counters.solver_failures}};
 }
 
+Json tracking_json(const TrackingFigures& figures) {
+  return {{"state", name_of(figures.tracking)},
+          {"contradiction", figures.contradiction},
+          {"contradicting_share", figures.contradicting_share},
+          {"returns_compared", figures.returns_compared},
+          {"times_uncertain", figures.times_uncertain},
+          {"way_since_closure_m", figures.way_since_closure_m},
+          {"way_unplaced_m", figures.way_unplaced_m}};
+}
+
 Json trajectory_json(const Backend& backend) {
   const std::span<const StoredScan> scans = backend.scans().all().values();
   if (scans.empty()) return {{"duration_s", 0.0}, {"odometry_length_m", 0.0}};
@@ -159,6 +170,7 @@ std::string run_report_json(const RunView& run) {
             {"calibration", calibration_json(run.calibration)},
             {"frontend", frontend_json(run.frontend)},
             {"backend", backend_json(run.backend)},
+            {"tracking", tracking_json(run.backend.tracking())},
             {"trajectory", trajectory_json(run.backend)},
             {"map", map_json(run.map)}};
   if (const auto error = run_error(run))
@@ -167,6 +179,7 @@ std::string run_report_json(const RunView& run) {
                                          {"live", error_json(error->live)},
                                          {"corrected", error_json(error->corrected)}};
   if (run.known_places) json["known_place_error"] = known_place_json(*run.known_places);
+  if (run.consistency) json["consistency"] = consistency_json(*run.consistency);
   json["stage_times"] = times_json(run.timing.stages);
   if (!run.timing.queues.empty()) {
     json["queues"] = queues_json(run.timing.queues);

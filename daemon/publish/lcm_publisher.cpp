@@ -117,6 +117,9 @@ void fill_link(const LiveStatus& live, const LinkRates& rates, link_status_t& me
   message.silences = i64(live.link.silences);
   message.device_losses = i64(live.link.device_losses);
   message.usb_timeouts = i64(live.link.usb_timeouts);
+  message.client = static_cast<std::int8_t>(live.sharing.is_shared ? (live.sharing.has_client ? 1 : 0) : -1);
+  message.client_setpoints_dropped = i64(live.sharing.counters.steering_dropped);
+  message.client_requests_dropped = i64(live.sharing.counters.requests_dropped);
 }
 
 void fill_counters(const DaemonStatus& status, status_t& message) {
@@ -129,6 +132,36 @@ void fill_counters(const DaemonStatus& status, status_t& message) {
   message.solver_failures = i64(status.backend.solver_failures);
   message.tile_count = i32(status.map.tiles);
   message.version_sum = i64(status.map.version_sum);
+}
+
+std::int8_t tracking_code(Tracking tracking) {
+  switch (tracking) {
+    case Tracking::kTracking:
+      return pose_t::TRACKING_GOOD;
+    case Tracking::kUncertain:
+      return pose_t::TRACKING_UNCERTAIN;
+    case Tracking::kLost:
+      return pose_t::TRACKING_LOST;
+    case Tracking::kRelocalizing:
+      break;
+  }
+  return pose_t::TRACKING_RELOCALIZING;
+}
+
+void fill_tracking(const TrackingFigures& figures, tracking_t& message) {
+  message.state = tracking_code(figures.tracking);
+  message.contradiction = figures.contradiction;
+  message.contradicting_share = figures.contradicting_share;
+  message.returns_compared = i64(figures.returns_compared);
+  message.times_uncertain = i64(figures.times_uncertain);
+  message.places_weighed = i32(figures.places_weighed);
+  message.way_since_closure = figures.way_since_closure_m;
+  message.way_unplaced = figures.way_unplaced_m;
+}
+
+void copy_covariance(const Covariance3& from, double (&to)[6]) {
+  const std::array<double, 6> values{from.xx, from.xy, from.x_yaw, from.yy, from.y_yaw, from.yaw_yaw};
+  std::copy(values.begin(), values.end(), to);
 }
 
 void fill_queues(std::span<const QueueStatistics> queues, status_t& message) {
@@ -229,10 +262,15 @@ void LcmPublisher::send_pose(const std::string& channel, std::int8_t frame, cons
   message.segment = i32(update.segment);
   message.keyframe = i32(index_of(update.keyframe));
   message.correction_version = i32(update.correction_version);
+  message.correction = update.correction_m;
   message.frame = frame;
   message.x = pose.x_m();
   message.y = pose.y_m();
   message.yaw = pose.yaw_rad();
+  message.tracking = tracking_code(update.tracking);
+  const bool is_map = frame == pose_t::FRAME_MAP;
+  copy_covariance(is_map ? update.from_surroundings : Covariance3{}, message.covariance_map);
+  copy_covariance(is_map ? update.from_start : Covariance3{}, message.covariance_start);
   send(channel, message);
 }
 
@@ -324,6 +362,7 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
   message.sample_rate = status.sample_rate_hz;
   fill_input(status.input, message);
   fill_link(status.input.live, status.link_rates, message.link);
+  fill_tracking(status.tracking, message.tracking);
   fill_counters(status, message);
   fill_queues(status.queues, message);
   fill_stages(status.stages, message);

@@ -47,6 +47,7 @@ struct DaemonStatus {
   LinkRates link_rates;
   FrontendCounters frontend;
   BackendCounters backend;
+  TrackingFigures tracking;
   std::array<QueueStatistics, 7> queues;
   std::vector<StageSummary> stages;
   std::uint64_t missed_deadlines = 0;  ///< RunTiming::missed_deadlines

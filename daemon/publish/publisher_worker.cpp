@@ -97,6 +97,7 @@ void PublisherWorker::take_counters() {
   static_cast<void>(inlet_.input.load_if_new(status_.input));
   static_cast<void>(inlet_.frontend.load_if_new(status_.frontend));
   static_cast<void>(inlet_.backend.load_if_new(status_.backend));
+  static_cast<void>(inlet_.tracking.load_if_new(status_.tracking));
   status_.queues = gauges_.queues();
   status_.stages = gauges_.stages();
   status_.missed_deadlines = gauges_.pose_latency.missed();

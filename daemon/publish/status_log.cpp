@@ -65,10 +65,29 @@ std::vector<InputNews> input_news(const InputStatus& before, const InputStatus& 
   return news;
 }
 
+std::optional<InputNews> tracking_news(const TrackingFigures& before, const TrackingFigures& now) {
+  if (now.tracking == before.tracking) return std::nullopt;
+  switch (now.tracking) {
+    case Tracking::kTracking:
+      return InputNews{false, "tracking: what is seen agrees with the map again"};
+    case Tracking::kUncertain:
+      return InputNews{
+          true, fmt::format("tracking: uncertain, {:.0f} % of the last returns contradict the older map",
+                            100.0 * now.contradicting_share)};
+    case Tracking::kLost:
+      return InputNews{true, "tracking: lost, the vehicle moved unwatched; fly where the map is known"};
+    case Tracking::kRelocalizing:
+      break;
+  }
+  return InputNews{false, fmt::format("tracking: {} places in the map are weighed", now.places_weighed)};
+}
+
 void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   using enum spdlog::level::level_enum;
   for (const InputNews& news : input_news(before.input, now.input))
     spdlog::log(news.is_warning ? warn : info, "{}", news.text);
+  if (const std::optional<InputNews> news = tracking_news(before.tracking, now.tracking))
+    spdlog::log(news->is_warning ? warn : info, "{}", news->text);
   log_if_grown(warn, "input: problems", before.input.problems, now.input.problems);
   log_if_grown(debug, "frontend: batches rolled back", before.frontend.batches_rolled_back,
                now.frontend.batches_rolled_back);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,11 @@ struct InputNews {
 /// What deserves attention between two statuses of an input: another condition of the link, holes in the
 /// ranges, a new beginning of the dead reckoning, packets of a client that were dropped. Allocates.
 [[nodiscard]] std::vector<InputNews> input_news(const InputStatus& before, const InputStatus& now);
-/// One line for whatever deserves attention between two statuses: input_news(), refusals, solver failures; in
-/// a verbose log roll-backs, too. Allocates.
+/// What a pilot should know when the state of tracking changes; nothing where it has not. Allocates.
+[[nodiscard]] std::optional<InputNews> tracking_news(const TrackingFigures& before,
+                                                     const TrackingFigures& now);
+/// One line for whatever deserves attention between two statuses: input_news(), tracking_news(), refusals,
+/// solver failures; in a verbose log roll-backs, too. Allocates.
 void log_changes(const DaemonStatus& before, const DaemonStatus& now);
 /// Where the run stands, in half a line. Allocates.
 [[nodiscard]] std::string status_text(const DaemonStatus& status);

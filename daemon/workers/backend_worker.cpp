@@ -31,6 +31,7 @@ void BackendWorker::add_step() {
     const StageTimer timer(clock_, times_.backend);
     changed = backend_.add(step_);
   }
+  if (feed_) feed_->hand_on_confidence(backend_, step_.has_keyframe);
   if (!step_.has_keyframe) return;
   hand_on_correction();
   if (feed_) draw([&] { return map_.update(backend_, changed.poses_changed, changed.refined); });

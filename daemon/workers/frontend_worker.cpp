@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/workers/frontend_worker.hpp"
 
+#include <cmath>
+
 #include "core/base/check.hpp"
 
 namespace swiftlet {
@@ -32,25 +34,39 @@ StepResult FrontendWorker::step() noexcept {
   return StepResult::kProgress;
 }
 
+void FrontendWorker::take_correction() noexcept {
+  const Point2 before = applied_.T_map_local * T_local_body_.position();
+  if (!correction_.load_if_new(applied_)) return;
+  const Point2 after = applied_.T_map_local * T_local_body_.position();
+  correction_m_ = std::hypot(after.x_m - before.x_m, after.y_m - before.y_m);
+}
+
 const FrontendStep& FrontendWorker::process() noexcept {
-  static_cast<void>(correction_.load_if_new(applied_));
+  take_correction();
   const StageTimer timer(clock_, times_);
   return frontend_.process(received_.sample, applied_.T_map_local);
 }
 
 void FrontendWorker::report(const FrontendStep& step) noexcept {
   const RangeSample& sample = received_.sample;
+  T_local_body_ = step.T_local_body;
   if (sample.starts_segment) ++segment_;
+  static_cast<void>(publisher_->confidence.load_if_new(confidence_));
   // A refused pose is counted by the queue.
-  static_cast<void>(publisher_->poses.try_push({.stamp = sample.stamp,
-                                                .sequence = sample.sequence,
-                                                .segment = segment_,
-                                                .keyframe = step.keyframe,
-                                                .correction_version = applied_.version,
-                                                .T_map_body = step.T_map_body,
-                                                .T_local_body = step.T_local_body,
-                                                .T_odom_body = sample.T_odom_body,
-                                                .arrived_at = received_.arrived_at}));
+  static_cast<void>(publisher_->poses.try_push(
+      {.stamp = sample.stamp,
+       .sequence = sample.sequence,
+       .segment = segment_,
+       .keyframe = step.keyframe,
+       .correction_version = applied_.version,
+       .correction_m = correction_m_,
+       .T_map_body = step.T_map_body,
+       .T_local_body = step.T_local_body,
+       .T_odom_body = sample.T_odom_body,
+       .tracking = confidence_.figures.tracking,
+       .from_start = carried_on(confidence_.from_start, confidence_, step.T_local_body),
+       .from_surroundings = carried_on(confidence_.from_surroundings, confidence_, step.T_local_body),
+       .arrived_at = received_.arrived_at}));
   publisher_->counters.store(frontend_.counters());
 }
 

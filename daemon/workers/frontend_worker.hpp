@@ -35,10 +35,14 @@ class FrontendWorker {
   std::optional<FrontendOutlet> publisher_;
   StageHistogram& times_;
   ReceivedSample received_;
-  MapCorrection applied_;  // the newest correction
+  MapCorrection applied_;      // the newest correction ...
+  double correction_m_ = 0.0;  // ... and by how far it moved the pose
+  Pose2 T_local_body_;         // of the sample before
+  PoseConfidence confidence_;  // likewise
   std::uint32_t segment_ = 0;
 
   const FrontendStep& process() noexcept;
+  void take_correction() noexcept;
   void report(const FrontendStep& step) noexcept;
 };
 

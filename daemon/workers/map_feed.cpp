@@ -35,6 +35,14 @@ void MapFeed::prune(const Backend& backend, const Pruning& pruning) {
     if (goes(closure.from) || goes(closure.to)) sent_closures_.erase(closure.id);
 }
 
+void MapFeed::hand_on_confidence(Backend& backend, bool has_keyframe) {
+  const TrackingFigures figures = backend.tracking();
+  publisher_.tracking.store(figures);
+  if (!has_keyframe && figures.tracking == tracking_) return;
+  tracking_ = figures.tracking;
+  publisher_.confidence.store(backend.confidence());
+}
+
 void MapFeed::flush(const Backend& backend, const MapBuilder& map) {
   publisher_.counters.store(backend.counters());
   flush_tiles(map);

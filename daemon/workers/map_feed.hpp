@@ -25,6 +25,8 @@ class MapFeed {
   void note_changes(std::span<const TileIndex> changed_tiles);
   /// The backend is about to prune this.
   void prune(const Backend& backend, const Pruning& pruning);
+  /// After each step: the state of tracking, with new covariances where a keyframe was made or it changed.
+  void hand_on_confidence(Backend& backend, bool has_keyframe);
   /// Hands over what there is room for, and the backend's counters.
   void flush(const Backend& backend, const MapBuilder& map);
   /// True when the publisher has been given everything.
@@ -36,6 +38,7 @@ class MapFeed {
 
  private:
   BackendOutlet publisher_;
+  Tracking tracking_ = Tracking::kTracking;  // as handed over last
   std::set<TileIndex> dirty_tiles_;
   bool walls_pending_ = false;
   bool closures_pending_ = false;

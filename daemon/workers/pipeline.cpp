@@ -82,6 +82,7 @@ Result<bool> Pipeline::step() {
 }
 
 const Backend& Pipeline::backend() const { return state_->backend; }
+Backend& Pipeline::backend() { return state_->backend; }
 const Frontend& Pipeline::frontend() const { return state_->frontend; }
 const MapBuilder& Pipeline::map() const { return state_->map; }
 const Status& Pipeline::outcome() const { return state_->radio_worker.outcome(); }

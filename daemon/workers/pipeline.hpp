@@ -45,6 +45,7 @@ class Pipeline {
 
   // Not while threads run.
   [[nodiscard]] const Backend& backend() const;
+  [[nodiscard]] Backend& backend();
   [[nodiscard]] const Frontend& frontend() const;
   [[nodiscard]] const MapBuilder& map() const;
   /// What ended the input before its time, if anything did.

@@ -22,10 +22,14 @@ struct PoseUpdate {
   std::uint32_t segment = 0;   ///< counts up each time the dead reckoning began anew; the first is 1
   KeyframeId keyframe{};       ///< the newest at the time
   std::uint32_t correction_version = 0;  ///< MapCorrection::version behind T_map_body; 0: none yet
+  double correction_m = 0.0;             ///< by which that correction moved T_map_body
   Pose2 T_map_body{};
   Pose2 T_local_body{};
   Pose2 T_odom_body{};
-  MonotonicTime arrived_at{};  ///< ReceivedSample::arrived_at; of a recording, when the sample was due
+  Tracking tracking = Tracking::kTracking;
+  Covariance3 from_start{};         ///< of T_map_body, as PoseConfidence's; zero before the first keyframe
+  Covariance3 from_surroundings{};  ///< likewise
+  MonotonicTime arrived_at{};       ///< ReceivedSample::arrived_at; of a recording, when the sample was due
 };
 
 /// How the input stands.

@@ -33,6 +33,9 @@ using StepQueue = StageQueue<FrontendStep, 256>;
 /// backend -> frontend: newest wins.
 using CorrectionValue = LatestValue<MapCorrection>;
 
+/// backend -> frontend: newest wins. For poses that are published only.
+using ConfidenceValue = LatestValue<PoseConfidence>;
+
 /// frontend -> publisher: 25 s at 10 Hz. Full: the newest pose is refused and counted; the map misses
 /// nothing.
 using PoseQueue = StageQueue<PoseUpdate, 256>;
@@ -56,6 +59,7 @@ struct InputOutlet {
 struct FrontendOutlet {
   PoseQueue::Producer poses;
   LatestValue<FrontendCounters>& counters;
+  ConfidenceValue& confidence;  ///< of the poses, by the backend
 };
 /// The backend worker's end.
 struct BackendOutlet {
@@ -63,6 +67,8 @@ struct BackendOutlet {
   WallQueue::Producer walls;
   ClosureQueue::Producer closures;
   LatestValue<BackendCounters>& counters;
+  LatestValue<TrackingFigures>& tracking;
+  ConfidenceValue& confidence;  ///< for the frontend's poses
 };
 /// The publisher's end.
 struct PublisherInlet {
@@ -74,6 +80,7 @@ struct PublisherInlet {
   LatestValue<InputStatus>& input;
   LatestValue<FrontendCounters>& frontend;
   LatestValue<BackendCounters>& backend;
+  LatestValue<TrackingFigures>& tracking;
 };
 
 /// From the workers to the publisher.
@@ -86,16 +93,18 @@ struct PublisherQueues {
   LatestValue<InputStatus> input;          ///< radio -> publisher: newest wins
   LatestValue<FrontendCounters> frontend;  ///< frontend -> publisher: newest wins
   LatestValue<BackendCounters> backend;    ///< backend -> publisher: newest wins
+  LatestValue<TrackingFigures> tracking;   ///< backend -> publisher: newest wins
+  ConfidenceValue confidence;              ///< backend -> frontend: newest wins
 
   InputOutlet input_outlet() { return {input, events.producer()}; }
-  FrontendOutlet frontend_outlet() { return {poses.producer(), frontend}; }
+  FrontendOutlet frontend_outlet() { return {poses.producer(), frontend, confidence}; }
   BackendOutlet backend_outlet() {
-    return {tiles.producer(), walls.producer(), closures.producer(), backend};
+    return {tiles.producer(), walls.producer(), closures.producer(), backend, tracking, confidence};
   }
   PublisherInlet inlet() {
     return {
         poses.consumer(), tiles.consumer(), walls.consumer(), closures.consumer(), events.consumer(), input,
-        frontend,         backend};
+        frontend,         backend,          tracking};
   }
 };
 

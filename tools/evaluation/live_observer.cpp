@@ -48,6 +48,7 @@ class WallsAlong {
 }  // namespace
 
 void LiveObserver::look() {
+  confidence_.look();
   const IdMap<ScanId, StoredScan>& scans = backend_->scans().all();
   if (scans.end_id() == seen_) return;
   seen_ = scans.end_id();

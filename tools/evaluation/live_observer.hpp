@@ -4,24 +4,28 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/backend/backend.hpp"
 #include "core/evaluation/known_place_error.hpp"
 #include "core/evaluation/stamped_path.hpp"
+#include "tools/evaluation/confidence_history.hpp"
 
 namespace swiftlet {
 
-/// Keeps what a run publishes while it goes on: the live poses, and the keyframes' poses in the map as they
-/// change. Views the backend, which must outlive it. Allocates: 16 bytes a keyframe and time it moves.
+/// Keeps what a run publishes while it goes on: the live poses with their confidence, and the keyframes'
+/// poses in the map as they change. Views the backend, which must outlive it. Allocates: 16 bytes a keyframe
+/// and time it moves.
 class LiveObserver {
  public:
-  explicit LiveObserver(const Backend& backend) : backend_(&backend) {}
+  explicit LiveObserver(Backend& backend) : backend_(&backend), confidence_(backend) {}
 
   /// After each sample, until the final pass.
   void look();
   /// Of the moments whose stamps the true path has.
   [[nodiscard]] KnownPlaceError error(const StampedPath& T_world_body) const;
+  [[nodiscard]] std::span<const DoubtedPose> doubted_poses() const { return confidence_.poses(); }
 
  private:
   struct Moment {
@@ -49,6 +53,7 @@ class LiveObserver {
   [[nodiscard]] std::vector<PublishedKeyframe> keyframes(const StampedPath& T_world_body) const;
 
   const Backend* backend_;
+  ConfidenceHistory confidence_;
   ScanId seen_{};
   std::vector<Moment> moments_;
   std::vector<History> histories_;  // by keyframe

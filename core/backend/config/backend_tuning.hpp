@@ -136,6 +136,47 @@ struct RelativeCovarianceTuning {
       {"lever_m", &RelativeCovarianceTuning::lever_m}};
 };
 
+/// Shares and probabilities: figures of 60 simulated buildings, docs/results/confidence.md.
+struct ConfidenceTuning {
+  double slip_along_m2_per_m = 0.07;    ///< variance of dead reckoning beyond its noise model, along ...
+  double slip_yaw_rad2_per_m = 0.0005;  ///< ... and of its heading: with them NEES is 3
+  double map_grain_m = 0.05;            ///< no pose is known better than a cell of the map, and ...
+  double map_grain_rad = 0.02;          ///< ... than a wall of 3 m in cells
+  double recompute_after_m = 2.0;       ///< of way: between, covariances are carried on
+  double old_after_m = 15.0;            ///< ground flown this much travel ago is older map
+  double near_m = 3.0;                  ///< so far from the vehicle, the reach of its beams, it counts
+  double way_between_m = 0.1;           ///< scans are compared after so much travel, or ...
+  double turn_between_rad = 0.1;        ///< ... turn
+  double tolerance_m = 0.32;            ///< a wall so near to where a beam ends is met
+  double occupied_probability = 0.55;   ///< of a cell that is such a wall
+  double wall_probability = 0.7;        ///< of one that no beam passes
+  double free_probability = 0.4;        ///< of one that is free, at most
+  double share_if_right = 0.02;  ///< of the returns that contradict the older map, where the pose is right
+  double share_if_off = 0.2;     ///< likewise, where it is off by half a metre or more
+  double alarm_log_odds = 18.0;  ///< a right pose meets 18000 returns in an hour: 9.8, were they independent;
+                                 ///< those of scans 0.1 m apart count for about half
+  double share_returns = 50.0;   ///< the published share is of about so many
+
+  static constexpr TuningValue<ConfidenceTuning> kValues[] = {
+      {"slip_along_m2_per_m", &ConfidenceTuning::slip_along_m2_per_m},
+      {"slip_yaw_rad2_per_m", &ConfidenceTuning::slip_yaw_rad2_per_m},
+      {"map_grain_m", &ConfidenceTuning::map_grain_m},
+      {"map_grain_rad", &ConfidenceTuning::map_grain_rad},
+      {"recompute_after_m", &ConfidenceTuning::recompute_after_m},
+      {"old_after_m", &ConfidenceTuning::old_after_m},
+      {"near_m", &ConfidenceTuning::near_m},
+      {"way_between_m", &ConfidenceTuning::way_between_m},
+      {"turn_between_rad", &ConfidenceTuning::turn_between_rad},
+      {"tolerance_m", &ConfidenceTuning::tolerance_m},
+      {"occupied_probability", &ConfidenceTuning::occupied_probability},
+      {"wall_probability", &ConfidenceTuning::wall_probability},
+      {"free_probability", &ConfidenceTuning::free_probability},
+      {"share_if_right", &ConfidenceTuning::share_if_right},
+      {"share_if_off", &ConfidenceTuning::share_if_off},
+      {"alarm_log_odds", &ConfidenceTuning::alarm_log_odds},
+      {"share_returns", &ConfidenceTuning::share_returns}};
+};
+
 struct BuildingAxisPriorTuning {
   double gate_sigmas = 4.0;      ///< wheels that slip in a turn lose more than their model has it
   double min_log_odds = 6.0;     ///< that the heading is not off the other way round by the rest of a quarter
@@ -355,6 +396,7 @@ struct BackendTuning {
   ClosureGroupTuning groups;
   PlaceHypothesesTuning places;
   RelativeCovarianceTuning covariance;
+  ConfidenceTuning confidence;
   BuildingAxisPriorTuning axis;
   WallAxisTuning walls;  ///< that the building's axis is estimated from
   KeyframeGraphTuning graph;

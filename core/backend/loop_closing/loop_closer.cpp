@@ -30,6 +30,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
     open_submaps_.clear();
     if (made.id != chain_->all().first_id()) {
       unplaced_since_ = made.id;
+      estimate_ran_on_ = made.odometry_ran_on;
       const ScanId scan = chain_->scan_of(made.id);
       const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
       forget_places();

@@ -50,6 +50,14 @@ class LoopCloser {
   /// Where the oldest submap begins that is not yet complete.
   [[nodiscard]] std::optional<KeyframeId> open_since() const;
   [[nodiscard]] const LoopCloserCounters& counters() const { return counters_; }
+  /// Complete ones, in the order of their ends.
+  [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps() const { return submaps_; }
+  /// From there on the motion was watched, and nothing has placed it in the earlier map yet.
+  [[nodiscard]] std::optional<KeyframeId> unplaced_since() const { return unplaced_since_; }
+  /// With unplaced_since(): the vehicle's estimate ran on meanwhile.
+  [[nodiscard]] bool estimate_ran_on() const { return estimate_ran_on_; }
+  /// Places that are weighed while the travel is unplaced, the one without any move included.
+  [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
 
  private:
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
@@ -71,6 +79,7 @@ class LoopCloser {
   std::vector<std::shared_ptr<const Submap>> submaps_;
   IdMap<ClosureId, LoopClosure> closures_;
   std::optional<KeyframeId> unplaced_since_;  // motion to there was not watched, and no group has placed it
+  bool estimate_ran_on_ = false;              // likewise, in the vehicle
   LoopCloserCounters counters_;
 };
 

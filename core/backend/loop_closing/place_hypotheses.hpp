@@ -46,6 +46,7 @@ class PlaceHypotheses {
   /// The matches of the hypothesis that is believed, one for each query that shows known walls; empty while
   /// none is.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
+  [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
 
  private:
   struct Query {

@@ -29,9 +29,10 @@ double size_of(const Eigen::Matrix3d& covariance, double lever_m) {
 /// factors.
 class Steps {
  public:
-  Steps(const PoseGraph& graph, const RelativeCovarianceTuning& tuning)
+  Steps(const PoseGraph& graph, const RelativeCovarianceTuning& tuning, const SlipNoise& slip)
       : graph_(&graph),
         tuning_(tuning),
+        slip_(slip),
         first_(graph.T_map_keyframe.size() + 2, 0),
         forward_(graph.factors.size()) {
     std::uint32_t count = 0;
@@ -75,6 +76,7 @@ class Steps {
     const Eigen::Matrix3d in_to = f.information.inverse();
     const Eigen::Matrix3d J = jacobian_compose_second(f.T_from_to);
     forward_[i] = J * in_to * J.transpose();
+    if (!f.is_closure) forward_[i] += slip_.covariance(f.T_from_to);
     const double length = size_of(forward_[i], tuning_.lever_m);
     const PoseIndex from = graph_->pose_index(f.from);
     const PoseIndex to = graph_->pose_index(f.to);
@@ -84,6 +86,7 @@ class Steps {
 
   const PoseGraph* graph_;
   RelativeCovarianceTuning tuning_;
+  SlipNoise slip_;
   std::vector<std::uint32_t> first_;  ///< by pose: of its steps
   std::vector<Step> steps_;
   std::vector<Eigen::Matrix3d> forward_;  ///< by factor: of T_from_to, in the frame of `from`
@@ -111,12 +114,8 @@ void condition_on_heading(double variance_rad2, Eigen::Matrix3d& covariance) {
   covariance -= column * column.transpose() / (covariance(2, 2) + variance_rad2);
 }
 
-}  // namespace
-
-IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
-                                                        const RelativeCovarianceTuning& tuning) {
-  const Steps steps(graph, tuning);
-  const std::vector<double> headings = heading_variances(graph, tuning.min_dcs_scale);
+IdMap<KeyframeId, Eigen::Matrix3d> propagate(const PoseGraph& graph, KeyframeId from, const Steps& steps,
+                                             const std::vector<double>& headings) {
   const std::span<const Pose2> T_map_pose = graph.T_map_keyframe.values();
   const PoseIndex start = graph.pose_index(from);
   const Pose2 T_from_map = T_map_pose[index_of(start)].inverse();
@@ -152,6 +151,21 @@ IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, 
     }
   }
   return graph.T_map_keyframe.with(std::move(covariance));
+}
+
+}  // namespace
+
+IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
+                                                        const RelativeCovarianceTuning& tuning) {
+  return propagate(graph, from, Steps(graph, tuning, {}), heading_variances(graph, tuning.min_dcs_scale));
+}
+
+IdMap<KeyframeId, Eigen::Matrix3d> cautious_relative_covariances(const PoseGraph& graph, KeyframeId from,
+                                                                 const RelativeCovarianceTuning& tuning,
+                                                                 const SlipNoise& slip) {
+  const double unknown = std::numeric_limits<double>::infinity();
+  return propagate(graph, from, Steps(graph, tuning, slip),
+                   std::vector<double>(graph.T_map_keyframe.size(), unknown));
 }
 
 }  // namespace swiftlet

@@ -6,6 +6,7 @@
 
 #include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/pose_graph/slip_noise.hpp"
 
 namespace swiftlet {
 
@@ -15,5 +16,11 @@ namespace swiftlet {
 /// heading gets a Kalman update of its yaw on the way. Allocates; O(m log n).
 IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
                                                         const RelativeCovarianceTuning& tuning = {});
+
+/// The same for whoever must not be surprised: each motion has its slip on top, and headings by the axis of
+/// the building, which are wrong all together where they are, do not count.
+IdMap<KeyframeId, Eigen::Matrix3d> cautious_relative_covariances(const PoseGraph& graph, KeyframeId from,
+                                                                 const RelativeCovarianceTuning& tuning,
+                                                                 const SlipNoise& slip);
 
 }  // namespace swiftlet

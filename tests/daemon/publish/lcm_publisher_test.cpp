@@ -64,9 +64,13 @@ TEST_F(LcmPublisherTest, SaysWhereTheVehicleIsInEveryFrame) {
                             .segment = 2,
                             .keyframe = KeyframeId{3},
                             .correction_version = 5,
+                            .correction_m = 0.75,
                             .T_map_body = Pose2(1.0, 2.0, 0.5),
                             .T_local_body = Pose2(3.0, 4.0, 0.25),
-                            .T_odom_body = Pose2(-1.0, -2.0, -0.5)});
+                            .T_odom_body = Pose2(-1.0, -2.0, -0.5),
+                            .tracking = Tracking::kRelocalizing,
+                            .from_start = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6},
+                            .from_surroundings = {1.1, 1.2, 1.3, 1.4, 1.5, 1.6}});
   });
   const auto map = received<pose_t>("T_POSE");
   ASSERT_EQ(map.size(), 1U);
@@ -76,8 +80,13 @@ TEST_F(LcmPublisherTest, SaysWhereTheVehicleIsInEveryFrame) {
   EXPECT_EQ(map[0].segment, 2);
   EXPECT_EQ(map[0].keyframe, 3);
   EXPECT_EQ(map[0].correction_version, 5);
+  EXPECT_EQ(map[0].correction, 0.75);
   EXPECT_EQ(map[0].frame, pose_t::FRAME_MAP);
   EXPECT_EQ(map[0].y, 2.0);
+  EXPECT_EQ(map[0].tracking, pose_t::TRACKING_RELOCALIZING);
+  EXPECT_THAT(map[0].covariance_start, testing::ElementsAre(0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
+  EXPECT_THAT(map[0].covariance_map, testing::ElementsAre(1.1, 1.2, 1.3, 1.4, 1.5, 1.6));
+  EXPECT_THAT(received<pose_t>("T_POSE_LOCAL").at(0).covariance_start, testing::Each(0.0));
   EXPECT_EQ(received<pose_t>("T_POSE_LOCAL").at(0).x, 3.0);
   EXPECT_EQ(received<pose_t>("T_POSE_LOCAL").at(0).frame, pose_t::FRAME_LOCAL);
   EXPECT_EQ(received<pose_t>("T_POSE_ODOM").at(0).yaw, -0.5);
@@ -169,9 +178,12 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   status.input.live.link.silences = 2;
   status.input.live.round_trip = std::chrono::microseconds(7500);
   status.input.live.vehicle.battery_mv = 3870;
+  status.input.live.sharing = {.is_shared = true, .has_client = true, .counters = {}};
+  status.input.live.sharing.counters.requests_dropped = 8;
   status.link_rates.ack_rate = 0.75;
   status.frontend.keyframes = 12;
   status.backend.closures_accepted = 3;
+  status.tracking = {.tracking = Tracking::kUncertain, .contradicting_share = 0.25, .way_unplaced_m = 7.0};
   status.map = {.tiles = 5, .version_sum = 50};
   for (QueueStatistics& queue : status.queues) queue = {"samples", 256, 17, 1};
   status.stages = {{.name = "map", .count = 2, .p99_ms = 1.5, .p999_ms = 1.75}};
@@ -184,12 +196,17 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   EXPECT_DOUBLE_EQ(message.link.round_trip_ms, 7.5);
   EXPECT_DOUBLE_EQ(message.link.battery_v, 3.87);
   EXPECT_DOUBLE_EQ(message.link.ack_rate, 0.75);
+  EXPECT_EQ(message.link.client, 1);
+  EXPECT_EQ(message.link.client_requests_dropped, 8);
   EXPECT_EQ(message.link.flying, -1);
   EXPECT_EQ(message.link.rssi_dbm, 0);
   EXPECT_EQ(message.gaps, 4);
   EXPECT_EQ(message.progress, 0.5);
   EXPECT_EQ(message.keyframes, 12);
   EXPECT_EQ(message.closures_accepted, 3);
+  EXPECT_EQ(message.tracking.state, pose_t::TRACKING_UNCERTAIN);
+  EXPECT_EQ(message.tracking.contradicting_share, 0.25);
+  EXPECT_EQ(message.tracking.way_unplaced, 7.0);
   EXPECT_EQ(message.tile_count, 5);
   EXPECT_EQ(message.version_sum, 50);
   ASSERT_EQ(message.queue_count, 7);
@@ -237,13 +254,13 @@ std::uint64_t fingerprint() {
 
 // A consumer built against other types would silently receive nothing: whoever changes a type must know it.
 TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
-  EXPECT_EQ(fingerprint<pose_t>(), 0xe8cc415fe7e8d576U);
+  EXPECT_EQ(fingerprint<pose_t>(), 0xcb2bbf134a7182e6U);
   EXPECT_EQ(fingerprint<pose2d_t>(), 0x1f317af1246276acU);
   EXPECT_EQ(fingerprint<map_info_t>(), 0xd4c16b4a90c4f334U);
   EXPECT_EQ(fingerprint<map_tile_t>(), 0xfdf7a3453106bfbaU);
   EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x256ce7175baea2abU);
-  EXPECT_EQ(fingerprint<status_t>(), 0x5b42de143042363cU);
+  EXPECT_EQ(fingerprint<status_t>(), 0x23d9dc6dec508b6fU);
 }
 
 }  // namespace

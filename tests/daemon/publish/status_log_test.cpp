@@ -94,5 +94,25 @@ TEST_F(StatusLog, TellsAClosureFoundFromOneDropped) {
   EXPECT_THAT(logged(), HasSubstr("loop dropped between keyframes 4 and 90"));
 }
 
+TEST(TrackingNews, TellAPilotOfEachChangeOnce) {
+  TrackingFigures good;
+  EXPECT_FALSE(tracking_news(good, good).has_value());
+  TrackingFigures doubted;
+  doubted.tracking = Tracking::kUncertain;
+  doubted.contradicting_share = 0.34;
+  const auto doubt = tracking_news(good, doubted);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_TRUE(doubt->is_warning);
+  EXPECT_THAT(doubt->text, HasSubstr("34 % of the last returns contradict"));
+  TrackingFigures lost;
+  lost.tracking = Tracking::kLost;
+  EXPECT_TRUE(tracking_news(good, lost)->is_warning);
+  EXPECT_FALSE(tracking_news(lost, good)->is_warning);
+  TrackingFigures weighing;
+  weighing.tracking = Tracking::kRelocalizing;
+  weighing.places_weighed = 12;
+  EXPECT_THAT(tracking_news(lost, weighing)->text, HasSubstr("12 places"));
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -90,6 +90,7 @@ TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {
   static_cast<void>(bench.worker.step());
   const PoseUpdate after = bench.pop_pose();
   EXPECT_EQ(after.correction_version, 2U);
+  EXPECT_DOUBLE_EQ(after.correction_m, 10.0);
   EXPECT_DOUBLE_EQ(after.T_map_body.x_m(), after.T_local_body.x_m() + 10.0);
   EXPECT_DOUBLE_EQ(after.T_odom_body.x_m(), flight[1].T_odom_body.x_m());
 
@@ -98,6 +99,25 @@ TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {
     ASSERT_TRUE(bench.queues->steps.consumer().try_pop(*handed_on));
     EXPECT_DOUBLE_EQ(handed_on->T_map_body.x_m(), published.T_map_body.x_m());
   }
+}
+
+TEST(FrontendWorker, CarriesTheNewestConfidenceOnToThePoseItPublishes) {
+  Bench bench;
+  const std::vector<RangeSample> flight = flight_in_square_room(2, 3.0, 1.0);
+  bench.push(flight[0]);
+  static_cast<void>(bench.worker.step());
+  EXPECT_EQ(bench.pop_pose().from_start.xx, 0.0) << "the backend has said nothing yet";
+
+  PoseConfidence confidence;
+  confidence.from_start = {.xx = 0.5, .yy = 0.25, .yaw_yaw = 0.01};
+  confidence.figures.tracking = Tracking::kUncertain;
+  bench.queues->to_publisher.confidence.store(confidence);
+  bench.push(flight[1]);
+  static_cast<void>(bench.worker.step());
+  const PoseUpdate pose = bench.pop_pose();
+  EXPECT_EQ(pose.tracking, Tracking::kUncertain);
+  EXPECT_DOUBLE_EQ(pose.from_start.xx, carried_on(confidence.from_start, confidence, pose.T_local_body).xx);
+  EXPECT_GE(pose.from_start.xx, 0.5);
 }
 
 TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {

@@ -64,6 +64,21 @@ TEST(MapFeed, HandsOverEveryChangedTileOnce) {
   EXPECT_TRUE(bench.take_tiles().empty());
 }
 
+TEST(MapFeed, HandsOverTheConfidenceOfEachKeyframe) {
+  Bench bench(0.1);
+  bench.feed.hand_on_confidence(bench.backend, true);
+  PoseConfidence confidence;
+  ASSERT_TRUE(bench.queues->confidence.load_if_new(confidence));
+  EXPECT_EQ(confidence.keyframe, bench.backend.keyframes().all().last_id());
+  EXPECT_GT(confidence.from_start.xx, 0.0);
+  TrackingFigures figures;
+  ASSERT_TRUE(bench.queues->tracking.load_if_new(figures));
+  EXPECT_EQ(figures.tracking, Tracking::kTracking);
+  bench.feed.hand_on_confidence(bench.backend, false);
+  EXPECT_TRUE(bench.queues->tracking.load_if_new(figures));
+  EXPECT_FALSE(bench.queues->confidence.load_if_new(confidence)) << "neither a keyframe nor another state";
+}
+
 TEST(MapFeed, KeepsTheTilesThatTheQueueHasNoRoomForAndOffersThemAgain) {
   Bench bench(0.01);
   const std::vector<TileIndex> all = bench.map.tiles();

@@ -61,6 +61,19 @@ TEST(RelativeCovariances, ComposeAlongAStraightChainAsByHand) {
   EXPECT_LT((P[KeyframeId{3}] - expected).norm(), 1e-12);
 }
 
+TEST(RelativeCovariances, OfTheCautiousHaveTheSlipOfEachMotionAndNoHeadings) {
+  PoseGraph graph;
+  graph.T_map_keyframe.push_back(Pose2());
+  for (int i = 0; i < 3; ++i)
+    add_step(graph, Pose2(2.0, 0.0, 0.0), Eigen::Vector3d(0.01, 0.01, 1e-3).asDiagonal());
+  graph.headings.push_back({KeyframeId{3}, 0.0, 1e6});
+  const SlipNoise slip{.along_m2_per_m = 0.1, .yaw_rad2_per_m = 0.002};
+  const Eigen::Matrix3d P = cautious_relative_covariances(graph, KeyframeId{0}, {}, slip)[KeyframeId{3}];
+  EXPECT_NEAR(P(0, 0), 3.0 * (0.01 + 2.0 * 0.1), 1e-9);
+  EXPECT_NEAR(P(2, 2), 3.0 * (1e-3 + 2.0 * 0.002), 1e-9);
+  EXPECT_LT(relative_covariances(graph, KeyframeId{0})[KeyframeId{3}](2, 2), 1e-5);
+}
+
 TEST(RelativeCovariances, TurnWithTheFrameTheyAreSeenFrom) {
   PoseGraph graph;
   graph.T_map_keyframe.push_back(Pose2());

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/confidence/map_agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kPerProbability = 255.0;
+
+double distance_cells(CellIndex cell, const Point2& p_cells) {
+  return std::hypot(cell.x + 0.5 - p_cells.x_m, cell.y + 0.5 - p_cells.y_m);
+}
+
+/// 255 * p(occupied); 0 where nothing is known.
+int occupied_at(const Submap& submap, CellIndex cell) {
+  return submap.geometry.contains(cell) ? submap.cells[submap.geometry.offset(cell)] : 0;
+}
+
+/// A beam goes through a wall where two cells in a row are surely occupied.
+bool passes_a_wall(const Submap& submap, const Point2& from_cells, const Point2& end_cells,
+                   const ConfidenceTuning& tuning) {
+  const double tolerance_cells = tuning.tolerance_m / submap.geometry.resolution_m;
+  int in_a_row = 0;
+  bool passes = false;
+  walk_ray(from_cells, end_cells, [&](CellIndex cell) {
+    if (distance_cells(cell, end_cells) < tolerance_cells ||
+        distance_cells(cell, from_cells) < tolerance_cells)
+      return;
+    const bool is_wall = occupied_at(submap, cell) > tuning.wall_probability * kPerProbability;
+    in_a_row = is_wall ? in_a_row + 1 : 0;
+    passes |= in_a_row >= 2;
+  });
+  return passes;
+}
+
+/// ... and through it whatever side the vehicle is off to: a beam along a wall goes through it where the pose
+/// is off by little.
+bool passes_a_wall_on_any_side(const Submap& submap, const Point2& from_cells, const Point2& end_cells,
+                               const ConfidenceTuning& tuning) {
+  if (!passes_a_wall(submap, from_cells, end_cells, tuning)) return false;
+  const double x = end_cells.x_m - from_cells.x_m;
+  const double y = end_cells.y_m - from_cells.y_m;
+  const double scale = tuning.tolerance_m / submap.geometry.resolution_m / std::hypot(x, y);
+  const auto passes_beside = [&](double side) {
+    const double dx = -side * scale * y;
+    const double dy = side * scale * x;
+    return passes_a_wall(submap, {from_cells.x_m + dx, from_cells.y_m + dy},
+                         {end_cells.x_m + dx, end_cells.y_m + dy}, tuning);
+  };
+  return passes_beside(1.0) && passes_beside(-1.0);
+}
+
+/// What stands around the end of a beam.
+ReturnVerdict verdict_of_end(const Submap& submap, const Point2& end_cells, const ConfidenceTuning& tuning) {
+  const double reach_cells = tuning.tolerance_m / submap.geometry.resolution_m;
+  const int reach = static_cast<int>(std::ceil(reach_cells));
+  const CellIndex end = cell_of(end_cells);
+  int around = 0;
+  int free = 0;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      if (std::hypot(dx, dy) > reach_cells) continue;
+      const int occupied = occupied_at(submap, {end.x + dx, end.y + dy});
+      if (occupied > tuning.occupied_probability * kPerProbability) return ReturnVerdict::kAgrees;
+      ++around;
+      free += static_cast<int>(occupied > 0 && occupied < tuning.free_probability * kPerProbability);
+    }
+  }
+  return 2 * free > around ? ReturnVerdict::kContradicts : ReturnVerdict::kUnknown;
+}
+
+}  // namespace
+
+void MapAgreement::look_around(const Pose2& T_map_body, double path_m,
+                               std::span<const std::shared_ptr<const Submap>> submaps,
+                               const KeyframePoses& T_map_keyframe) {
+  around_.clear();
+  const double reach_m = tuning_->near_m;
+  for (const auto& submap : submaps) {
+    if (path_m - submap->end_path_m < tuning_->old_after_m) continue;
+    const Pose2 T_submap_map = T_map_keyframe[submap->reference].inverse();
+    const Point2 at = T_submap_map * T_map_body.position();
+    if (at.x_m > submap->low_m.x_m - reach_m && at.x_m < submap->high_m.x_m + reach_m &&
+        at.y_m > submap->low_m.y_m - reach_m && at.y_m < submap->high_m.y_m + reach_m)
+      around_.push_back({submap, T_submap_map});
+  }
+}
+
+/// A wall in the way in one submap contradicts, whatever others show; else a wall near the end in any agrees.
+ReturnVerdict MapAgreement::verdict(const Pose2& T_map_body, const ScanReturn& beam) const {
+  const Point2 from_map = T_map_body.position();
+  const Point2 end_map = T_map_body * scans_->point_body(beam);
+  ReturnVerdict verdict = ReturnVerdict::kUnknown;
+  for (const Around& around : around_) {
+    const Point2 from_cells = around.submap->geometry.in_cells(around.T_submap_map * from_map);
+    const Point2 end_cells = around.submap->geometry.in_cells(around.T_submap_map * end_map);
+    if (passes_a_wall_on_any_side(*around.submap, from_cells, end_cells, *tuning_))
+      return ReturnVerdict::kContradicts;
+    if (verdict == ReturnVerdict::kAgrees) continue;
+    const ReturnVerdict here = verdict_of_end(*around.submap, end_cells, *tuning_);
+    if (here != ReturnVerdict::kUnknown) verdict = here;
+  }
+  return verdict;
+}
+
+void MapAgreement::add_newest_scan(const Pose2& T_map_body) {
+  if (around_.empty()) return;
+  const Pose2 moved = between(T_map_compared_, T_map_body);
+  if (std::hypot(moved.x_m(), moved.y_m()) < tuning_->way_between_m &&
+      std::abs(moved.yaw_rad()) < tuning_->turn_between_rad)
+    return;
+  T_map_compared_ = T_map_body;
+  for (const ScanReturn& beam : scans_->returns(scans_->all().last_id()))
+    if (beam.is_hit) weigh(verdict(T_map_body, beam));
+}
+
+void MapAgreement::weigh(ReturnVerdict verdict) {
+  if (verdict == ReturnVerdict::kUnknown) return;
+  const bool contradicts = verdict == ReturnVerdict::kContradicts;
+  ++returns_compared_;
+  share_ += ((contradicts ? 1.0 : 0.0) - share_) / tuning_->share_returns;
+  const double right = tuning_->share_if_right;
+  const double off = tuning_->share_if_off;
+  log_odds_ += contradicts ? std::log(off / right) : std::log((1.0 - off) / (1.0 - right));
+  log_odds_ = std::clamp(log_odds_, 0.0, tuning_->alarm_log_odds);
+  if (log_odds_ <= 0.0) is_contradicted_ = false;
+  if (log_odds_ >= tuning_->alarm_log_odds && !is_contradicted_) {
+    is_contradicted_ = true;
+    ++times_contradicted_;
+  }
+}
+
+void MapAgreement::begin_again() {
+  log_odds_ = 0.0;
+  share_ = 0.0;
+  is_contradicted_ = false;
+}
+
+}  // namespace swiftlet
