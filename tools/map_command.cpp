@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "daemon/outputs/output_directory.hpp"
@@ -85,6 +86,19 @@ Result<OutputDirectory> output_of(const MapCommand& command) {
   return OutputDirectory::of_run(command.output_directory, command.input, now);
 }
 
+/// What was published on the way, against the truth; nothing without an observer.
+struct LiveFigures {
+  std::optional<KnownPlaceError> known_places;
+  std::optional<RunConsistency> consistency;
+};
+LiveFigures figures_of(const std::optional<LiveObserver>& observer, const std::vector<StampedPose>& truth) {
+  if (!observer) return {};
+  const StampedPath T_world_body(truth);
+  const KnownPlaceError error = observer->error(T_world_body);
+  const std::span<const DoubtedPose> poses = observer->doubted_poses();
+  return {error, RunConsistency{consistency(poses, T_world_body), count_alarms(poses, error.errors)}};
+}
+
 }  // namespace
 
 Status run_map_command(const MapCommand& command) {
@@ -106,14 +120,7 @@ Status run_map_command(const MapCommand& command) {
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
   std::vector<StampedPose> truth = source.ground_truth();
-  std::optional<KnownPlaceError> known_places;
-  std::optional<RunConsistency> run_consistency;
-  if (observer) {
-    const StampedPath path(truth);
-    known_places = observer->error(path);
-    run_consistency = {consistency(observer->doubted_poses(), path),
-                       count_alarms(observer->doubted_poses(), known_places->errors)};
-  }
+  const LiveFigures live = figures_of(observer, truth);
   const RunView run{.backend = pipeline.backend(),
                     .map = pipeline.map(),
                     .input = report,
@@ -125,8 +132,8 @@ Status run_map_command(const MapCommand& command) {
                     .calibration = prepared->calibration,
                     .mended = source.mended(),
                     .pruned = &*pruned,
-                    .known_places = known_places,
-                    .consistency = run_consistency,
+                    .known_places = live.known_places,
+                    .consistency = live.consistency,
                     .peak_memory_mb = peak_of_run_mb};
   const Result<WrittenOutputs> written = write_run_outputs(output->path(), run);
   if (!written) return written.error();

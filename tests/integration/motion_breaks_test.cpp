@@ -3,6 +3,8 @@
 // Breaks of motion in simulated flights: what was mapped before stays right, and the vehicle finds back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "tests/support/corrected_run.hpp"
@@ -16,6 +18,33 @@ TEST_P(MotionBreaksTest, LeavesTheMapRight) {
   const CorrectedRun run = corrected_run(std::string("sim://maze?seed=2&fault=") + GetParam());
   ASSERT_EQ(run.truth.size(), run.samples.size());
   EXPECT_LT(error_m(run), 0.15);
+}
+
+std::size_t samples_in(const CorrectedRun& run, Tracking state) {
+  return static_cast<std::size_t>(std::ranges::count(run.tracking, state));
+}
+
+TEST(TrackingState, IsGoodAllAlongAHealthyFlight) {
+  const CorrectedRun run = corrected_run("sim://maze?seed=2");
+  EXPECT_EQ(samples_in(run, Tracking::kTracking), run.samples.size());
+}
+
+TEST(TrackingState, IsLostBehindARestartAndGoodAgainOnceThePlaceIsKnown) {
+  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=restart@150:60");
+  const auto lost = std::ranges::find(run.tracking, Tracking::kLost);
+  ASSERT_NE(lost, run.tracking.end());
+  EXPECT_TRUE(run.samples[static_cast<std::size_t>(lost - run.tracking.begin())].starts_segment);
+  EXPECT_EQ(samples_in(run, Tracking::kUncertain), 0U);
+  EXPECT_EQ(run.tracking.back(), Tracking::kTracking);
+}
+
+TEST(TrackingState, IsUncertainBehindAJumpThatNobodyTells) {
+  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=jump@150:30");
+  const auto doubted = std::ranges::find(run.tracking, Tracking::kUncertain);
+  ASSERT_NE(doubted, run.tracking.end());
+  EXPECT_GT(
+      run.samples[static_cast<std::size_t>(doubted - run.tracking.begin())].stamp - run.samples[0].stamp,
+      std::chrono::seconds(150));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, MotionBreaksTest,

@@ -19,6 +19,7 @@ CorrectedRun corrected_run(SampleSource& source) {
     if (!received) continue;
     run.samples.push_back(received->sample);
     backend.add(frontend.process(received->sample));
+    run.tracking.push_back(backend.tracking().tracking);
   }
   EXPECT_EQ(received.error().code, ErrorCode::kEndOfRecording) << received.error().message;
   backend.finish();

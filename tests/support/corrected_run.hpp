@@ -14,6 +14,7 @@ namespace swiftlet {
 struct CorrectedRun {
   std::vector<RangeSample> samples;
   std::vector<Pose2> T_map_body;   ///< one a sample
+  std::vector<Tracking> tracking;  ///< one a sample, as it was then
   std::vector<StampedPose> truth;  ///< one a sample, where the input knows it
   BackendCounters counters;
   InputReport input;
