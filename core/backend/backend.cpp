@@ -23,6 +23,7 @@ struct Backend::State {
   ScanRange refine_window(const BackendUpdate& update);
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
+  void doubt_motion_if_contradicted();
   [[nodiscard]] Tracking tracking() const;
   [[nodiscard]] PoseConfidence computed_confidence() const;
 
@@ -74,12 +75,24 @@ void Backend::State::compare_newest_scan(const FrontendStep& step) {
   const Pose2 T_map_body = correction.T_map_local * step.T_local_body;
   if (step.has_keyframe)
     agreement.look_around(T_map_body, chain.path_m(step.made.id), loops.submaps(), T_map_keyframe());
-  if (!loops.unplaced_since()) agreement.add_newest_scan(T_map_body);
+  const bool has_restarted = loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart;
+  if (!has_restarted) agreement.add_newest_scan(T_map_body);
+}
+
+/// A jump, a slip or a carried vehicle that nothing tells of: behind the last agreement with the older map.
+void Backend::State::doubt_motion_if_contradicted() {
+  if (!agreement.is_contradicted()) return loops.end_doubt();
+  if (loops.unplaced_since()) return;
+  const KeyframeId agreed = scans[agreement.agreed_last()].keyframe;
+  const KeyframeId first = chain.all().next(agreed);
+  if (first >= chain.all().end_id()) return;
+  graph.doubt_motion_to(first);
+  loops.doubt_since(first, config.tuning.confidence.alarm_log_odds);
 }
 
 /// A break whose motion the vehicle's estimate tells makes the covariance grow and no more.
 Tracking Backend::State::tracking() const {
-  if (loops.unplaced_since() && !loops.estimate_ran_on())
+  if (loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart)
     return loops.places_weighed() > 1 ? Tracking::kRelocalizing : Tracking::kLost;
   return agreement.is_contradicted() ? Tracking::kUncertain : Tracking::kTracking;
 }
@@ -118,11 +131,14 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.graph.add_keyframe(step.made, s.T_local_keyframe());
   s.loops.add_keyframe(step.made, s.T_local_keyframe());
   s.graph.observe_building_axis(s.estimates);
+  const bool was_unplaced = s.loops.unplaced_since().has_value();
   update.new_closures = s.loops.close_loops(s.T_local_keyframe(), s.graph);
   update.poses_changed = s.follow_graph(s.graph.settle());
   update.refined = s.refine_window(update);
+  if (was_unplaced && !s.loops.unplaced_since()) s.agreement.begin_again();
   s.correct_newest(step.T_local_body);
   s.compare_newest_scan(step);
+  s.doubt_motion_if_contradicted();
   if (update.new_closures > 0 || step.made.starts_segment) s.confidence.reset();
   return update;
 }

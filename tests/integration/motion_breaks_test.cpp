@@ -38,8 +38,10 @@ TEST(TrackingState, IsLostBehindARestartAndGoodAgainOnceThePlaceIsKnown) {
   EXPECT_EQ(run.tracking.back(), Tracking::kTracking);
 }
 
-TEST(TrackingState, IsUncertainBehindAJumpThatNobodyTells) {
+TEST(TrackingState, IsUncertainBehindAJumpThatNobodyTellsWhichIsMended) {
   const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=jump@150:30");
+  EXPECT_LT(error_m(run), 0.3);
+  EXPECT_EQ(run.tracking.back(), Tracking::kTracking);
   const auto doubted = std::ranges::find(run.tracking, Tracking::kUncertain);
   ASSERT_NE(doubted, run.tracking.end());
   EXPECT_GT(

@@ -107,6 +107,7 @@ ReturnVerdict MapAgreement::verdict(const Pose2& T_map_body, const ScanReturn& b
 }
 
 void MapAgreement::add_newest_scan(const Pose2& T_map_body) {
+  if (log_odds_ <= 0.0) agreed_last_ = scans_->all().last_id();
   if (around_.empty()) return;
   const Pose2 moved = between(T_map_compared_, T_map_body);
   if (std::hypot(moved.x_m(), moved.y_m()) < tuning_->way_between_m &&

@@ -42,6 +42,8 @@ class MapAgreement {
   [[nodiscard]] double contradiction() const { return log_odds_ / tuning_->alarm_log_odds; }
   /// From the evidence's reaching 1 until it is 0 again.
   [[nodiscard]] bool is_contradicted() const { return is_contradicted_; }
+  /// Of the last scan before the evidence began to grow.
+  [[nodiscard]] ScanId agreed_last() const { return agreed_last_; }
   [[nodiscard]] double contradicting_share() const { return share_; }
   [[nodiscard]] std::uint64_t returns_compared() const { return returns_compared_; }
   [[nodiscard]] std::uint64_t times_contradicted() const { return times_contradicted_; }
@@ -61,6 +63,7 @@ class MapAgreement {
   double log_odds_ = 0.0;
   double share_ = 0.0;
   bool is_contradicted_ = false;
+  ScanId agreed_last_{};
   std::uint64_t returns_compared_ = 0;
   std::uint64_t times_contradicted_ = 0;
 };

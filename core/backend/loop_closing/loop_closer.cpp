@@ -8,6 +8,9 @@
 namespace swiftlet {
 namespace {
 
+/// A vehicle that was carried with its estimate running on: as long as that takes from room to room.
+constexpr Duration kUnnoticed = std::chrono::seconds(10);
+
 RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
           residual_information(closure.T_from_to, closure.covariance.matrix()), true};
@@ -30,7 +33,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
     open_submaps_.clear();
     if (made.id != chain_->all().first_id()) {
       unplaced_since_ = made.id;
-      estimate_ran_on_ = made.odometry_ran_on;
+      unplaced_by_ = made.odometry_ran_on ? UnplacedBy::kSilence : UnplacedBy::kRestart;
       const ScanId scan = chain_->scan_of(made.id);
       const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
       forget_places();
@@ -49,14 +52,34 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
   }
 }
 
+void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
+  open_submaps_.clear();
+  unplaced_since_ = keyframe;
+  unplaced_by_ = UnplacedBy::kContradiction;
+  forget_places();
+  places_.begin(kUnnoticed, log_odds);
+}
+
+void LoopCloser::end_doubt() {
+  if (!unplaced_since_ || unplaced_by_ != UnplacedBy::kContradiction) return;
+  unplaced_since_.reset();
+  forget_places();
+}
+
+/// From where on a match with what lies before proves something alone. Of a contradiction nobody knows that
+/// the motion is at fault.
+KeyframeId LoopCloser::watched_since() const {
+  const bool is_unwatched = unplaced_since_ && unplaced_by_ != UnplacedBy::kContradiction;
+  return is_unwatched ? *unplaced_since_ : chain_->all().first_id();
+}
+
 std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
   const std::size_t earlier = chain_->size() - 1;
   if (!config_->close_loops || earlier % static_cast<std::size_t>(config_->match_every_keyframes) != 0)
     return 0;
   const std::size_t before = closures_.size();
-  const FoundLoops found =
-      detector_.find(chain_->all().last_id(), unplaced_since_.value_or(chain_->all().first_id()), submaps_,
-                     graph.graph(), T_local_keyframe, counters_.candidates_matched);
+  const FoundLoops found = detector_.find(chain_->all().last_id(), watched_since(), submaps_, graph.graph(),
+                                          T_local_keyframe, counters_.candidates_matched);
   for (const LoopClosure& closure : found.confirmed) accept(closure, graph);
   if (unplaced_since_) {
     place_travel(found.tentative, T_local_keyframe, graph);

@@ -18,6 +18,13 @@
 
 namespace swiftlet {
 
+/// Why it is not known where the newest travel lies in the earlier map.
+enum class UnplacedBy : std::uint8_t {
+  kRestart,        ///< the vehicle's estimate began anew
+  kSilence,        ///< nothing was received, but the estimate ran on
+  kContradiction,  ///< what was seen contradicts the earlier map
+};
+
 struct LoopCloserCounters {
   std::uint64_t submaps = 0;
   std::uint64_t candidates_matched = 0;  ///< submaps searched
@@ -33,6 +40,11 @@ class LoopCloser {
 
   /// Builds the submaps that end at the newest keyframe.
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
+  /// What was seen since this keyframe contradicts the earlier map: where the travel from there lies is to be
+  /// found. Loops go on being closed as the graph has it. `log_odds`: the evidence.
+  void doubt_since(KeyframeId keyframe, double log_odds);
+  /// What is seen agrees with the earlier map again.
+  void end_doubt();
   /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
   std::uint32_t close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
   /// After each scan that makes no keyframe, while it is not known where the vehicle is: looks elsewhere, in
@@ -52,15 +64,16 @@ class LoopCloser {
   [[nodiscard]] const LoopCloserCounters& counters() const { return counters_; }
   /// Complete ones, in the order of their ends.
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps() const { return submaps_; }
-  /// From there on the motion was watched, and nothing has placed it in the earlier map yet.
+  /// From there on the motion is known, and nothing has placed it in the earlier map yet.
   [[nodiscard]] std::optional<KeyframeId> unplaced_since() const { return unplaced_since_; }
-  /// With unplaced_since(): the vehicle's estimate ran on meanwhile.
-  [[nodiscard]] bool estimate_ran_on() const { return estimate_ran_on_; }
+  /// With unplaced_since().
+  [[nodiscard]] UnplacedBy unplaced_by() const { return unplaced_by_; }
   /// Places that are weighed while the travel is unplaced, the one without any move included.
   [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
 
  private:
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
+  [[nodiscard]] KeyframeId watched_since() const;
   void forget_places();
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
@@ -78,8 +91,8 @@ class LoopCloser {
   std::vector<KeyframeId> open_submaps_;  // where those being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps_;
   IdMap<ClosureId, LoopClosure> closures_;
-  std::optional<KeyframeId> unplaced_since_;  // motion to there was not watched, and no group has placed it
-  bool estimate_ran_on_ = false;              // likewise, in the vehicle
+  std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no group has placed it
+  UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
   LoopCloserCounters counters_;
 };
 

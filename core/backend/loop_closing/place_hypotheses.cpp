@@ -44,8 +44,9 @@ Seen seen(const Submap& submap, std::span<const Point2> points, const Pose2& T_s
 
 }  // namespace
 
-void PlaceHypotheses::begin(Duration unwatched) {
+void PlaceHypotheses::begin(Duration unwatched, double log_odds_moved) {
   unwatched_ = unwatched;
+  log_odds_moved_ = log_odds_moved;
   queries_.clear();
   hypotheses_.clear();
 }
@@ -134,7 +135,7 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
               CrossCheck(*config_, *scans_, *chain_, recent, query, T_local_keyframe)};
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
   if (hypotheses_.empty()) {
-    const double prior = std::log(tuning.not_moved_odds);
+    const double prior = std::log(tuning.not_moved_odds) - log_odds_moved_;
     hypotheses_.push_back({graph.T_map_keyframe[query] * T_local_keyframe[query].inverse(), prior, {}, {}});
   }
   if (queries_.size() == tuning.most_queries) forget_oldest();

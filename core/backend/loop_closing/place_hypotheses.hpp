@@ -31,10 +31,10 @@ class PlaceHypotheses {
       : config_(&config), scans_(&scans), chain_(&chain) {}
 
   /// Forgets all; the first query begins with one hypothesis: the travel lies as the graph has it.
-  /// `unwatched`: for how long nobody watched.
-  void begin(Duration unwatched);
+  /// `unwatched`: for how long nobody watched; `log_odds_moved`: evidence that it was moved meanwhile.
+  void begin(Duration unwatched, double log_odds_moved = 0.0);
   /// Forgets all but how long nobody watched: keyframes are pruned.
-  void begin_again() { begin(unwatched_); }
+  void begin_again() { begin(unwatched_, log_odds_moved_); }
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
   /// `submaps`: those of before. Returns whether it was taken.
   bool add_query(KeyframeId query, const ScanRange& recent,
@@ -79,6 +79,7 @@ class PlaceHypotheses {
   const ScanStore* scans_;
   const KeyframeChain* chain_;
   Duration unwatched_{};
+  double log_odds_moved_ = 0.0;
   std::deque<Query> queries_;
   std::vector<Hypothesis> hypotheses_;
 };

@@ -55,6 +55,16 @@ void KeyframeGraph::add_motion(const Keyframe& made, const KeyframePoses& T_loca
   graph_.factors.push_back(step);
 }
 
+void KeyframeGraph::doubt_motion_to(KeyframeId keyframe) {
+  RelativePoseFactor<KeyframeId>& motion = graph_.factors[*motion_factor_[keyframe]];
+  RelativePoseFactor<KeyframeId> as_measured = motion;
+  const Eigen::Matrix3d unknown = kUnknownMotion.information().asDiagonal();
+  if (motion.information == unknown) return;
+  motion.information = unknown;
+  as_measured.is_closure = true;
+  graph_.factors.push_back(as_measured);
+}
+
 void KeyframeGraph::predict_new_poses() {
   KeyframePoses& T_map = graph_.T_map_keyframe;
   for (KeyframeId k = T_map.next(optimized_upto_); k < T_map.end_id(); k = T_map.next(k))

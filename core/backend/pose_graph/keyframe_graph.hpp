@@ -37,6 +37,8 @@ class KeyframeGraph {
 
   /// Adds the motion to the newest keyframe, and takes the frontend's new estimates of the last steps.
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
+  /// The motion to this keyframe may not be as it was measured: it counts under DCS from now on.
+  void doubt_motion_to(KeyframeId keyframe);
   /// Every few metres: the newest keyframe gets a heading by the axis of the walls around it.
   void observe_building_axis(const FrontendEstimates& estimates);
   FactorId add_closure(const RelativePoseFactor<KeyframeId>& closure);

@@ -76,6 +76,21 @@ TEST_F(KeyframeGraphTest, AVehicleThatRestartedMostLikelyStoodStillUntilClosures
   EXPECT_NEAR(graph_.T_map_keyframe()[id(9)].x_m(), 9 * kStepM, 0.05);
 }
 
+TEST_F(KeyframeGraphTest, AMotionInDoubtHoldsUntilClosuresContradictIt) {
+  fly(20);
+  const std::vector<RelativePoseFactor<KeyframeId>> elsewhere{closure_to(12, 6.0), closure_to(15, 6.0),
+                                                              closure_to(18, 6.0)};
+  EXPECT_FALSE(graph_.accommodate(elsewhere)) << "the motion is known";
+  graph_.doubt_motion_to(id(10));
+  graph_.optimize();
+  EXPECT_NEAR(graph_.T_map_keyframe()[id(15)].x_m(), 15 * kStepM, 1e-6);
+  ASSERT_TRUE(graph_.accommodate(elsewhere));
+  for (const RelativePoseFactor<KeyframeId>& closure : elsewhere) graph_.add_closure(closure);
+  graph_.optimize();
+  EXPECT_NEAR(graph_.T_map_keyframe()[id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[id(9)].x_m(), 9 * kStepM, 0.05);
+}
+
 TEST_F(KeyframeGraphTest, AnExpectedClosureWaitsForOthersButNotForEver) {
   fly(20);
   EXPECT_TRUE(graph_.optimize());
