@@ -141,7 +141,7 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
       ->allow_extra_args(false);
   eval->add_option("--truth", command.truths, "A reference that is a true trajectory; may be given twice")
       ->allow_extra_args(false);
-  CLI::Option* live = eval->add_flag("--live", command.live,
+  CLI::Option* live = eval->add_flag("--live,--consistency", command.live,
                                      "Hold the poses published on the way against the map of that moment; "
                                      "the reference is the true path or, "
                                      "without one, the final path");

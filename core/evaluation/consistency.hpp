@@ -39,8 +39,8 @@ struct ConsistencyAt {
 inline constexpr double kNees95 = 7.815;
 inline constexpr std::array<double, 3> kConsistencyDistancesM{10.0, 20.0, 60.0};
 
-/// The pose after each of the distances, nothing where the run is shorter or the true path lacks it. The
-/// first pose with a true one is the start. Bar-Shalom, Li, Kirubarajan 2001, "Estimation with applications
+/// The first pose with a true one after each of the distances, nothing where the run is shorter. The first of
+/// all is the start. Bar-Shalom, Li, Kirubarajan 2001, "Estimation with applications
 /// to tracking and navigation", section 5.4.
 [[nodiscard]] std::array<std::optional<ConsistencyAt>, kConsistencyDistancesM.size()> consistency(
     std::span<const DoubtedPose> poses, const StampedPath& T_world_body);

@@ -11,7 +11,6 @@ void ConfidenceHistory::look() {
   const StoredScan& scan = scans.values().back();
   const bool is_keyframe = backend_->keyframes().all().values().back() == scans.last_id();
   const bool is_tracked = backend_->tracking().tracking == Tracking::kTracking;
-  if (!is_keyframe && is_tracked == poses_.back().is_tracked) return;
   if (is_keyframe) newest_ = backend_->confidence();
   poses_.push_back({scan.stamp, scan.path_m, scan.T_map_live,
                     carried_on(newest_.from_start, newest_, newest_.T_local_keyframe * scan.T_keyframe_body),

@@ -10,8 +10,8 @@
 
 namespace swiftlet {
 
-/// Keeps what a run publishes of its confidence: at each keyframe, and where the state changes. Views the
-/// backend, which must outlive it. Allocates: 100 bytes a keyframe.
+/// Keeps what a run publishes of its confidence with each sample. Views the backend, which must outlive it.
+/// Allocates: 100 bytes a sample.
 class ConfidenceHistory {
  public:
   explicit ConfidenceHistory(Backend& backend) : backend_(&backend) {}

@@ -132,7 +132,9 @@ Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
     return usable.error();
   const Result<StampedPath> truth = true_path(command, *prepared->source, pipeline.backend(), *pruned);
   if (!truth) return truth.error();
-  LiveEvaluation evaluation{command.input, observer.error(*truth), {}};
+  LiveEvaluation evaluation{command.input, observer.error(*truth), {}, {}};
+  evaluation.consistency = {consistency(observer.doubted_poses(), *truth),
+                            count_alarms(observer.doubted_poses(), evaluation.live.errors)};
   if (!command.batch_s) return evaluation;
   Result<BatchError> batch =
       batch_error(map, prepared->config, *command.batch_s, evaluation.live.errors, *truth);

@@ -8,6 +8,7 @@
 
 #include "core/base/result.hpp"
 #include "core/evaluation/known_place_error.hpp"
+#include "daemon/outputs/run_outputs.hpp"
 
 namespace swiftlet {
 
@@ -32,9 +33,11 @@ struct LiveEvaluation {
   std::string input;
   KnownPlaceError live;
   std::optional<BatchError> batch;
+  RunConsistency consistency;
 };
 
-/// Maps the input and holds the poses published on the way against the map that was published then.
+/// Maps the input and holds the poses published on the way against the map that was published then, and their
+/// covariances and states against the errors.
 ///
 /// Errors: kNotFound, kInvalidInput: input, configuration or truth cannot be used. kDamaged: the input is
 /// damaged.

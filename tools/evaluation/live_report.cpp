@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "daemon/outputs/consistency_json.hpp"
 #include "daemon/outputs/known_place_json.hpp"
 #include "tools/evaluation/live_evaluation.hpp"
 
@@ -11,6 +13,22 @@ namespace swiftlet {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::string consistency_text(const RunConsistency& consistency) {
+  std::string text;
+  for (const std::optional<ConsistencyAt>& at : consistency.at)
+    if (at)
+      text += fmt::format(
+          "  after {:.0f} m: off by {:.3f} m and {:.3f} rad, standard deviations {:.3f} m and {:.3f} rad, "
+          "NEES "
+          "{:.2f} (3 on average where they are right)\n",
+          at->path_m, at->error_m, at->error_yaw_rad, at->sigma_m, at->sigma_yaw_rad, at->nees);
+  const AlarmCounts& alarms = consistency.alarms;
+  return text +
+         fmt::format("  in doubt {} times, {:.1f} % of the time; {} times while off by less than {} m\n",
+                     alarms.alarms, 100.0 * alarms.seconds_doubted / std::max(1.0, alarms.seconds),
+                     alarms.false_alarms, AlarmTuning{}.right_m);
+}
 
 std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f}", *value) : "unknown";
@@ -35,6 +53,7 @@ std::string live_evaluation_text(const LiveEvaluation& evaluation) {
   for (std::size_t i = 0; i < live.map_rms_m.size(); ++i)
     text += fmt::format("  old ground {} m away: off by {} m (rms)\n", tuning.distances_m[i],
                         number(live.map_rms_m[i]));
+  text += consistency_text(evaluation.consistency);
   if (evaluation.batch)
     text += fmt::format(
         "  runs that end at {} of the poses: rms {:.3f} m, beyond {} m {:.1f} %; live there {:.3f} m, {:.1f} "
@@ -49,6 +68,7 @@ std::string live_evaluation_json(const LiveEvaluation& evaluation) {
   Json& errors = json["live"]["errors_m"] = Json::array();
   for (const StampedError& at : evaluation.live.errors)
     errors.push_back({to_seconds(at.stamp.time_since_epoch()), at.error_m});
+  json["consistency"] = consistency_json(evaluation.consistency);
   if (evaluation.batch)
     json["batch"] = {{"moments", evaluation.batch->moments},
                      {"rms_m", evaluation.batch->rms_m},

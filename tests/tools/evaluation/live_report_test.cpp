@@ -14,7 +14,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 LiveEvaluation some_flight() {
-  LiveEvaluation evaluation{"hall.pcap", {}, {}};
+  LiveEvaluation evaluation{"hall.pcap", {}, {}, {}};
+  evaluation.consistency.at[1] = {.path_m = 20.25, .nees = 3.5, .error_m = 0.125, .sigma_m = 0.25};
+  evaluation.consistency.alarms.alarms = 4;
   KnownPlaceError& live = evaluation.live;
   live.moments = 2;
   live.rms_m = 0.25;
@@ -32,6 +34,9 @@ TEST(LiveReport, TellsPeopleWhatIsKnownAndWhatIsNot) {
   EXPECT_THAT(text, HasSubstr("rms 0.250, p95 0.000, max 0.000; beyond 0.3 m for 50.0 % of the time"));
   EXPECT_THAT(text, HasSubstr("across the nearest wall 0.125 m, along it unknown m"));
   EXPECT_THAT(text, testing::Not(HasSubstr("runs that end")));
+  EXPECT_THAT(text, HasSubstr("after 20 m: off by 0.125 m and 0.000 rad, standard deviations 0.250 m"));
+  EXPECT_THAT(text, HasSubstr("NEES 3.50"));
+  EXPECT_THAT(text, HasSubstr("in doubt 4 times"));
 }
 
 TEST(LiveReport, TellsProgramsAllOfIt) {
@@ -45,6 +50,8 @@ TEST(LiveReport, TellsProgramsAllOfIt) {
   EXPECT_EQ(report["live"]["map_rms_m"], json({0.375, nullptr, nullptr}));
   EXPECT_EQ(report["live"]["errors_m"], json({{7.0, 0.125}, {8.0, 0.375}}));
   EXPECT_EQ(report["batch"]["live_rms_m"], 0.2);
+  EXPECT_EQ(report["consistency"]["after"][0]["nees"], 3.5);
+  EXPECT_EQ(report["consistency"]["alarms"], 4);
 }
 
 }  // namespace
