@@ -121,16 +121,7 @@ TEST_F(EmulatedDongleTest, IsFoundWithItsTexts) {
 TEST_F(EmulatedDongleTest, IsInitialisedInOrderBeforeTheFirstSample) {
   connect();
   expect_sample_within(kConnecting);
-  const std::vector<VendorRequest> expected{{0x22, 0, 0, {}},
-                                            {0x03, 2, 0, {}},
-                                            {0x01, 80, 0, {}},
-                                            {0x20, 0, 0, {}},
-                                            {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
-                                            {0x04, 3, 0, {}},
-                                            {0x06, 3, 0, {}},
-                                            {0x05, 0xA0, 0, {}},
-                                            {0x10, 1, 0, {}}};
-  mock_up_->with([&](EmulatedCrazyradio& dongle) { EXPECT_EQ(dongle.requests(), expected); });
+  mock_up_->with([](EmulatedCrazyradio& dongle) { EXPECT_EQ(dongle.requests(), requests_at_opening()); });
 }
 
 TEST_F(EmulatedDongleTest, BringsSixtySecondsOfFlightWithoutASampleLostOrDoubled) {

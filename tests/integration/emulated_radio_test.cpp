@@ -81,16 +81,7 @@ class EmulatedRadio {
 TEST(EmulatedRadioTest, InitialisesTheDongleInOrder) {
   EmulatedRadio radio;
   radio.listener.listen(seconds(1));
-  const std::vector<VendorRequest> expected{{0x22, 0, 0, {}},
-                                            {0x03, 2, 0, {}},
-                                            {0x01, 80, 0, {}},
-                                            {0x20, 0, 0, {}},
-                                            {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
-                                            {0x04, 3, 0, {}},
-                                            {0x06, 3, 0, {}},
-                                            {0x05, 0xA0, 0, {}},
-                                            {0x10, 1, 0, {}}};
-  EXPECT_EQ(radio.flight.dongle.requests(), expected);
+  EXPECT_EQ(radio.flight.dongle.requests(), requests_at_opening());
 }
 
 TEST(EmulatedRadioTest, EndsWhatAnotherProgramLeftACrazyradio2In) {

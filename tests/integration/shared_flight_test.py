@@ -14,9 +14,9 @@ import sys
 import tempfile
 import time
 
-from live_flight_test import Bench, Flight
+from flight_bench import Flight, run_case
 from simulated_vehicle_client_test import COMMANDER_GENERIC, Client
-from simulation import Failed, Simulation, expect
+from simulation import Simulation, expect
 
 NAMES = ["stateEstimate.x", "stateEstimate.y", "stateEstimate.yaw"]
 
@@ -159,15 +159,5 @@ def refuses_what_cannot_be_shared(bench):
                                                    f"udp://127.0.0.1:{port}"), "a port in use")
 
 
-def main(case, swiftletd, swiftlet):
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            globals()[case](Bench(swiftletd, swiftlet, folder))
-        except Failed as failure:
-            print(failure)
-            return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(run_case(globals(), *sys.argv[1:]))

@@ -24,6 +24,18 @@ std::vector<std::uint8_t> answer_of(const AirExchange& exchange) {
 
 }  // namespace
 
+std::vector<VendorRequest> requests_at_opening() {
+  return {{0x22, 0, 0, {}},
+          {0x03, 2, 0, {}},
+          {0x01, 80, 0, {}},
+          {0x20, 0, 0, {}},
+          {0x02, 0, 0, {0xE7, 0xE7, 0xE7, 0xE7, 0xE7}},
+          {0x04, 3, 0, {}},
+          {0x06, 3, 0, {}},
+          {0x05, 0xA0, 0, {}},
+          {0x10, 1, 0, {}}};
+}
+
 void EmulatedCrazyradio::unplug() {
   plugged_in_ = false;
   settings_ = {};

@@ -24,6 +24,9 @@ struct VendorRequest {
   bool operator==(const VendorRequest&) const = default;
 };
 
+/// What a Crazyradio PA is to receive when it is opened for radio://0/80/2M/E7E7E7E7E7, in this order.
+[[nodiscard]] std::vector<VendorRequest> requests_at_opening();
+
 /// What can go wrong with one OUT and its answer.
 enum class DongleFault : std::uint8_t {
   kLateAnswer,  ///< the answer comes late_by late: a host that gave up finds it at its next read

@@ -9,11 +9,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from pretended_report import REPORT
+
 TOOL = Path(__file__).parents[2] / "tools/benchmark-robustness"
-STAGES = {name: {"count": 10, "mean_ms": 0.1, "p50_ms": 0.1, "p99_ms": 0.2, "max_ms": 0.3}
-          for name in ("frontend", "backend", "pruning", "final_pass", "map")}
-REPORT = {"stage_times": STAGES, "backend": {"scans": 10, "keyframes": 2, "closures": {"accepted": 1}},
-          "map": {"tiles": 1}, "run_peak_memory_mb": 20.0, "peak_memory_mb": 25.0}
 # Stands in for swiftlet. Its error is that of the second seed's odometry where the first argument says seed=2.
 PRETENDS = """#!/bin/sh
 echo "$@" >> "{calls}"

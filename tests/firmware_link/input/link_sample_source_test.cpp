@@ -13,6 +13,7 @@
 #include "tests/firmware_link/distant_link.hpp"
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
+#include "tests/firmware_link/scripted_clock.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/firmware_link/synthetic_capture.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -38,17 +39,6 @@ class FrameLink final : public Link {
   std::vector<LinkFrame> frames_;
   Error end_;
   std::size_t next_ = 0;
-};
-
-/// The time of a scripted link, which must outlive it.
-class ScriptedClock final : public LinkClock {
- public:
-  explicit ScriptedClock(const ScriptedLink& link) : link_(link) {}
-  HostTime now() override { return host_ms(link_.now_ms); }
-  void sleep_for(Duration /*duration*/) override {}
-
- private:
-  const ScriptedLink& link_;
 };
 
 LinkInput input_of(std::vector<LinkFrame> frames, Error end = {ErrorCode::kEndOfRecording, "end"}) {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/firmware_link/scripted_clock.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/tools/doctor/fake_system.hpp"
 #include "tests/tools/doctor/fake_usb_bus.hpp"
-#include "tests/tools/doctor/scripted_clock.hpp"
 
 namespace swiftlet {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
+#include "tests/firmware_link/scripted_clock.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
-#include "tests/tools/doctor/scripted_clock.hpp"
 
 namespace swiftlet {
 namespace {
