@@ -12,8 +12,6 @@
 namespace swiftlet {
 namespace {
 
-double distance_m(const Point2& a, const Point2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
 /// The greatest of the lowest share of the values.
 double quantile(std::vector<double> values, double share) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));

@@ -53,8 +53,7 @@ TrajectoryError trajectory_error(std::span<const Point2> estimate_m, std::span<c
   double sum = 0.0;
   double sum_of_squares = 0.0;
   for (std::size_t i = 0; i < error.pairs; ++i) {
-    const Point2 aligned = error.T_truth_estimate * estimate_m[i];
-    const double distance = std::hypot(aligned.x_m - truth_m[i].x_m, aligned.y_m - truth_m[i].y_m);
+    const double distance = distance_m(error.T_truth_estimate * estimate_m[i], truth_m[i]);
     sum += distance;
     sum_of_squares += distance * distance;
     error.max_m = std::max(error.max_m, distance);

@@ -9,8 +9,6 @@
 namespace swiftlet {
 namespace {
 
-double distance_m(const Point2& a, const Point2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
 // From the chord a-b, or from a where the chord has no length.
 double distance_from_chord_m(const Point2& p, const Point2& a, const Point2& b) {
   const double length_m = distance_m(a, b);

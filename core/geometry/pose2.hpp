@@ -6,13 +6,9 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/point2.hpp"
 
 namespace swiftlet {
-
-struct Point2 {
-  double x_m = 0.0;
-  double y_m = 0.0;
-};
 
 /// Rigid motion of the plane, SE(2). Named by its frames, destination first: T_a_b * p_b == p_a and
 /// T_a_b * T_b_c == T_a_c. Trivially copyable, so it may cross a queue. As a vector its order is (x, y, yaw).

@@ -2,16 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/workers/map_feed.hpp"
 
-#include <cmath>
-
 namespace swiftlet {
 namespace {
 
 constexpr double kWallMovedM = 0.01;  // smaller moves are not worth a message
 
-bool moved(const Point2& from, const Point2& to) {
-  return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m) > kWallMovedM;
-}
+bool moved(const Point2& from, const Point2& to) { return distance_m(from, to) > kWallMovedM; }
 
 WallInMap in_map(const Wall& wall, const Backend& backend) {
   const Pose2 T_map_anchor = backend.T_map_keyframe(wall.anchor);

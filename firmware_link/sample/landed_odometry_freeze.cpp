@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample/landed_odometry_freeze.hpp"
 
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -42,8 +41,7 @@ void LandedOdometryFreeze::follow(const Reading& reading, const Pose2& T_vehicle
     T_odom_landed_ = T_odom_vehicle_ * T_vehicle_body;
   }
   if (state_ != State::kStanding) return;
-  if (std::hypot(T_vehicle_body.x_m() - T_vehicle_landed_.x_m(),
-                 T_vehicle_body.y_m() - T_vehicle_landed_.y_m()) > kCarriedM) {
+  if (distance_m(T_vehicle_landed_.position(), T_vehicle_body.position()) > kCarriedM) {
     state_ = State::kNotFlown;
     restart_pending_ = true;
   } else {

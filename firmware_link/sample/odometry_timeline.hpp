@@ -38,8 +38,7 @@ inline YawReading interpolate(const YawReading& a, const YawReading& b, double f
 }
 /// Whether a motion can lead from one to the other within `elapsed`.
 inline bool is_motion(const Point2& a, const Point2& b, Duration elapsed, const ContinuityLimits& limits) {
-  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) <=
-         limits.jump_slack_m + limits.top_speed_m_per_s * to_seconds(elapsed);
+  return distance_m(a, b) <= limits.jump_slack_m + limits.top_speed_m_per_s * to_seconds(elapsed);
 }
 inline bool is_motion(const YawReading& a, const YawReading& b, Duration elapsed,
                       const ContinuityLimits& limits) {

@@ -151,8 +151,7 @@ bool SampleAssembler::is_of_last_run(const Motion& motion) const {
 
 bool SampleAssembler::is_within_reach(const Point2& position_odom, const Motion& motion) {
   if (!is_of_last_run(motion)) began_at_odom_ = position_odom;
-  return std::hypot(position_odom.x_m - began_at_odom_.x_m, position_odom.y_m - began_at_odom_.y_m) <=
-         config_.continuity.farthest_m;
+  return distance_m(began_at_odom_, position_odom) <= config_.continuity.farthest_m;
 }
 
 RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_odom_body,

@@ -19,11 +19,6 @@ constexpr double kYawGain = 2.0;      // 1/s
 
 double limited(double value, double magnitude) { return std::clamp(value, -magnitude, magnitude); }
 
-double bearing(const Point2& from, const Point2& to) {
-  return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
-}
-double distance_m(const Point2& a, const Point2& b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
-
 }  // namespace
 
 RepeatedScript::RepeatedScript(std::vector<Waypoint> script, int laps) : script_(std::move(script)) {
@@ -56,7 +51,7 @@ SimulatedFlight::SimulatedFlight(const SimulatedWorld& world, const PilotModel& 
       wander_yaw_(model.wander_yaw_rad, 3.0),
       wander_speed_(model.wander_speed_share, 5.0),
       aim_(script_[0].position),
-      nose_rad_(bearing(aim_, script_[1].position)),
+      nose_rad_(bearing_rad(aim_, script_[1].position)),
       motion_(Pose2(aim_.x_m, aim_.y_m, nose_rad_)) {}
 
 void SimulatedFlight::step() {
@@ -97,7 +92,7 @@ void SimulatedFlight::move_aim() {
       aim_.x_m += share * (target.position.x_m - aim_.x_m);
       aim_.y_m += share * (target.position.y_m - aim_.y_m);
       if (target.heading == PilotHeading::kIntoTravel)
-        nose_rad_ = bearing(script_[next_ - 1].position, target.position);
+        nose_rad_ = bearing_rad(script_[next_ - 1].position, target.position);
       continue;
     }
     const bool stops_here = target.spin_rad != 0.0 || target.hover_s != 0.0 || next_ + 1 == script_.size();
@@ -124,7 +119,7 @@ void SimulatedFlight::steer(double wander_yaw_rad) {
   const double readiness = std::clamp(std::cos(nose_error), 0.1, 1.0);
   const double nearness = std::min(1.0, distance_m(here, aim) / kLookAheadM);
   const double speed = model_.speed_m_s * readiness * nearness * (1.0 + wander_speed_.step(noise_));
-  const double course = bearing(here, aim);
+  const double course = bearing_rad(here, aim);
   motion_.step(speed * std::cos(course), speed * std::sin(course),
                limited(kYawGain * nose_error, model_.turn_rate_rad_s));
 }

@@ -36,8 +36,7 @@ double FlowOdometry::seen_share() {
 /// Of the patches that lie on each other, the first counts.
 double FlowOdometry::floor_share(const Point2& at) const {
   for (const FloorPatch& patch : model_.floor_patches)
-    if (std::hypot(at.x_m - patch.centre.x_m, at.y_m - patch.centre.y_m) < patch.radius_m)
-      return patch.seen_share;
+    if (distance_m(at, patch.centre) < patch.radius_m) return patch.seen_share;
   return 1.0;
 }
 

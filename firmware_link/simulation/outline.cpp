@@ -60,14 +60,8 @@ Outline transformed(const Pose2& T_a_b, const Outline& outline_b) {
   return outline_a;
 }
 
-double distance_m(const Point2& a, const Point2& b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
-
 double distance_m(const WallSegment& wall, const Point2& point) {
-  const Point2 along{wall.end.x_m - wall.start.x_m, wall.end.y_m - wall.start.y_m};
-  const Point2 to{point.x_m - wall.start.x_m, point.y_m - wall.start.y_m};
-  const double squared = along.x_m * along.x_m + along.y_m * along.y_m;
-  const double u = std::clamp((to.x_m * along.x_m + to.y_m * along.y_m) / squared, 0.0, 1.0);
-  return std::hypot(to.x_m - u * along.x_m, to.y_m - u * along.y_m);
+  return distance_to_segment_m(point, wall.start, wall.end);
 }
 
 double distance_m(const WallSegment& a, const WallSegment& b) {
@@ -75,8 +69,6 @@ double distance_m(const WallSegment& a, const WallSegment& b) {
   return std::min(
       {distance_m(a, b.start), distance_m(a, b.end), distance_m(b, a.start), distance_m(b, a.end)});
 }
-
-double bearing_rad(const Point2& a, const Point2& b) { return std::atan2(b.y_m - a.y_m, b.x_m - a.x_m); }
 
 bool contains(const Outline& outline, const Point2& point) {
   for (std::size_t i = 0; i < outline.size(); ++i)

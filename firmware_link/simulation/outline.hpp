@@ -19,12 +19,9 @@ using Outline = std::vector<Point2>;
                                       double phase_rad = 0.0);
 [[nodiscard]] Outline transformed(const Pose2& T_a_b, const Outline& outline_b);
 
-[[nodiscard]] double distance_m(const Point2& a, const Point2& b);
 [[nodiscard]] double distance_m(const WallSegment& wall, const Point2& point);
 /// 0 where they cross.
 [[nodiscard]] double distance_m(const WallSegment& a, const WallSegment& b);
-/// From a to b, counter-clockwise from x.
-[[nodiscard]] double bearing_rad(const Point2& a, const Point2& b);
 
 [[nodiscard]] bool contains(const Outline& outline, const Point2& point);
 /// Whether a straight line of at least that width separates them.

@@ -76,7 +76,7 @@ std::optional<LineSegment> seen_from(const Pose2& T_room_body, const test::RoomW
                                      test::RandomGeometry& random) {
   constexpr double kRangeM = 3.0;
   constexpr double kSigma = 0.02;  // metres or radians
-  const double along_rad = std::atan2(wall.end.y_m - wall.start.y_m, wall.end.x_m - wall.start.x_m);
+  const double along_rad = bearing_rad(wall.start, wall.end);
   const double alpha_rad = along_rad + 0.5 * kPi;
   const Line2 in_room{wall.start.x_m * std::cos(alpha_rad) + wall.start.y_m * std::sin(alpha_rad), alpha_rad};
   LineSegment segment;

@@ -52,14 +52,11 @@ class Pilot {
             .height_m = aim.height_m};
   }
   [[nodiscard]] double off_course_m() const {
-    return distance(vehicle_.T_world_body(vehicle_.now()).position(),
-                    script_.state().T_world_body.position());
+    return distance_m(vehicle_.T_world_body(vehicle_.now()).position(),
+                      script_.state().T_world_body.position());
   }
 
  private:
-  static double distance(const Point2& a, const Point2& b) {
-    return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-  }
   SimulatedVehicle& vehicle_;
   SimulatedFlight script_;
 };

@@ -25,7 +25,7 @@ double widest_search_m(const BackendConfig& config) {
 struct Disc {
   Disc(const Point2& low, const Point2& high)
       : centre{0.5 * (low.x_m + high.x_m), 0.5 * (low.y_m + high.y_m)},
-        radius_m(0.5 * std::hypot(high.x_m - low.x_m, high.y_m - low.y_m)) {}
+        radius_m(0.5 * distance_m(low, high)) {}
   Point2 centre;
   double radius_m;
 };
@@ -49,9 +49,7 @@ Disc disc_around(const Submap& submap, double reach_m) {
 /// False only where the discs have no point in common, whatever the rounding.
 bool may_overlap(const Disc& a, const Pose2& T_map_a, const Disc& b, const Pose2& T_map_b) {
   constexpr double kRoundingM = 1e-3;
-  const Point2 a_map = T_map_a * a.centre;
-  const Point2 b_map = T_map_b * b.centre;
-  return std::hypot(b_map.x_m - a_map.x_m, b_map.y_m - a_map.y_m) < a.radius_m + b.radius_m + kRoundingM;
+  return distance_m(T_map_a * a.centre, T_map_b * b.centre) < a.radius_m + b.radius_m + kRoundingM;
 }
 
 /// Of the points, those that may fall on the submap somewhere in the window.

@@ -115,18 +115,7 @@ std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolutio
 
 namespace {
 
-double length_of(const MapSegment& s) {
-  return std::hypot(s.end_map.x_m - s.start_map.x_m, s.end_map.y_m - s.start_map.y_m);
-}
-
-double distance_m(const Point2& p, const MapSegment& s) {
-  const double dx = s.end_map.x_m - s.start_map.x_m;
-  const double dy = s.end_map.y_m - s.start_map.y_m;
-  const double along =
-      ((p.x_m - s.start_map.x_m) * dx + (p.y_m - s.start_map.y_m) * dy) / (dx * dx + dy * dy);
-  const double share = std::clamp(along, 0.0, 1.0);
-  return std::hypot(p.x_m - s.start_map.x_m - share * dx, p.y_m - s.start_map.y_m - share * dy);
-}
+double length_of(const MapSegment& s) { return distance_m(s.start_map, s.end_map); }
 
 bool runs_along(const MapSegment& a, const MapSegment& b, double min_cosine) {
   const double dot = (a.end_map.x_m - a.start_map.x_m) * (b.end_map.x_m - b.start_map.x_m) +
@@ -148,8 +137,9 @@ std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vecto
   std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(alongside),
                [&](const MapSegment& other) { return runs_along(wall, other, min_cosine); });
   const auto is_covered = [&](const Point2& p) {
-    return std::any_of(alongside.begin(), alongside.end(),
-                       [&](const MapSegment& other) { return distance_m(p, other) < tuning.same_wall_m; });
+    return std::any_of(alongside.begin(), alongside.end(), [&](const MapSegment& other) {
+      return distance_to_segment_m(p, other.start_map, other.end_map) < tuning.same_wall_m;
+    });
   };
   std::vector<MapSegment> parts;
   int first = 0;

@@ -19,7 +19,7 @@ class LineExtractorTest : public testing::Test {
     for (int i = 0; i < points; ++i) {
       const double f = static_cast<double>(i) / (points - 1);
       const Point2 p{from.x_m + f * (to.x_m - from.x_m), from.y_m + f * (to.y_m - from.y_m)};
-      const double length_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+      const double length_m = distance_m(from, to);
       const Point2 direction{-(to.y_m - from.y_m) / length_m, (to.x_m - from.x_m) / length_m};
       ASSERT_TRUE(view_->points.try_push_back({p, direction, 0, beam}));
     }

@@ -13,18 +13,10 @@
 namespace swiftlet {
 namespace {
 
-double distance_m(const WallSegment& wall, const Point2& p) {
-  const Point2 along{wall.end.x_m - wall.start.x_m, wall.end.y_m - wall.start.y_m};
-  const double squared = along.x_m * along.x_m + along.y_m * along.y_m;
-  const double share =
-      ((p.x_m - wall.start.x_m) * along.x_m + (p.y_m - wall.start.y_m) * along.y_m) / squared;
-  const double u = std::clamp(share, 0.0, 1.0);
-  return std::hypot(p.x_m - wall.start.x_m - u * along.x_m, p.y_m - wall.start.y_m - u * along.y_m);
-}
-
 double clearance_m(const SimulatedWorld& world, const Point2& p) {
   double nearest_m = INFINITY;
-  for (const WallSegment& wall : world.walls) nearest_m = std::min(nearest_m, distance_m(wall, p));
+  for (const WallSegment& wall : world.walls)
+    nearest_m = std::min(nearest_m, distance_to_segment_m(p, wall.start, wall.end));
   return nearest_m;
 }
 

@@ -52,8 +52,7 @@ TEST(TraversalIndex, FindsThePassesWithWallsNearAPlace) {
       continue;  // some may have been left out
     for (std::uint32_t traversal = 0; traversal < drawn.size(); ++traversal) {
       double nearest_m = 1e9;
-      for (const Point2& p : drawn[traversal])
-        nearest_m = std::min(nearest_m, std::hypot(p.x_m - place.x_m, p.y_m - place.y_m));
+      for (const Point2& p : drawn[traversal]) nearest_m = std::min(nearest_m, distance_m(p, place));
       const bool is_found = std::binary_search(found.begin(), found.end(), traversal);
       EXPECT_TRUE(is_found || nearest_m > 0.5) << nearest_m;
       EXPECT_TRUE(!is_found || nearest_m < 4.0) << nearest_m;
