@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/evaluation/nearest_wall.hpp"
+#include "tools/evaluation/nearest_wall.hpp"
 
 namespace swiftlet {
 namespace {

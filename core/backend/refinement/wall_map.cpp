@@ -9,11 +9,9 @@
 #include "core/geometry/cell_numbers.hpp"
 
 namespace swiftlet {
-namespace {
 
-/// The line through points with these moments; nothing where they are too few or not clearly a line.
-std::optional<LocalWall> line_of(const Moments2& moments, const Point2& place_map,
-                                 const RefinementTuning& tuning) {
+std::optional<LocalWall> wall_through(const Moments2& moments, const Point2& place_map,
+                                      const RefinementTuning& tuning) {
   if (moments.count < tuning.min_wall_points) return std::nullopt;
   const Scatter2 scatter = moments.scatter();
   const double along = scatter.along();
@@ -21,8 +19,6 @@ std::optional<LocalWall> line_of(const Moments2& moments, const Point2& place_ma
   if (scatter.across() > tuning.max_wall_variance_ratio * along) return std::nullopt;
   return LocalWall{{place_map.x_m + scatter.mean.x_m, place_map.y_m + scatter.mean.y_m}, scatter.normal()};
 }
-
-}  // namespace
 
 void append_thinned(std::span<const TraversalPoint> points, double cell_m,
                     std::vector<TraversalPoint>& thinned) {
@@ -102,7 +98,7 @@ std::optional<LocalWall> WallMap::wall_near(const TraversalPoint& place) const {
     rows[count++] = {cell_starts_[row + static_cast<std::size_t>(first_x)],
                      cell_starts_[row + static_cast<std::size_t>(last_x) + 1]};
   }
-  return line_of(local_moments(points_, {rows.data(), count}, place, radius_m_), place.p_map, tuning_);
+  return wall_through(local_moments(points_, {rows.data(), count}, place, radius_m_), place.p_map, tuning_);
 }
 
 }  // namespace swiftlet

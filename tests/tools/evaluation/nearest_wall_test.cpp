@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/evaluation/nearest_wall.hpp"
+#include "tools/evaluation/nearest_wall.hpp"
 
 #include <gmock/gmock.h>
 
