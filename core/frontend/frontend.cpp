@@ -227,10 +227,9 @@ void Frontend::State::align_newest_landmark() {
 
 void Frontend::State::update_axis() {
   FixedVector<WallDirection, kCapacity.landmarks> walls;
-  for (const Landmark& wall : graph.landmarks()) {
-    const double length_m =
-        std::hypot(wall.end_local.x_m - wall.start_local.x_m, wall.end_local.y_m - wall.start_local.y_m);
-    const bool has_room = walls.try_push_back({wall.line_local.alpha_rad, length_m});
+  for (const Landmark& landmark : graph.landmarks()) {
+    const bool has_room = walls.try_push_back(
+        {landmark.line_local.alpha_rad, distance_m(landmark.start_local, landmark.end_local)});
     SWIFTLET_CHECK(has_room, "the list has room for all landmarks of a graph");
   }
   axis.update(std::span(walls.begin(), walls.size()));

@@ -9,22 +9,23 @@
 namespace swiftlet {
 namespace {
 
-struct SegmentInLocal {
-  Point2 start;
-  Point2 end;
+/// Of an observed line.
+struct LineEnds {
+  Point2 start_local;
+  Point2 end_local;
 };
 
 // The left side of eq. (5).
-double projection_error_m(const Landmark& landmark, const SegmentInLocal& segment) {
-  return std::abs(landmark.line_local.distance_m(segment.start)) +
-         std::abs(landmark.line_local.distance_m(segment.end));
+double projection_error_m(const Landmark& landmark, const LineEnds& observed) {
+  return std::abs(landmark.line_local.distance_m(observed.start_local)) +
+         std::abs(landmark.line_local.distance_m(observed.end_local));
 }
 
 // Eq. (8), in metres; negative when they miss one another.
-double overlap_m(const Landmark& landmark, const SegmentInLocal& segment) {
+double overlap_m(const Landmark& landmark, const LineEnds& observed) {
   const Line2& line = landmark.line_local;
   const auto [s1, s2] = std::minmax({line.along_m(landmark.start_local), line.along_m(landmark.end_local)});
-  const auto [t1, t2] = std::minmax({line.along_m(segment.start), line.along_m(segment.end)});
+  const auto [t1, t2] = std::minmax({line.along_m(observed.start_local), line.along_m(observed.end_local)});
   return std::min(s2, t2) - std::max(s1, t1);
 }
 
@@ -47,7 +48,7 @@ double mahalanobis2(const Landmark& landmark, const LineSegment& segment, const 
 std::optional<std::size_t> associate(std::span<const Landmark> landmarks, const LineSegment& segment,
                                      const Viewpoint& viewpoint, KeyframeId oldest,
                                      const FrontendConfig& config) {
-  const SegmentInLocal observed{viewpoint.T_local_body * segment.start, viewpoint.T_local_body * segment.end};
+  const LineEnds observed{viewpoint.T_local_body * segment.start, viewpoint.T_local_body * segment.end};
   std::optional<std::size_t> nearest;
   double nearest_error_m = config.association_error_m;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {

@@ -35,7 +35,7 @@ struct PoseVertex {
 };
 
 /// What poses that have left the window contributed to a landmark.
-struct LinePrior {
+struct LandmarkPrior {
   Line2 mean_local;
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   bool has_extent = false;
@@ -50,10 +50,10 @@ struct Landmark {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of line_local, the poses taken as known
   Point2 start_local;
   Point2 end_local;
-  Point2 seen_from_local;  ///< where it was last observed from: tells its two faces apart
+  Point2 seen_from_local;  ///< where it was last observed from: distinguishes its two faces
   KeyframeId last_seen{};
   std::size_t observation_count = 0;  ///< in the window
-  LinePrior prior;
+  LandmarkPrior prior;
 };
 
 struct LineObservation {
@@ -117,7 +117,7 @@ class LandmarkGraph {
  private:
   void fold(const LineObservation& observation, const Pose2& T_local_body);
   std::size_t drop_unseen_landmarks();
-  static void extend_prior(LinePrior& prior, const Line2& line, const Point2& start, const Point2& end);
+  static void extend_prior(LandmarkPrior& prior, const Line2& line, const Point2& start, const Point2& end);
 
   FixedVector<PoseVertex, kCapacity.poses> poses_;
   FixedVector<Landmark, kCapacity.landmarks> landmarks_;

@@ -54,7 +54,7 @@ bool LandmarkGraph<kCapacity>::try_observe(std::size_t landmark, const LineSegme
 
 template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraph<kCapacity>::add_direction_prior_to_newest(double alpha_local_rad, double information) {
-  LinePrior& prior = landmarks_.back().prior;
+  LandmarkPrior& prior = landmarks_.back().prior;
   prior.mean_local = {landmarks_.back().line_local.rho_m, alpha_local_rad};
   prior.information(1, 1) = information;
 }
@@ -93,7 +93,7 @@ void LandmarkGraph<kCapacity>::fold(const LineObservation& observation, const Po
 }
 
 template <LandmarkGraphCapacity kCapacity>
-void LandmarkGraph<kCapacity>::extend_prior(LinePrior& prior, const Line2& line, const Point2& start,
+void LandmarkGraph<kCapacity>::extend_prior(LandmarkPrior& prior, const Line2& line, const Point2& start,
                                             const Point2& end) {
   double low_m = std::min(line.along_m(start), line.along_m(end));
   double high_m = std::max(line.along_m(start), line.along_m(end));

@@ -73,10 +73,10 @@ void LostSign::follow(const RangeSample& sample) {
 
 void LostSign::on_direction(double forward_m) {
   forward_m_ += forward_m;
-  least_forward_m_ = std::min(least_forward_m_, forward_m_);
-  most_forward_m_ = std::max(most_forward_m_, forward_m_);
-  went_forward_ = went_forward_ || forward_m_ - least_forward_m_ > tuning_.both_ways_m;
-  went_backward_ = went_backward_ || most_forward_m_ - forward_m_ > tuning_.both_ways_m;
+  min_forward_m_ = std::min(min_forward_m_, forward_m_);
+  max_forward_m_ = std::max(max_forward_m_, forward_m_);
+  went_forward_ = went_forward_ || forward_m_ - min_forward_m_ > tuning_.both_ways_m;
+  went_backward_ = went_backward_ || max_forward_m_ - forward_m_ > tuning_.both_ways_m;
   refuted_ = went_forward_ && went_backward_;
 }
 
@@ -230,7 +230,7 @@ LostSign::Lanes LostSign::outside(const Planar<Rays>& direction, const Rays& rea
   return (across_m - static_cast<float>(tuning_.beside_m)).max(-along_m).max(along_m - reach_m);
 }
 
-/// Ranges go on as they were or as they changed; whatever the vehicle does, this says nothing on its signs.
+/// Ranges go on as they were or as they changed; in either case this carries no information on the signs.
 double LostSign::jump_cost(const Scan& scan, Eigen::Index ray) const {
   const auto length_before = [&](std::size_t scans) -> std::optional<double> {
     if (scans_.size() < scans) return std::nullopt;
@@ -256,12 +256,12 @@ bool LostSign::is_settled(const Path& path) const {
 void LostSign::prune() {
   std::sort(paths_.begin(), paths_.end(),
             [](const Path& a, const Path& b) { return a.cost.misfit < b.cost.misfit; });
-  const double least = paths_.front().cost.misfit;
+  const double min_misfit = paths_.front().cost.misfit;
   std::array<bool, 2> settled{};
   std::vector<Path> kept;
   for (Path& path : paths_) {
     if (kept.size() == tuning_.max_paths) break;
-    if (path.cost.misfit > least + tuning_.most_gain) break;
+    if (path.cost.misfit > min_misfit + tuning_.max_gain) break;
     if (is_settled(path) && std::exchange(settled[path.reversed ? 1 : 0], true)) continue;
     kept.push_back(std::move(path));
   }
@@ -278,9 +278,9 @@ double LostSign::evidence() const {
   double sum = 0.0;
   for (std::size_t begin = 0; begin < path.changes.size(); begin += 2) {
     const bool is_last = begin + 2 >= path.changes.size();
-    const double lead = is_last ? reported_.cost.contradiction - path.cost.contradiction
-                                : path.changes[begin + 2].lead_before;
-    sum += std::min(lead - path.changes[begin].lead_before, tuning_.most_gain) - tuning_.stretch_doubt;
+    const double margin = is_last ? reported_.cost.contradiction - path.cost.contradiction
+                                  : path.changes[begin + 2].margin_before;
+    sum += std::min(margin - path.changes[begin].margin_before, tuning_.max_gain) - tuning_.stretch_doubt;
   }
   return sum;
 }
@@ -295,7 +295,7 @@ std::optional<RangeSample> LostSign::take() {
 }
 
 bool LostSign::is_reversed(std::uint64_t sample) const {
-  if (refuted_ || evidence() < tuning_.least_evidence) return false;
+  if (refuted_ || evidence() < tuning_.min_evidence) return false;
   const std::vector<Change>& changes = best().changes;
   const auto after = std::upper_bound(changes.begin(), changes.end(), sample,
                                       [](std::uint64_t at, const Change& c) { return at < c.sample; });

@@ -25,7 +25,7 @@ struct LostSignTuning {
   double standstill_m_per_s = 0.3;     ///< the slower of the two steps beside a turning point is slower than
                                        ///< this: 3 m/s^2 over half a period of 0.2 s
   double standstill_spacing_m = 0.02;  ///< standstills with less way between them count once
-  double scan_spacing_m = 0.05;        ///< half of sigma_m: scans closer together say the same again ...
+  double scan_spacing_m = 0.05;        ///< half of sigma_m: scans closer together add nothing ...
   double scan_spacing_rad = 0.1;       ///< ... unless they look elsewhere
   double memory_m = 3.0;  ///< a scan is compared with those of this way: dead reckoning drifts less than
                           ///< sigma_m over it
@@ -36,11 +36,11 @@ struct LostSignTuning {
   double beside_m = 0.05;     ///< a ray passes through all that lies nearer to it than half of sigma_m ...
   double before_m = 0.3;      ///< ... and farther before its end than three sigma_m
   double scan_weight = 4.0;   ///< rays of a scan err together: more than these don't add to the gain
-  double stretch_doubt = 10.0;   ///< what slips and lags gain without any lost sign: 9 per stretch at most on
-                                 ///< the laser logs, mostly less than nothing; lost signs gain 28 to 47
-  double most_gain = 30.0;       ///< that counts of one stretch; paths that lag by more are given up ...
-  double least_evidence = 50.0;  ///< ... so that one or two are no evidence
-  std::size_t max_paths = 8;     ///< hypotheses kept: three standstills within memory_m
+  double stretch_doubt = 10.0;  ///< what slips and lags gain without any lost sign: 9 per stretch at most on
+                                ///< the laser logs, mostly less than nothing; lost signs gain 28 to 47
+  double max_gain = 30.0;       ///< that counts of one stretch; paths that lag by more are given up ...
+  double min_evidence = 50.0;   ///< ... so that one or two are no evidence
+  std::size_t max_paths = 8;    ///< hypotheses kept: three standstills within memory_m
   std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
 };
 
@@ -58,18 +58,19 @@ struct MendedPositions {
 /// the absolute value): decides from the ranges, with look-ahead, over which stretches each step (x, y, yaw)
 /// has to become (-x, -y, yaw). A hidden Markov model with two states, which may change near a
 /// standstill only; each path through it has a map of its own (per-survivor processing, Raheli, Polydoros &
-/// Tzou 1995). A path is chosen by how near its hits lie to earlier ones, and judged by something else, lest
-/// it is believed for having been chosen: by rays that pass through what others hit, and by ranges that jump.
-/// "As reported" wins unless the whole run says that signs are lost; odometry that goes both ways refutes it.
+/// Tzou 1995). A path is chosen by how near its hits lie to earlier ones. It is judged by independent
+/// measures, since the choice itself favours it: rays that pass through what others hit, and ranges that
+/// jump. "As reported" wins unless the whole run shows that signs are lost; odometry that goes both ways
+/// refutes it.
 class LostSign {
  public:
   LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning = {});
 
   /// Allocates.
   void add(const RangeSample& sample);
-  /// No sample follows: those held back can be taken.
+  /// No sample follows: those still buffered can be taken.
   void end() { ended_ = true; }
-  /// The next sample, in the order in which they were added; nullopt while it is held back.
+  /// The next sample, in the order in which they were added; nullopt while it is buffered.
   std::optional<RangeSample> take();
 
   /// The way that was taken as reversed, among the samples taken so far.
@@ -88,7 +89,7 @@ class LostSign {
     Values x;
     Values y;
   };
-  /// Seen from where it was taken, along the odometry's axes. Rays that tell nothing pass through nothing,
+  /// Seen from where it was taken, along the odometry's axes. Rays without information pass through nothing,
   /// and what is no hit lies where nothing comes near.
   struct Scan {
     double path_m = 0.0;
@@ -106,8 +107,8 @@ class LostSign {
     double contradiction = 0.0;  ///< judges
   };
   struct Change {
-    std::uint64_t sample = 0;  ///< the first with the other sign
-    double lead_before = 0.0;  ///< by how much less the path contradicted itself than "as reported"
+    std::uint64_t sample = 0;    ///< the first with the other sign
+    double margin_before = 0.0;  ///< by how much less the path contradicted itself than "as reported"
   };
   /// One hypothesis on the signs so far.
   struct Path {
@@ -147,8 +148,8 @@ class LostSign {
   std::optional<RangeSample> newest_;
   double path_m_ = 0.0;
   double forward_m_ = 0.0;  ///< less what was reported as reverse: now, ...
-  double least_forward_m_ = 0.0;
-  double most_forward_m_ = 0.0;
+  double min_forward_m_ = 0.0;
+  double max_forward_m_ = 0.0;
   bool went_forward_ = false;
   bool went_backward_ = false;
   double speed_m_per_s_ = 0.0;

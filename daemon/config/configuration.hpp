@@ -43,7 +43,7 @@ struct RecordConfig {
   static constexpr SettingsSection kSection{"record", "What the daemon records: [recording](recording.md)."};
   static constexpr Setting<RecordConfig> kSettings[] = {
       {"enabled", &RecordConfig::enabled, "",
-       "radio, cable and UDP are recorded unless --no-record says otherwise"},
+       "radio, cable and UDP are recorded unless --no-record is given"},
       {"directory", &RecordConfig::directory, "", "where recordings go; empty: the state directory"},
       {"max_file_mb", &RecordConfig::max_file_mb, "MB",
        "a recording that has grown this long is continued in a new file; at most max_total_mb", 1, 4000},
@@ -64,7 +64,7 @@ struct ShareConfig {
   static constexpr Setting<ShareConfig> kSettings[] = {
       {"address", &ShareConfig::address, "",
        "where one client may connect to a live vehicle, as udp://127.0.0.1:19850; empty: nowhere, unless "
-       "--share says otherwise"},
+       "--share is given"},
   };
 
   /// All that is wrong with it, one line each; empty when usable.

@@ -68,9 +68,9 @@ std::vector<FloorPatch> draw_floor(const std::vector<Waypoint>& flight, NoiseSou
 
 std::span<const BuildingKind> building_kinds() { return kKinds; }
 
-double side_m(const BuildingWish& wish, NoiseSource& noise, double least_share, double most_share) {
+double side_m(const BuildingWish& wish, NoiseSource& noise, double min_share, double max_share) {
   const double whole_m = std::sqrt(wish.way_m) * noise.uniform(0.8, 1.6);
-  return whole_m * noise.uniform(least_share, most_share);
+  return whole_m * noise.uniform(min_share, max_share);
 }
 
 SimulatedWorld draw_building(std::uint64_t seed) {

@@ -33,8 +33,8 @@ struct BuildingKind {
 // compiler's choice.
 
 /// The side of a building that can be seen in such a flight, or a share of it, evenly between the two.
-[[nodiscard]] double side_m(const BuildingWish& wish, NoiseSource& noise, double least_share = 1.0,
-                            double most_share = 1.0);
+[[nodiscard]] double side_m(const BuildingWish& wish, NoiseSource& noise, double min_share = 1.0,
+                            double max_share = 1.0);
 
 // building_corridors.cpp
 [[nodiscard]] BuildingPlan draw_offices(const BuildingWish& wish, NoiseSource& noise);

@@ -17,10 +17,10 @@ Pose2 somewhere(double side_m, NoiseSource& noise) {
 
 /// Bounds of the sides of a block, in metres.
 struct BlockSize {
-  double least_length_m;
-  double most_length_m;
-  double least_width_m;
-  double most_width_m;
+  double min_length_m;
+  double max_length_m;
+  double min_width_m;
+  double max_width_m;
 };
 constexpr BlockSize kHouse{2.5, 7.0, 2.0, 5.0};
 constexpr BlockSize kCar{3.8, 4.8, 1.7, 1.9};
@@ -28,8 +28,8 @@ constexpr BlockSize kFence{2.0, 8.0, 0.08, 0.08};
 
 void add_block(BuildingPlan& plan, double ground_m, const BlockSize& size, NoiseSource& noise) {
   const Pose2 T_world_block = somewhere(ground_m, noise);
-  const double half_length_m = 0.5 * noise.uniform(size.least_length_m, size.most_length_m);
-  const double half_width_m = 0.5 * noise.uniform(size.least_width_m, size.most_width_m);
+  const double half_length_m = 0.5 * noise.uniform(size.min_length_m, size.max_length_m);
+  const double half_width_m = 0.5 * noise.uniform(size.min_width_m, size.max_width_m);
   plan.add_obstacle(rectangle(T_world_block, -half_length_m, -half_width_m, half_length_m, half_width_m));
 }
 

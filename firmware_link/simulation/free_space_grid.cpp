@@ -207,12 +207,11 @@ std::vector<Point2> FreeSpaceGrid::corners(const std::vector<Cell>& cells) const
   std::vector<Point2> line{centre(cells.front())};
   std::size_t at = 0;
   while (at + 1 < cells.size()) {
-    double least_m = clearance_m(centre(cells[at]));
+    double min_m = clearance_m(centre(cells[at]));
     std::size_t next = at + 1;
     for (std::size_t i = at + 1; i < cells.size(); ++i) {
-      least_m = std::min({least_m, clearance_m(centre(cells[i])), kComfortableM});
-      if (least_clearance_m(centre(cells[at]), centre(cells[i])) < std::max(kMarginM, least_m - kGivenUpM))
-        break;
+      min_m = std::min({min_m, clearance_m(centre(cells[i])), kComfortableM});
+      if (min_clearance_m(centre(cells[at]), centre(cells[i])) < std::max(kMarginM, min_m - kGivenUpM)) break;
       next = i;
     }
     line.push_back(centre(cells[next]));
@@ -221,15 +220,15 @@ std::vector<Point2> FreeSpaceGrid::corners(const std::vector<Cell>& cells) const
   return line;
 }
 
-double FreeSpaceGrid::least_clearance_m(const Point2& from, const Point2& to) const {
+double FreeSpaceGrid::min_clearance_m(const Point2& from, const Point2& to) const {
   const int samples = 1 + static_cast<int>(distance_m(from, to) / (kCellM / 2.0));
-  double least_m = kFarM;
+  double min_m = kFarM;
   for (int i = 0; i <= samples; ++i) {
     const double share = static_cast<double>(i) / samples;
-    least_m = std::min(least_m, clearance_m({from.x_m + share * (to.x_m - from.x_m),
-                                             from.y_m + share * (to.y_m - from.y_m)}));
+    min_m = std::min(
+        min_m, clearance_m({from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m)}));
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace swiftlet

@@ -51,7 +51,7 @@ class FreeSpaceGrid {
   [[nodiscard]] std::vector<Cell> part_around(Cell seed, std::vector<bool>& is_known) const;
   [[nodiscard]] bool search(Cell from, Cell to, bool avoids_flown);
   [[nodiscard]] std::vector<Point2> corners(const std::vector<Cell>& cells) const;
-  [[nodiscard]] double least_clearance_m(const Point2& from, const Point2& to) const;
+  [[nodiscard]] double min_clearance_m(const Point2& from, const Point2& to) const;
 
   Point2 origin_;
   int columns_ = 0;

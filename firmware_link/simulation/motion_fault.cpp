@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "firmware_link/link/uri_text.hpp"
@@ -16,17 +15,15 @@ namespace {
 struct Kind {
   std::string_view name;
   MotionFaultKind kind{};
-  double most = 0.0;  // of the amount; 0: it has none
+  double max = 0.0;  // of the amount; 0: it has none
 };
 
-constexpr double kLongestS = 3600.0;
-constexpr std::array kKinds{Kind{"silence", MotionFaultKind::kSilence, kLongestS},
-                            Kind{"reset", MotionFaultKind::kReset, 0.0},
-                            Kind{"restart", MotionFaultKind::kRestart, kLongestS},
-                            Kind{"carried", MotionFaultKind::kCarried, kLongestS},
-                            Kind{"teleport", MotionFaultKind::kTeleport, kLongestS},
-                            Kind{"slip", MotionFaultKind::kSlip, kLongestS},
-                            Kind{"jump", MotionFaultKind::kYawJump, 180.0}};
+constexpr double kMaxS = 3600.0;
+constexpr std::array kKinds{
+    Kind{"silence", MotionFaultKind::kSilence, kMaxS},   Kind{"reset", MotionFaultKind::kReset, 0.0},
+    Kind{"restart", MotionFaultKind::kRestart, kMaxS},   Kind{"carried", MotionFaultKind::kCarried, kMaxS},
+    Kind{"teleport", MotionFaultKind::kTeleport, kMaxS}, Kind{"slip", MotionFaultKind::kSlip, kMaxS},
+    Kind{"jump", MotionFaultKind::kYawJump, 180.0}};
 
 std::optional<double> number(std::string_view text, double lowest, double highest) {
   double value = 0.0;
@@ -44,16 +41,17 @@ Result<MotionFault> parse_fault(std::string_view text) {
   if (kind == kKinds.end())
     return bad_address("the fault " + whole +
                        " must be silence, reset, restart, carried, teleport, slip or jump, as in reset@60");
-  const std::optional<double> after_s = number(seconds, 0.0, kLongestS);
-  if (!after_s) return bad_address("the fault " + whole + " must say after how many seconds, as in reset@60");
+  const std::optional<double> after_s = number(seconds, 0.0, kMaxS);
+  if (!after_s)
+    return bad_address("the fault " + whole + " needs the seconds after which it begins, as in reset@60");
   MotionFault fault{kind->kind, from_seconds(*after_s), 0.0};
-  if (kind->most == 0.0 && text.empty()) return fault;
-  const double least = kind->kind == MotionFaultKind::kYawJump ? -kind->most : 0.0;
-  const std::optional<double> amount = number(text, least, kind->most);
-  if (kind->most == 0.0 || !amount)
-    return bad_address(
-        "the fault " + whole +
-        (kind->most == 0.0 ? " takes no amount" : " must say for how long or how far, as in silence@60:20"));
+  if (kind->max == 0.0 && text.empty()) return fault;
+  const double min = kind->kind == MotionFaultKind::kYawJump ? -kind->max : 0.0;
+  const std::optional<double> amount = number(text, min, kind->max);
+  if (kind->max == 0.0 || !amount)
+    return bad_address("the fault " + whole +
+                       (kind->max == 0.0 ? " takes no amount"
+                                         : " needs an amount, for how long or how far, as in silence@60:20"));
   fault.amount = *amount;
   return fault;
 }

@@ -16,7 +16,7 @@ enum class MotionFaultKind : std::uint8_t {
   kReset,     ///< the estimate restarts, in flight
   kRestart,   ///< the vehicle restarts where it is, off for that many seconds
   kCarried,   ///< the same, but it restarts where it would have flown to in that many seconds
-  kTeleport,  ///< likewise, and nothing tells: the estimate goes on as if it had not been moved
+  kTeleport,  ///< likewise, unseen: the estimate goes on as if it had not been moved
   kSlip,      ///< the position stays for that many seconds while the vehicle flies on, unseen
   kYawJump,   ///< the heading jumps by that many degrees, unseen
 };

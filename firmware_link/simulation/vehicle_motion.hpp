@@ -23,7 +23,7 @@ struct FlightState {
 /// Between two states of a flight.
 inline constexpr Duration kFlightStep = std::chrono::milliseconds(10);
 
-/// How a vehicle follows what it is told: velocities with a lag, accelerations within limits.
+/// How a vehicle follows its setpoints: velocities with a lag, accelerations within limits.
 class VehicleMotion {
  public:
   /// At rest on the ground.

@@ -31,7 +31,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Duration kSetpointPeriod = milliseconds(10);
-constexpr std::size_t kMostSetpoints = 100'000;
+constexpr std::size_t kMaxSetpoints = 100'000;
 
 SteadyTime steady_now() { return std::chrono::steady_clock::now(); }
 
@@ -56,7 +56,7 @@ class Passages {
   }
 
  private:
-  std::vector<SteadyTime> sent_ = std::vector<SteadyTime>(kMostSetpoints);
+  std::vector<SteadyTime> sent_ = std::vector<SteadyTime>(kMaxSetpoints);
   std::vector<Passed> passed_;
 };
 

@@ -100,9 +100,9 @@ struct PlaceHypothesesTuning {
   double track_rad = 0.1;               ///< likewise
   double same_place_m = 0.7;            ///< closer ones are one hypothesis
   double same_place_rad = 0.2;          ///< likewise
-  std::size_t most_queries = 20;        ///< older ones are forgotten: 40 m
-  std::size_t most = 40;                ///< hypotheses
-  std::size_t min_matches = 3;          ///< of one that is believed
+  std::size_t max_queries = 20;         ///< older ones are forgotten: 40 m
+  std::size_t max_hypotheses = 40;      ///< hypotheses
+  std::size_t min_matches = 3;          ///< of one that is accepted
   double not_moved_odds = 1e6;          ///< to one: that it was not carried; known ground refutes it soon
   double unmoved_reach_m = 2.0;         ///< of hypotheses from where it would be unmoved, and ...
   double carrying_speed_m_per_s = 2.0;  ///< ... as much more as it may have been carried
@@ -116,8 +116,8 @@ struct PlaceHypothesesTuning {
       {"track_rad", &PlaceHypothesesTuning::track_rad},
       {"same_place_m", &PlaceHypothesesTuning::same_place_m},
       {"same_place_rad", &PlaceHypothesesTuning::same_place_rad},
-      {"most_queries", &PlaceHypothesesTuning::most_queries},
-      {"most", &PlaceHypothesesTuning::most},
+      {"max_queries", &PlaceHypothesesTuning::max_queries},
+      {"max_hypotheses", &PlaceHypothesesTuning::max_hypotheses},
       {"min_matches", &PlaceHypothesesTuning::min_matches},
       {"not_moved_odds", &PlaceHypothesesTuning::not_moved_odds},
       {"unmoved_reach_m", &PlaceHypothesesTuning::unmoved_reach_m},

@@ -117,7 +117,7 @@ void PlaceHypotheses::merge(const Pose2& T_local_query) {
     const bool is_known = std::ranges::any_of(kept, [&](const Hypothesis& other) {
       return are_alike(other.T_map_local * T_local_query, T_map_query, tuning);
     });
-    if (!is_known && kept.size() < tuning.most) kept.push_back(std::move(h));
+    if (!is_known && kept.size() < tuning.max_hypotheses) kept.push_back(std::move(h));
   }
   hypotheses_ = std::move(kept);
 }
@@ -138,7 +138,7 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
     const double prior = std::log(tuning.not_moved_odds) - log_odds_moved_;
     hypotheses_.push_back({graph.T_map_keyframe[query] * T_local_keyframe[query].inverse(), prior, {}, {}});
   }
-  if (queries_.size() == tuning.most_queries) forget_oldest();
+  if (queries_.size() == tuning.max_queries) forget_oldest();
   for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, T_local_keyframe, h);
   merge(T_local_keyframe[query]);
   queries_.push_back(std::move(taken));
@@ -166,7 +166,7 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   const Point2 not_moved = graph.T_map_keyframe[match.to].position();
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
   const double reach_m = tuning.unmoved_reach_m + tuning.carrying_speed_m_per_s * to_seconds(unwatched_);
-  if (std::hypot(T_map_query.x_m() - not_moved.x_m, T_map_query.y_m() - not_moved.y_m) > reach_m) return;
+  if (distance_m(not_moved, T_map_query.position()) > reach_m) return;
   const double prior = -std::log(tuning.places_per_submap * static_cast<double>(submaps.size()));
   Hypothesis proposed{T_map_query * T_local_query.inverse(), prior, {}, {}};
   for (std::size_t i = queries_.size(); i-- > 0;)  // from where it was found, dead reckoning drifts
@@ -178,7 +178,7 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   merge(T_local_query);
 }
 
-/// Of the position that the matches give, in the worst direction: a corridor says nothing along itself.
+/// Of the position that the matches give, in the worst direction, which is along a corridor.
 double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const LoopClosure& match : hypothesis.matches) {
