@@ -23,15 +23,15 @@ using std::chrono::milliseconds;
 constexpr MonotonicTime::duration kRoomWait = milliseconds(1);   // before looking again at a full queue
 constexpr MonotonicTime::duration kStopWait = milliseconds(20);  // the longest a stop goes unnoticed
 
-/// Asks for all of it, and says in one line what was refused.
+/// Asks for all of it, and logs in one line what was refused.
 class RealtimeRequest {
  public:
   void ask(const Status& answer, const std::string& of) {
     if (!answer) refused_ += (refused_.empty() ? "" : "; ") + of + answer.error().message;
   }
-  void tell() const {
+  void log_refused() const {
     if (!refused_.empty())
-      spdlog::warn("real time: not granted: {}; runs on without, docs/real_time.md says what to permit",
+      spdlog::warn("real time: not granted: {}; runs on without, docs/real_time.md has what to permit",
                    refused_);
   }
 
@@ -69,7 +69,7 @@ Status Daemon::run(const std::stop_token& stop) {
         "frontend: ");
     request.ask(set_up_thread(radio.native_handle(), {realtime_.radio_priority, realtime_.radio_cpu}),
                 "radio: ");
-    request.tell();
+    request.log_refused();
     if (service_) service_->begin();
   }  // joined in the order of the data's way
   return pipeline_.outcome();

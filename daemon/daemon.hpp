@@ -28,7 +28,7 @@ class Daemon {
 
   /// As Pipeline::keep_pruned(). Before run().
   void keep_pruned(PrunedScans& pruned) { pipeline_.keep_pruned(pruned); }
-  /// The service manager hears of readiness, progress and the end, if there is one. Before run(); must
+  /// Readiness, progress and the end are reported to the service manager, if there is one. Before run(); must
   /// outlive the daemon.
   void report_to(const ServiceManager& manager) { service_.emplace(manager, clock_.now()); }
 

@@ -200,8 +200,8 @@ std::int64_t new_map_id() {
 }
 
 /// One line for each problem of the input, and for each note from `first_note` on; its exit code.
-int tell_problems(const Options& options, const Daemon& daemon, const InputReport& report,
-                  std::size_t first_note, const Status& outcome) {
+int log_problems(const Options& options, const Daemon& daemon, const InputReport& report,
+                 std::size_t first_note, const Status& outcome) {
   int exit_code = 0;
   for (std::size_t i = first_note; i < report.notes.size(); ++i) spdlog::info("{}", report.notes[i]);
   for (const std::string& problem : report.problems) exit_code = refuse(problem);
@@ -289,10 +289,10 @@ int run(const Options& options) {
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
   const Status written = write_outputs(outputs->get(), options, *config, daemon, **source);
-  // A live vehicle's notes are the events that were told when they happened.
+  // A live vehicle's notes are the events that were logged when they happened.
   const InputReport& report = (*source)->report();
   const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;
-  const int exit_code = tell_problems(options, daemon, report, first_note, outcome);
+  const int exit_code = log_problems(options, daemon, report, first_note, outcome);
   return written ? exit_code : refuse(written.error().message);
 }
 

@@ -17,7 +17,7 @@
 namespace swiftlet {
 namespace {
 
-/// The whole input in memory. `report`: what the input had to say about itself when it was first read.
+/// The whole input in memory. `report`: the input's report when it was first read.
 Result<PairedRun> read_input(const CalibrateCommand& command, std::optional<Duration> range_age,
                              const std::stop_token& stop, InputReport& report) {
   SampleSourceOptions options;
@@ -68,7 +68,8 @@ Status check_request(const CalibrateCommand& command) {
   return {};
 }
 
-Status tell(const CalibrateCommand& command, const CalibrationReport& report, const InputReport& input) {
+Status print_results(const CalibrateCommand& command, const CalibrationReport& report,
+                     const InputReport& input) {
   for (const std::string& note : input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
   if (!command.toml_file.empty())
     if (Status written = write_file(command.toml_file, calibration_toml(report)); !written) return written;
@@ -89,7 +90,7 @@ Status run_calibrate_command(const CalibrateCommand& command) {
   InputReport input;
   const Result<CalibrationReport> report = calibrate(command, signals.token(), input);
   if (!report) return report.error();
-  return tell(command, *report, input);
+  return print_results(command, *report, input);
 }
 
 }  // namespace swiftlet

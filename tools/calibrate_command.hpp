@@ -18,8 +18,8 @@ struct CalibrateCommand {
   bool json = false;                ///< for programs, not the table
 };
 
-/// Estimates the sensor model's systematic errors from one run and tells them on stdout; what matters goes to
-/// the configuration file. Progress and notes go to stderr. SIGINT, SIGTERM and SIGHUP end it between two
+/// Estimates the sensor model's systematic errors from one run and prints them on stdout; what matters goes
+/// to the configuration file. Progress and notes go to stderr. SIGINT, SIGTERM and SIGHUP end it between two
 /// steps.
 ///
 /// Errors: kNotFound, kInvalidInput: the input cannot be used, or the file is there already or cannot be

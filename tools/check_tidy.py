@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """clang-tidy on the sources that changed since HEAD left the default branch of "origin", or in the last commit where HEAD
 is on that branch. A changed header stands for the source of its name. Of many, the MOST with the most changed lines: two
-minutes on two cores. Exit code 1 if clang-tidy has something to say.
+minutes on two cores. Exit code 1 if clang-tidy reports anything.
 
 Usage: check_tidy.py [--all | FILE...]     --all: every source, which takes an hour
 """
@@ -42,7 +42,7 @@ def changed_lines(numstat, sources):
 
 
 def most_changed(lines, most=MOST):
-    """The same ones wherever it runs: HEAD has no say in it."""
+    """The same ones wherever it runs: they do not depend on HEAD."""
     return sorted(lines, key=lambda source: (-lines[source], source))[:most]
 
 

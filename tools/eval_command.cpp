@@ -73,7 +73,7 @@ Status evaluate_poses_as_published(const EvalCommand& command) {
   return write_figures(command, live_evaluation_text(*evaluation), live_evaluation_json(*evaluation));
 }
 
-/// Tells the notes of the captures. Their damage, in one line.
+/// Prints the notes of the captures. Their damage, in one line.
 Status tell_notes(const Evaluation& evaluation) {
   std::string damage;
   for (const ReferenceResult& reference : evaluation.references) {

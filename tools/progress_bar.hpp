@@ -13,7 +13,7 @@ namespace swiftlet {
 /// far and left out before 1 %.
 [[nodiscard]] std::string progress_text(double fraction, std::chrono::duration<double> elapsed, int width);
 
-/// One line on a terminal that says how far a run has come; gone when the bar is.
+/// One line on a terminal that shows how far a run has come; gone when the bar is.
 class ProgressBar {
  public:
   using Clock = std::chrono::steady_clock;

@@ -36,7 +36,7 @@ constexpr std::chrono::milliseconds kLook{100};
 constexpr int kLooksPerLine = 10;
 constexpr std::chrono::seconds kChangesEvery{1};
 
-/// What the thread that listens tells the one that shows.
+/// What the thread that listens hands to the one that shows.
 struct Received {
   std::uint64_t samples = 0;
   std::uint64_t gaps = 0;
@@ -92,13 +92,13 @@ class Listener {
  public:
   Listener(SampleSource& source, LatestValue<Received>& newest) : source_(source), newest_(newest) {}
 
-  /// Until `may_go_on` says no. Errors: what ended the input before its time.
+  /// While `may_go_on`. Errors: what ended the input before its time.
   template <typename Condition>
   Status listen(Condition may_go_on) {
     while (may_go_on(std::as_const(received_))) {
       const Result<ReceivedSample> next = source_.next();
-      tell_news();
-      if (WallClock::now() >= next_look_) tell_changes();
+      print_news();
+      if (WallClock::now() >= next_look_) print_changes();
       if (!next && next.error().code == ErrorCode::kEndOfRecording) break;
       if (!next && next.error().code != ErrorCode::kTimeout) return next.error();
       if (!next) continue;
@@ -108,31 +108,31 @@ class Listener {
       received_.gaps = source_.report().counters.gaps;
       newest_.store(received_);
     }
-    tell_changes();
+    print_changes();
     return {};
   }
   [[nodiscard]] const Received& received() const { return received_; }
 
  private:
-  void tell_news() {
+  void print_news() {
     const InputReport& report = source_.report();
-    for (; notes_ < report.notes.size(); ++notes_) tell("note", report.notes[notes_]);
+    for (; notes_ < report.notes.size(); ++notes_) print_line("note", report.notes[notes_]);
     while (const std::optional<VehicleEvent> event = source_.take_event())
-      tell(is_warning(*event) ? "warning" : "note", describe(*event));
+      print_line(is_warning(*event) ? "warning" : "note", describe(*event));
     notes_ = report.notes.size();  // a warning becomes a note of the report, too
-    for (; problems_ < report.problems.size(); ++problems_) tell("problem", report.problems[problems_]);
+    for (; problems_ < report.problems.size(); ++problems_) print_line("problem", report.problems[problems_]);
   }
   /// As swiftletd does, and as often.
-  void tell_changes() {
+  void print_changes() {
     next_look_ = WallClock::now() + kChangesEvery;
     InputStatus now;
     now.counters = source_.report().counters;
     now.live = source_.live_status().value_or(LiveStatus{});
-    for (const InputNews& news : input_news(told_, now))
-      tell(news.is_warning ? "warning" : "note", news.text);
-    told_ = now;
+    for (const InputNews& news : input_news(printed_, now))
+      print_line(news.is_warning ? "warning" : "note", news.text);
+    printed_ = now;
   }
-  static void tell(const char* kind, const std::string& text) {
+  static void print_line(const char* kind, const std::string& text) {
     const char* start = ::isatty(::fileno(stderr)) == 1 ? kBackToEmptyLine : "";
     std::fprintf(stderr, "%sswiftlet: %s: %s\n", start, kind, text.c_str());
   }
@@ -140,9 +140,9 @@ class Listener {
   SampleSource& source_;
   LatestValue<Received>& newest_;
   Received received_;
-  InputStatus told_;
+  InputStatus printed_;
   WallClock::time_point next_look_{};
-  std::size_t notes_ = 0;  // told so far
+  std::size_t notes_ = 0;  // printed so far
   std::size_t problems_ = 0;
 };
 

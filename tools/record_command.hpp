@@ -21,7 +21,7 @@ struct RecordCommand {
 [[nodiscard]] std::string recording_summary(std::uint64_t samples, double rate_hz, std::uint64_t gaps,
                                             std::uint64_t bytes);
 
-/// Records what the vehicle says until the time is up, the input ends or SIGINT, SIGTERM or SIGHUP comes; no
+/// Records what the vehicle sends until the time is up, the input ends or SIGINT, SIGTERM or SIGHUP comes; no
 /// SLAM. A summary goes to stdout at the end; notes and warnings of the input and, on a terminal, a running
 /// line to stderr.
 ///

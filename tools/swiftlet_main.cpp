@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
-// The swiftlet command line. Exit code 0: done; 2: bad input of any kind, said in one line on stderr. And 1
+// The swiftlet command line. Exit code 0: done; 2: bad input of any kind, with one line on stderr. And 1
 // of `swiftlet doctor`: it has found a problem.
 
 #include <CLI/CLI.hpp>
@@ -103,7 +103,7 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
 
 CLI::App* add_record_command(CLI::App& app, swiftlet::RecordCommand& command) {
   CLI::App* record =
-      app.add_subcommand("record", "Record what a vehicle says, to be replayed or mapped later");
+      app.add_subcommand("record", "Record what a vehicle sends, to be replayed or mapped later");
   record
       ->add_option("INPUT", command.input,
                    swiftlet::input_forms({InputNature::kVehicle, InputNature::kSimulation}))
@@ -133,10 +133,9 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
   eval->add_option("TRAJECTORY", command.trajectory,
                    "A TUM file: trajectory.tum of a run; with --live an input, which is mapped")
       ->required();
-  eval->add_option(
-      "REFERENCE", command.references,
-      "Relations (Kuemmerle 2009), a true trajectory (TUM) or the flight's capture (.pcap), told "
-      "by content");
+  eval->add_option("REFERENCE", command.references,
+                   "Relations (Kuemmerle 2009), a true trajectory (TUM) or the flight's capture (.pcap), by "
+                   "content");
   eval->add_option("--relations", command.relations, "A reference that is relations; may be given twice")
       ->allow_extra_args(false);
   eval->add_option("--truth", command.truths, "A reference that is a true trajectory; may be given twice")
@@ -157,7 +156,7 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
 
 CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& command) {
   CLI::App* calibrate = app.add_subcommand(
-      "calibrate", "Tell from one run how old its ranges are and how its dead reckoning errs");
+      "calibrate", "Estimate from one run how old its ranges are and how its dead reckoning errs");
   calibrate->add_option("LOG", command.input, finite_inputs())->required();
   calibrate->add_option("-o,--output", command.toml_file,
                         "Write what matters to this TOML file, for --config; it must not be there yet");
@@ -176,7 +175,7 @@ CLI::App* add_flights_command(CLI::App& app, swiftlet::FlightsCommand& command) 
 
 CLI::App* add_latency_command(CLI::App& app, swiftlet::LatencyCommand& command) {
   CLI::App* latency = app.add_subcommand(
-      "latency", "Tell how a run kept time: from radio frame to published pose, each stage, each queue");
+      "latency", "Show how a run kept time: from radio frame to published pose, each stage, each queue");
   latency->add_option("REPORT", command.report_file, "report.json of a run");
   latency->add_option("--picture", command.picture_file, "Draw the histograms to this PNG file");
   latency->add_flag("--listen", command.listen, "Listen to a running swiftletd instead");

@@ -9,7 +9,7 @@
 namespace swiftlet {
 
 // A Tuning struct holds the constants of one algorithm that are no settings: results should hardly depend on
-// them. Each value says what it is and has its unit in its name. The struct has the TuningValue of each as
+// them. Each value is described and has its unit in its name. The struct has the TuningValue of each as
 // `kValues`, so that an experiment can count them and set them from outside.
 
 template <typename Tuning>

@@ -106,7 +106,7 @@ CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, 
   const double max_sigma = tuning.max_sigma[static_cast<std::size_t>(error)];
   if (!(finding.sigma <= max_sigma)) {
     finding.reason = number("known to +- %.2g", finding.sigma) + number(" only, %.2g", max_sigma) +
-                     " would say something; more such motion near walls helps";
+                     " would be significant; more such motion near walls helps";
     return finding;
   }
   finding.verdict = verdict_of(error, finding, sensor, tuning);

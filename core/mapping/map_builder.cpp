@@ -70,7 +70,7 @@ void MapBuilder::State::take_new_scans(const Backend& backend) {
 }
 
 /// A new keyframe brings new estimates of those in the frontend's window, and to the scans since the one
-/// before it their share of the correction; what lies farther back keeps its pose until the backend says so.
+/// before it their share of the correction; what lies farther back keeps its pose until the backend moves it.
 KeyframeId MapBuilder::State::first_unsettled(const Backend& backend) const {
   const IdMap<KeyframeId, ScanId>& keyframes = backend.keyframes().all();
   if (keyframes.end_id() == keyframes_end) return keyframes_end;

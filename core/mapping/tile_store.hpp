@@ -14,7 +14,7 @@
 
 namespace swiftlet {
 
-/// What beams said about one cell. Integers, so that what was counted can be taken back exactly.
+/// What beams measured in one cell. Integers, so that what was counted can be taken back exactly.
 struct CellCounts {
   std::uint32_t hits = 0;    ///< beams that ended here
   std::uint32_t misses = 0;  ///< beams that passed through

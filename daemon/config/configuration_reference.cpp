@@ -37,7 +37,7 @@ std::string default_text(const std::string& value) { return fmt::format("\"{}\""
 template <typename Value>
 std::string range_text(const Value&, double lowest, double highest) {
   if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, std::string>) return {};
-  if constexpr (std::is_same_v<Value, int>)  // TOML knows no 1e+06 that is a whole number
+  if constexpr (std::is_same_v<Value, int>)  // in TOML 1e+06 is no whole number
     return fmt::format("{:.0f} to {:.0f}", lowest, highest);
   return fmt::format("{:.6g} to {:.6g}", lowest, highest);
 }

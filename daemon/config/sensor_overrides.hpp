@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-/// What a configuration file may say about the sensor; what it leaves out comes from the input's own kind.
+/// What a configuration file may set of the sensor; what it leaves out comes from the input's own kind.
 struct SensorOverrides {
   std::optional<double> min_range_m;
   std::optional<double> max_range_m;

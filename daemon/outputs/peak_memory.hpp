@@ -6,7 +6,7 @@ namespace swiftlet {
 
 /// The most memory (MiB) this program has held so far, as the kernel counts it (VmHWM). getrusage() would do
 /// but for a memory of its own: what the program's parent held when it started this one. 0 where the kernel
-/// does not say. Any thread.
+/// does not report it. Any thread.
 [[nodiscard]] double peak_memory_mb();
 
 }  // namespace swiftlet

@@ -26,7 +26,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  /// nullptr: could not be opened, errno says why.
+  /// nullptr: could not be opened, errno has the reason.
   [[nodiscard]] std::FILE* stream() { return stream_; }
   /// All that was flushed.
   [[nodiscard]] std::string bytes() const { return {bytes_, size_}; }

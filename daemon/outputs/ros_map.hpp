@@ -13,14 +13,14 @@
 namespace swiftlet {
 
 // The map as ROS's map_server reads it (https://wiki.ros.org/map_server, mode trinary): an image, and a YAML
-// file that says where it lies. Both cover all tiles, in whole tiles; where there is none, the one at the
+// file with its place. Both cover all tiles, in whole tiles; where there is none, the one at the
 // origin. The order of the tiles does not matter.
 
 inline constexpr std::uint8_t kPgmOccupied = 0;
 inline constexpr std::uint8_t kPgmFree = 254;
 inline constexpr std::uint8_t kPgmUnknown = 205;
 
-/// What map.pgm says of a cell: occupied from 65 percent on, free below 45 (beams passed and none, or few,
+/// The value of a cell in map.pgm: occupied from 65 percent on, free below 45 (beams passed and none, or few,
 /// ended there), and unknown where nothing is known or beams disagree.
 [[nodiscard]] constexpr std::uint8_t pgm_value(std::int8_t occupancy_percent) {
   if (occupancy_percent < 0) return kPgmUnknown;

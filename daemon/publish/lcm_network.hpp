@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-// What is known of the network before LCM is asked, which tells of every failure in several lines on stderr.
+// What is known of the network before LCM is asked, which reports every failure in several lines on stderr.
 
 /// The address of a udpm:// URL's group, or LCM's default; nullopt for other URLs.
 [[nodiscard]] std::optional<std::string> lcm_group_of(const std::string& url);

@@ -71,7 +71,7 @@ Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url)
   auto state = std::make_unique<State>(url);
   if (state->connected() == nullptr && !state->server)
     return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": LCM could not open it; swiftlet doctor says why"};
+                 "LCM URL \"" + url + "\": LCM could not open it; swiftlet doctor finds the reason"};
   return std::unique_ptr<LcmTransport>(new LcmTransport(std::move(state)));
 }
 

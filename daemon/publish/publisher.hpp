@@ -15,7 +15,7 @@
 
 namespace swiftlet {
 
-/// The map as a whole, so that a consumer can lay out its tiles and tell whether it has them all.
+/// The map as a whole, so that a consumer can lay out its tiles and check that it has them all.
 struct MapSummary {
   double resolution_m = 0.0;
   std::uint32_t tiles = 0;

@@ -27,11 +27,10 @@ class PublisherWorker {
   /// At most this many tiles leave in one step (17 kB, 4 MB/s): a receiver with the kernel's default socket
   /// buffer keeps up.
   static constexpr std::size_t kTilesPerStep = 4;
-  /// The last status is said this often, since a datagram may be lost.
+  /// The last status is sent this often, since a datagram may be lost.
   static constexpr int kFinalStatuses = 3;
 
-  /// What the status takes from elsewhere, called in the publisher's thread, and what it tells: how long
-  /// poses took.
+  /// Sources of figures of the status, called in the publisher's thread, and a sink: the latency of poses.
   struct Gauges {
     std::function<std::array<QueueStatistics, 7>()> queues;
     std::function<std::vector<StageSummary>()> stages;

@@ -8,9 +8,9 @@ namespace swiftlet {
 
 void ServiceWatch::look(MonotonicTime now, const Progress& progress) {
   feed(now, progress);
-  if (progress.statuses > statuses_told_) manager_.tell_status(status_text(progress.status));
+  if (progress.statuses > statuses_told_) manager_.report_status(status_text(progress.status));
   statuses_told_ = progress.statuses;
-  if (progress.input_is_over && !has_told_stopping_) manager_.say_stopping();
+  if (progress.input_is_over && !has_told_stopping_) manager_.report_stopping();
   has_told_stopping_ = progress.input_is_over;
 }
 

@@ -10,8 +10,8 @@
 
 namespace swiftlet {
 
-/// Decides what the service manager is told, in the publisher's thread, so that its standing still is noticed
-/// as well. One thread at a time.
+/// Reports to the service manager in the publisher's thread, so that a hang of that thread is noticed as
+/// well. One thread at a time.
 class ServiceWatch {
  public:
   /// How the daemon stands at this tick.
@@ -26,9 +26,9 @@ class ServiceWatch {
   ServiceWatch(const ServiceManager& manager, MonotonicTime now) : manager_(manager), fed_at_(now) {}
 
   /// All threads run. By any thread, once.
-  void begin() const { manager_.say_ready(); }
+  void begin() const { manager_.report_ready(); }
   /// To be called at each tick: feeds the watchdog, three times in its period, while the radio thread's
-  /// count moves and after the input is over; tells each new status, and once that the daemon stops.
+  /// count moves and after the input is over; reports each new status, and once that the daemon stops.
   void look(MonotonicTime now, const Progress& progress);
 
  private:

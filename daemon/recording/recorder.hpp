@@ -27,8 +27,8 @@ struct RecorderVoice {
   std::function<void(const std::string&)> problem;
 };
 
-/// The radio thread's end of a recording: hands on every frame but null packets, which carry nothing. Neither
-/// waits (unless told that the source can) nor allocates.
+/// The radio thread's end of a recording: hands on every frame but null packets, which carry nothing. Does
+/// not wait (unless created for a source that can) and does not allocate.
 class RecordingSink final : public FrameSink {
  public:
   RecordingSink(RecordingQueue::Producer frames, bool source_can_wait)

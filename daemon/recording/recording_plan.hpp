@@ -29,7 +29,7 @@ struct RecordingPlan {
   bool source_can_wait = false;
 };
 
-/// What the user said about recording, beside the configuration.
+/// The command line's options on recording, beside the configuration.
 struct RecordingWish {
   bool asked = false;    ///< --record: also where it is not the custom, or is switched off
   bool refused = false;  ///< --no-record

@@ -20,7 +20,7 @@ class LogFile {
   LogFile& operator=(const LogFile&) = delete;
 
   /// From here on to a file of the same name, made where there is none. Where that fails the log goes on as
-  /// before and says so.
+  /// before, with a line on it.
   void reopen();
 
  private:

@@ -10,8 +10,8 @@
 namespace swiftlet {
 namespace {
 
-/// What is not received is said again or does not matter.
-void say(const char* what) { static_cast<void>(sd_notify(0, what)); }
+/// What is not received is sent again or does not matter.
+void notify(const char* what) { static_cast<void>(sd_notify(0, what)); }
 
 }  // namespace
 
@@ -20,9 +20,9 @@ ServiceManager::ServiceManager() {
   if (sd_watchdog_enabled(0, &period_us) > 0) watchdog_period_ = std::chrono::microseconds(period_us);
 }
 
-void ServiceManager::say_ready() const { say("READY=1"); }
-void ServiceManager::say_stopping() const { say("STOPPING=1"); }
-void ServiceManager::feed_watchdog() const { say("WATCHDOG=1"); }
-void ServiceManager::tell_status(const std::string& line) const { say(("STATUS=" + line).c_str()); }
+void ServiceManager::report_ready() const { notify("READY=1"); }
+void ServiceManager::report_stopping() const { notify("STOPPING=1"); }
+void ServiceManager::feed_watchdog() const { notify("WATCHDOG=1"); }
+void ServiceManager::report_status(const std::string& line) const { notify(("STATUS=" + line).c_str()); }
 
 }  // namespace swiftlet

@@ -9,8 +9,8 @@
 
 namespace swiftlet {
 
-/// Speaks to systemd where it started the daemon as a service of Type=notify (NOTIFY_SOCKET, WATCHDOG_USEC);
-/// elsewhere nobody listens and nothing happens. Any thread; allocates, and may wait for the service manager.
+/// Reports to systemd where it started the daemon as a service of Type=notify (NOTIFY_SOCKET, WATCHDOG_USEC);
+/// elsewhere nothing happens. Any thread; allocates, and may wait for the service manager.
 class ServiceManager {
  public:
   /// Looks at the environment.
@@ -19,11 +19,11 @@ class ServiceManager {
   /// How often it wants to be fed at least; nullopt: not at all.
   [[nodiscard]] std::optional<Duration> watchdog_period() const { return watchdog_period_; }
 
-  void say_ready() const;
-  void say_stopping() const;
+  void report_ready() const;
+  void report_stopping() const;
   void feed_watchdog() const;
   /// One line for `systemctl status`.
-  void tell_status(const std::string& line) const;
+  void report_status(const std::string& line) const;
 
  private:
   std::optional<Duration> watchdog_period_;

@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 
 // How soon the end of the watch is noticed.
 constexpr timespec kLookEvery{.tv_sec = 0, .tv_nsec = 50'000'000};
-// What arrives sooner after the first signal is the same request, told twice.
+// What arrives sooner after the first signal is the same request, sent twice.
 constexpr std::chrono::seconds kSameRequest{1};
 constexpr std::string_view kFarewell = "ended at once by a second signal: what was not written is lost\n";
 

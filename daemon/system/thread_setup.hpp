@@ -15,7 +15,8 @@ struct ThreadSetup {
   int cpu = -1;           ///< the only processor it runs on; -1: any
 };
 
-/// Of a running thread, by any other. Error: kInvalidInput: refused; says what and why in a few words.
+/// Of a running thread, by any other. Error: kInvalidInput: refused; the message has what and why in a few
+/// words.
 [[nodiscard]] Status set_up_thread(pthread_t thread, const ThreadSetup& setup);
 
 /// What is mapped now is read in and stays in memory, what comes later stays once it is touched. Error: as

@@ -33,7 +33,7 @@ class MapFeed {
   [[nodiscard]] bool is_empty() const {
     return dirty_tiles_.empty() && gone_walls_.empty() && !walls_pending_ && !closures_pending_;
   }
-  /// Tells the publisher that nothing more will come.
+  /// Nothing more will come: ends the publisher's queue.
   void close() { publisher_.tiles.close(); }
 
  private:

@@ -109,7 +109,7 @@ struct PublisherQueues {
 };
 
 /// radio -> recorder: 8 s of the busiest link (1000 packets a second), many minutes of a usual one. Full: the
-/// newest frame is refused and counted, and the recorder says so; a simulation waits instead. One for each
+/// newest frame is refused and counted, and the recorder reports it; a simulation waits instead. One for each
 /// recorder, not among the pipeline's own: the recording begins before the pipeline and ends after it.
 using RecordingQueue = StageQueue<LinkFrame, 8192>;
 

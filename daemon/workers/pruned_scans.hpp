@@ -14,7 +14,7 @@
 
 namespace swiftlet {
 
-/// One scan of a run as the written trajectories tell it.
+/// One scan of a run as the trajectory files have it.
 struct TrajectoryPoint {
   HostTime stamp{};
   Pose2 T_map_body;
@@ -31,7 +31,7 @@ class PrunedScans {
   /// made.
   [[nodiscard]] static Result<PrunedScans> open(const std::filesystem::path& directory);
 
-  /// Takes what the backend is about to prune. A failure is remembered, and said by for_each_scan().
+  /// Takes what the backend is about to prune. A failure is kept, and returned by for_each_scan().
   void take(const Backend& backend, const Pruning& pruning);
 
   /// Visits every scan of the run in order, those that the backend still has and those it has pruned.

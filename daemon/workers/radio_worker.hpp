@@ -29,7 +29,7 @@ struct InputPolicy {
 /// @note A step allocates nothing (beyond what the source's own next() does), takes no lock and logs nothing.
 class RadioWorker {
  public:
-  /// References must outlive the worker. Without an outlet nobody is told.
+  /// References must outlive the worker. Without an outlet nothing is reported.
   RadioWorker(SampleSource& source, const Clock& clock, const InputPolicy& policy,
               SampleQueue::Producer samples, const std::optional<InputOutlet>& outlet, StageHistogram& times);
 
@@ -37,7 +37,7 @@ class RadioWorker {
   StepResult step();
   /// How often step() was called: stands still when it hangs. Any thread.
   [[nodiscard]] std::uint64_t steps() const { return steps_.load(std::memory_order_relaxed); }
-  /// When the next sample is due; now or earlier when none is held back.
+  /// When the next sample is due; now or earlier when none is waiting.
   [[nodiscard]] MonotonicTime due() const { return due_; }
   /// Takes no further samples, as if the input had ended here.
   void end_input();
@@ -54,7 +54,7 @@ class RadioWorker {
   std::optional<Pacer> pacer_;
   std::optional<ReceivedSample> held_;  // read, not yet due
   MonotonicTime due_{};
-  bool break_pending_ = false;  // a refused sample began a segment: the next one handed on must say so
+  bool break_pending_ = false;  // a refused sample began a segment: the next one handed on must do so
   bool ended_ = false;
   std::atomic<std::uint64_t> steps_{0};
   Status outcome_;

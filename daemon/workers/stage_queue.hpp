@@ -27,7 +27,7 @@ class StageQueue {
       return true;
     }
     [[nodiscard]] bool has_room() const noexcept { return end_.has_room(); }
-    /// Nothing more will be pushed. May be said twice.
+    /// Nothing more will be pushed. May be called twice.
     void close() noexcept {
       queue_->closed_.store(true, std::memory_order_release);
       queue_->event_count_.notify();

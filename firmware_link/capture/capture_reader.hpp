@@ -54,7 +54,7 @@ class CaptureReader {
     std::int64_t seconds = 0;
     std::int64_t fraction_ns = 0;
     std::size_t length = 0;    ///< of the body in the file
-    std::size_t original = 0;  ///< as it is said to have been
+    std::size_t original = 0;  ///< by the record's header
   };
   struct DamagedBytes {
     std::uint64_t begin = 0;

@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-/// A simulated flight whose dead reckoning breaks as its faults say. The truth stays that of the flight.
+/// A simulated flight whose dead reckoning breaks by its faults. The truth stays that of the flight.
 class FaultySampleSource final : public SampleSource {
  public:
   /// `faults`: in the order of time.

@@ -84,10 +84,10 @@ std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Du
   return choice + "the ODOM lines do not span the scans";
 }
 
-std::string describe_lag(const PoseScanLag& lead, Duration range_age) {
+std::string describe_lag(const PoseScanLag& lag, Duration range_age) {
   char turns[64];
   std::snprintf(turns, sizeof turns, "%.2f deg off on average, not %.2f",
-                degrees(lead.difference_to_line_before_rad()), degrees(lead.difference_rad()));
+                degrees(lag.difference_to_line_before_rad()), degrees(lag.difference_rad()));
   return "the scans turn with the poses of the line before (" + std::string(turns) + "): ranges taken for " +
          std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(range_age).count()) +
          " ms older than their poses";

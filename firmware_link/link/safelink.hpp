@@ -8,8 +8,8 @@
 
 namespace swiftlet {
 
-/// Switches safelink of the vehicle's radio on or off, which keeps it until told otherwise, whoever asked.
-/// The radio acknowledges with the same three bytes.
+/// Switches safelink of the vehicle's radio on or off, which keeps it until the next request, whoever sends
+/// it. The radio acknowledges with the same three bytes.
 constexpr std::array<std::uint8_t, 3> safelink_request(bool on) {
   return {0xFF, 0x05, static_cast<std::uint8_t>(on ? 1 : 0)};
 }

@@ -88,8 +88,8 @@ void LogSession::on_request(std::span<const std::uint8_t> packet) {
   if (packet.size() > 1 && packet[1] == static_cast<std::uint8_t>(LogCommand::kReset)) reset_received_ = true;
 }
 
-/// The 24-bit clock of one packet cannot be told from noise. A clock that has indeed restarted shows in the
-/// next packet too.
+/// The 24-bit clock of one packet cannot be distinguished from noise. A clock that has indeed restarted shows
+/// in the next packet too.
 bool LogSession::is_doubtful(const LogStamp& stamp) {
   if (!last_data_ || are_of_one_clock(*last_data_, stamp)) return false;
   return !doubted_ || doubted_->counter_ms == stamp.counter_ms || !are_of_one_clock(*doubted_, stamp);

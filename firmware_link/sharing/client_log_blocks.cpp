@@ -57,7 +57,7 @@ ClientLogBlocks::Outcome ClientLogBlocks::on_request(std::span<const std::uint8_
   return forward(packet, *block);
 }
 
-/// Of a block that is there already the vehicle says so itself.
+/// That a block is there already, the vehicle answers itself.
 ClientLogBlocks::Outcome ClientLogBlocks::create(std::span<const std::uint8_t> packet) {
   if (const Block* const known = find(packet[2])) return forward(packet, *known);
   if (blocks_.full() || !has_room_for(entries_in(packet)))

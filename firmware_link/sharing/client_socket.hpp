@@ -34,8 +34,8 @@ class ClientSocket {
   ClientSocket(const ClientSocket&) = delete;
   ClientSocket& operator=(const ClientSocket&) = delete;
 
-  /// Tells the client, by a line of console text; the system refuses its next packet. There is no client from
-  /// now on. Allocates.
+  /// Notifies the client by a line of console text; the system refuses its next packet. There is no client
+  /// from now on. Allocates.
   void close();
 
   [[nodiscard]] int file() const { return socket_; }

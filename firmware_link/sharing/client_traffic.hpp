@@ -22,7 +22,7 @@ namespace swiftlet {
 
 /// The packets of a client that shares the link with its owner. What steers comes first, in its order; all
 /// else takes turns with the owner's requests, and waits until the owner has reset the vehicle's log. Each
-/// side gets the answers to its own requests; what the vehicle says to all goes to both. No link, no socket,
+/// side gets the answers to its own requests; what the vehicle sends to all goes to both. No link, no socket,
 /// no clock. Fixed storage, allocates nothing; one thread at a time.
 class ClientTraffic {
  public:

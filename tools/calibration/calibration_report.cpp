@@ -111,7 +111,7 @@ std::string calibration_text(const CalibrationReport& report) {
   text += fmt::format("  {:<42}{:>9}{:>11}    {:<9}{}\n", "", "set now", "found", "sigma", "difference");
   for (const CalibrationFinding& finding : report.findings) text += row(finding);
   if (report.check)
-    text += fmt::format("  returns held back lie {:.1f} mm off the walls, with what matters set {:.1f} mm\n",
+    text += fmt::format("  held-out returns lie {:.1f} mm off the walls, with what matters set {:.1f} mm\n",
                         1e3 * report.check->held_out_before_m, 1e3 * report.check->held_out_after_m);
   if (report.check && report.check->is_worse())
     text += "  worse than before: nothing is set; look at the maps of both before you use these figures\n";

@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-/// How well returns that took no part in the final refinement fit the walls of other passes.
+/// How well the returns held out of the final refinement fit the walls of other traversals.
 struct CalibrationCheck {
   double held_out_before_m = 0.0;  ///< with the settings as they were
   double held_out_after_m = 0.0;   ///< with what matters set
@@ -21,7 +21,7 @@ struct CalibrationCheck {
   [[nodiscard]] bool is_worse() const { return held_out_after_m > 1.1 * held_out_before_m; }
 };
 
-/// All that a calibration has to tell.
+/// All results of a calibration.
 struct CalibrationReport {
   std::string input_uri;
   std::size_t samples = 0;

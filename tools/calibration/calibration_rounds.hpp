@@ -28,9 +28,9 @@ using ReadRun = std::function<Result<PairedRun>(std::optional<Duration> range_ag
 
 /// What `swiftlet calibrate` does with a run: maps and estimates, reads it anew at the range age so found
 /// until that settles, and in the end maps it with what matters set. `name`: of the run, for report and
-/// messages. `go_on` hears of all this as one piece of work.
+/// messages. For `go_on` all this is one piece of work.
 ///
-/// Errors: those of `read_run`; kInvalidInput: fewer than two samples; kTimeout where `go_on` said no;
+/// Errors: those of `read_run`; kInvalidInput: fewer than two samples; kTimeout where `go_on` returned false;
 /// kSolver. Allocates. Repeatable.
 [[nodiscard]] Result<CalibrationReport> calibrate_in_rounds(const std::string& name, const ReadRun& read_run,
                                                             const GoOn& go_on);

@@ -28,9 +28,10 @@ Finding check_route(const LcmUrl& url, Network& network) {
   if (!route->is_multicast)
     return {Mark::kProblem, "lcm route", by + ", which does not multicast", kRouteOverLoopback};
   if (route->is_loopback && url.ttl > 0)
-    return {Mark::kWarning, "lcm route",
-            by + ", although ttl is " + std::to_string(url.ttl) + ": others on the network will not hear it",
-            "sudo ip route del 224.0.0.0/4 dev lo"};
+    return {
+        Mark::kWarning, "lcm route",
+        by + ", although ttl is " + std::to_string(url.ttl) + ": others on the network will not receive it",
+        "sudo ip route del 224.0.0.0/4 dev lo"};
   return {Mark::kOk, "lcm route", by + ", " + reach_of(url), ""};
 }
 
@@ -46,7 +47,7 @@ Finding check_buffers(const SystemFiles& files) {
   std::string too_small;
   for (const std::string name : {"rmem_max", "rmem_default"}) {
     const std::optional<long long> bytes = files.read_number("/proc/sys/net/core/" + name);
-    if (!bytes) return {Mark::kSkipped, "lcm buffers", "the kernel does not tell their sizes", ""};
+    if (!bytes) return {Mark::kSkipped, "lcm buffers", "the kernel does not report their sizes", ""};
     sizes += (sizes.empty() ? "" : ", ") + name + ' ' + std::to_string(*bytes);
     if (*bytes < kBufferBytes) too_small += " net.core." + name + '=' + std::to_string(kBufferBytes);
   }

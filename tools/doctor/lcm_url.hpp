@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-/// What an LCM URL says, as far as the network matters.
+/// The parts of an LCM URL that concern the network.
 struct LcmUrl {
   enum class Provider : std::uint8_t { kMulticast, kOther };  ///< udpm://, or file://, tcpq://, memq://
   Provider provider = Provider::kMulticast;

@@ -28,7 +28,7 @@ class Network {
   /// nullopt: there is no route to it.
   [[nodiscard]] virtual std::optional<NetworkRoute> route_to(const std::string& address) = 0;
   /// Joins the group on a free port, sends itself one datagram that must not leave this machine, and waits
-  /// for it for half a second. Errors say which of these failed.
+  /// for it for half a second. The error names which of these failed.
   [[nodiscard]] virtual Status send_to_self(const std::string& group) = 0;
 };
 

@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-/// What the system says of itself in files: /proc, /sys, /etc. Tests put a directory of their own in the
+/// What the system reports of itself in files: /proc, /sys, /etc. Tests put a directory of their own in the
 /// place of "/". Whatever cannot be read is as if it were not there.
 class SystemFiles {
  public:

@@ -181,7 +181,7 @@ Finding check_in_use(UsbBus& bus, const UsbIdentity& device, const SystemFiles& 
 Finding check_usb_power(const UsbIdentity& device, const SystemFiles& files) {
   const std::optional<std::string> path = sysfs_of(device, files);
   const std::optional<std::string> control = path ? files.read(*path + "/power/control") : std::nullopt;
-  if (!control) return {Mark::kSkipped, "usb power", "the system does not tell", ""};
+  if (!control) return {Mark::kSkipped, "usb power", "the system does not report it", ""};
   if (*control == "on") return {Mark::kOk, "usb power", "the device is kept awake", ""};
   return {Mark::kWarning, "usb power", "the kernel may put the device to sleep while no program uses it",
           kInstallRule};

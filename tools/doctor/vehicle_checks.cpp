@@ -13,11 +13,11 @@ namespace {
 
 // The first with a filter on the Multiranger's readings; before it, walls out of reach show as near ones.
 constexpr std::string_view kFirstFilteringFirmware = "2022.09";
-// At rest. Below the first a flight is short; below the second the vehicle itself says low.
+// At rest. Below the first a flight is short; below the second the vehicle itself reports low.
 constexpr int kChargeSoonMv = 3700;
 constexpr int kEmptyMv = 3200;
 
-/// "2026.08", as releases are named; development builds say other things.
+/// "2026.08", as releases are named; development builds have other texts.
 bool is_release(std::string_view firmware) {
   constexpr std::size_t kLength = 7;
   if (firmware.size() < kLength || firmware[4] != '.') return false;
@@ -29,13 +29,13 @@ Finding check_firmware(const VehicleFacts& facts) {
   const std::string protocol = "CRTP protocol " + std::to_string(facts.protocol);
   const std::string all = facts.firmware.empty() ? protocol : facts.firmware + ", " + protocol;
   if (facts.protocol == 0)
-    return {Mark::kProblem, "vehicle firmware", "it does not say what it is", "restart the vehicle"};
+    return {Mark::kProblem, "vehicle firmware", "it does not report its version", "restart the vehicle"};
   if (facts.protocol < kOldestProtocol)
     return {Mark::kProblem, "vehicle firmware", protocol + " is too old, swiftlet needs 4",
             "update the vehicle's firmware"};
   if (facts.protocol > kNewestProtocol)
     return {Mark::kWarning, "vehicle firmware",
-            all + ": newer than " + std::to_string(kNewestProtocol) + ", the newest that swiftlet knows",
+            all + ": newer than " + std::to_string(kNewestProtocol) + ", the newest that swiftlet supports",
             "should samples look wrong, update swiftlet"};
   if (is_release(facts.firmware) && facts.firmware < kFirstFilteringFirmware)
     return {Mark::kWarning, "vehicle firmware",
@@ -56,7 +56,7 @@ Finding check_deck(const char* check, std::optional<bool> attached, const std::s
   if (attached == false)
     return {Mark::kProblem, check, "the vehicle finds none: " + without,
             "check how it is mounted, then restart the vehicle"};
-  return {Mark::kWarning, check, "the vehicle does not say whether it has one",
+  return {Mark::kWarning, check, "the vehicle does not report whether it has one",
           "look: " + without + " without"};
 }
 
@@ -67,7 +67,7 @@ std::string volts(int millivolts) {
 }
 
 Finding check_battery(const VehicleHealth& health) {
-  if (!health.battery_mv) return {Mark::kSkipped, "battery", "the vehicle does not tell", ""};
+  if (!health.battery_mv) return {Mark::kSkipped, "battery", "the vehicle does not report it", ""};
   const std::string now = volts(*health.battery_mv);
   const bool is_resting = !health.is_flying.value_or(false);
   if (health.battery_is_low || *health.battery_mv < kEmptyMv)
@@ -78,7 +78,8 @@ Finding check_battery(const VehicleHealth& health) {
 }
 
 Finding check_motors(const VehicleHealth& health) {
-  if (!health.is_flying) return {Mark::kSkipped, "motors", "the vehicle does not tell whether it flies", ""};
+  if (!health.is_flying)
+    return {Mark::kSkipped, "motors", "the vehicle does not report whether it flies", ""};
   if (*health.is_flying)
     return {Mark::kWarning, "motors", "it is flying: the questions just asked have reset its log",
             "ask before take-off"};

@@ -20,11 +20,11 @@
 
 namespace swiftlet {
 
-/// What a vehicle told of itself.
+/// What a vehicle reported of itself.
 struct VehicleFacts {
   bool answered = false;    ///< anything was received from it
-  int protocol = 0;         ///< CRTP protocol version; 0: not told
-  std::string firmware;     ///< "2026.08"; empty: not told
+  int protocol = 0;         ///< CRTP protocol version; 0: not reported
+  std::string firmware;     ///< "2026.08"; empty: not reported
   std::string device_type;  ///< "Crazyflie 2.1"
   std::optional<bool> has_multiranger;
   std::optional<bool> has_flow_deck;
@@ -45,7 +45,7 @@ class VehicleInterview {
   /// A frame of either direction.
   void on_frame(const LinkFrame& frame);
 
-  /// All is told; or the vehicle logs, but not the rest.
+  /// All is known; or the vehicle logs, but does not answer the rest.
   [[nodiscard]] bool finished(HostTime now) const;
   /// Anything was received from the vehicle.
   [[nodiscard]] bool answered() const { return answered_; }

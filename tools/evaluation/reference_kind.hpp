@@ -15,7 +15,7 @@ enum class ReferenceKind {
   kFlight,     ///< the capture that the trajectory was made from
 };
 
-/// Tells by the content. A capture begins like one (or is named .pcap). Relations and TUM trajectories both
+/// Decides by the content. A capture begins like one (or is named .pcap). Relations and TUM trajectories both
 /// have eight columns: a name that ends in .relations or .relations.gz settles it; otherwise either all lines
 /// must end in a unit quaternion (TUM) or all have a second stamp within the time of the first ones and up to
 /// a day later (relations), but not both.

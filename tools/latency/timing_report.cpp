@@ -51,7 +51,7 @@ Result<TimingReport> read_timing_report(const std::filesystem::path& file) {
   }
   return Error{ErrorCode::kInvalidInput,
                file.string() +
-                   ": not a report.json that tells how the run kept time; name one that swiftletd "
+                   ": not a report.json with the times of a run; name one that swiftletd "
                    "-o or swiftlet map -o wrote"};
 }
 

@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-/// How a run kept time, as report.json or a status message tells it.
+/// How a run kept time, as report.json or a status message reports it.
 struct TimingReport {
   struct Queue {
     std::string name;

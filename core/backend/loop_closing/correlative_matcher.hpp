@@ -27,7 +27,7 @@ struct MatchResult {
   Pose2 T_submap_scan_best;    ///< the best of the poses searched, always on the walls
   double score = 0.0;          ///< its mean probability under the points, kernel applied, 0..1
   Eigen::Matrix3d covariance;  ///< of T_submap_scan's vector, from the scores around the optimum, less what
-                               ///< the submap's extent alone would say
+                               ///< the submap's extent alone would give
 };
 
 /// The discrete optimum of eq. 22, before refinement: exact within the window.
@@ -41,7 +41,7 @@ struct DiscreteMatch {
 
 /// Correlative scan-to-submap matching (eqs. 21-22; Olson 2009, "Real-time correlative scan matching") by
 /// branch and bound (Hess et al. 2016). Of equal scores the one nearest the prediction wins: along a bare
-/// corridor the scores are flat, and the covariance says so. Allocates in the constructor. Views the submap,
+/// corridor the scores are flat, and the covariance is wide. Allocates in the constructor. Views the submap,
 /// which must outlive it.
 class CorrelativeMatcher {
  public:

@@ -17,7 +17,7 @@ struct LoopClosure {
   Pose2 T_from_to;
   Covariance3 covariance;  ///< of T_from_to, in the frame of `from`
   double score = 0.0;      ///< mean probability under the matched points
-  double dcs_scale = 1.0;  ///< what DCS makes of it at present, 1 = fully believed
+  double dcs_scale = 1.0;  ///< its present scale under DCS, 1 = full weight
   bool dropped = false;    ///< refused in the final pass
 };
 

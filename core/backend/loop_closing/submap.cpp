@@ -24,8 +24,8 @@ void include(const Point2& p, Point2& low, Point2& high) {
   high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
 }
 
-/// Log-odds of occupancy, by counting what beams say: their end hits, the way there misses. A beam that meets
-/// nothing says nothing here: at these ranges it is as often a bad surface as free space.
+/// Log-odds of occupancy by counting: the end of a beam is a hit, the cells before it are misses. A beam
+/// without return adds nothing: at these ranges it is as often a bad surface as free space.
 class EvidenceGrid {
  public:
   EvidenceGrid(const GridGeometry& geometry, const BackendConfig& config)

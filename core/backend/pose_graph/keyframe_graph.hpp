@@ -17,7 +17,7 @@ namespace swiftlet {
 
 /// Whether the graph's poses are at rest.
 enum class GraphState : std::uint8_t {
-  kSettled,     ///< every factor had its say when it was last optimised
+  kSettled,     ///< every factor took part in the last optimisation
   kPending,     ///< new factors, which the graph had expected, wait for others
   kConverging,  ///< the last optimisation was stopped before it had converged
   kMoved,       ///< the poses were moved to where a group of closures puts them, and not optimised since

@@ -120,10 +120,9 @@ std::optional<KeyframeId> Coverage::anchor_of(const Traversal& traversal, double
   std::optional<KeyframeId> anchor;
   for (const Traversal& other : traversals_) {
     if (!other.stays_for_good || std::abs(other.path_m - traversal.path_m) < other_time_m) continue;
-    const double distance_m = std::hypot(other.middle_map.x_m - traversal.middle_map.x_m,
-                                         other.middle_map.y_m - traversal.middle_map.y_m);
-    if (distance_m >= nearest_m) continue;
-    nearest_m = distance_m;
+    const double off_m = distance_m(traversal.middle_map, other.middle_map);
+    if (off_m >= nearest_m) continue;
+    nearest_m = off_m;
     anchor = other.keyframes.first + kKeyframesPerTraversal / 2;
   }
   return anchor;
@@ -180,7 +179,8 @@ void Pruner::keep_anchors(const Pruning& pruning) {
   anchors_.erase(std::unique(anchors_.begin(), anchors_.end()), anchors_.end());
 }
 
-/// What the frontend may still change, is part of open submaps or multiscans, or tells the building's axis.
+/// The first keyframe that the frontend may still change, or that an open submap, a multiscan or the
+/// building's axis uses.
 KeyframeId Pruner::first_recent(KeyframeId first_in_use) const {
   const IdMap<KeyframeId, ScanId>& keyframes = chain_->all();
   const double recent_m = chain_->path_m(keyframes.last_id()) -

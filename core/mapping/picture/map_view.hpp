@@ -18,8 +18,7 @@ struct PixelRectangle {
 /// whole number of cells, so that walls are sharp everywhere.
 class MapView {
  public:
-  /// Frames all that the scene knows; odometry may add a sixth of that on each side, what strays farther is
-  /// cut off.
+  /// Frames the whole scene; odometry may add a sixth of that on each side, what strays farther is cut off.
   explicit MapView(const MapScene& scene);
 
   [[nodiscard]] int width_px() const { return width_px_; }

@@ -85,7 +85,7 @@ TEST_F(ServiceWatchTest, TellsEachStatusInOneLine) {
 TEST(ServiceManager, IsSilentWhereThereIsNone) {
   const ServiceManager nobody;
   EXPECT_FALSE(nobody.watchdog_period().has_value());
-  nobody.say_ready();
+  nobody.report_ready();
   nobody.feed_watchdog();
 }
 
