@@ -21,8 +21,9 @@ constexpr Duration kUnwatched = std::chrono::seconds(1);
 constexpr Duration kBatteryLasts = std::chrono::minutes(10);
 // Ten times as far as the firmware's estimator lets its position go.
 constexpr double kFarthestM = 1000.0;
-// A vehicle that sends without end, but nothing that samples need, must not block the caller.
-constexpr int kMaxFramesAtOnce = 64;
+// A vehicle that sends without end, but nothing that samples need, must not block the caller; who rests for a
+// millisecond after each call still reads 100 000 useless packets a second.
+constexpr int kMaxFramesAtOnce = 256;
 constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
 
 AssemblyConfig assembly_config(const SensorModel& sensor) {

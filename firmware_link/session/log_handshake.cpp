@@ -89,13 +89,19 @@ void LogHandshake::enter(Step step) {
   if (step == Step::kToc) toc_.emplace(kLogTocTopic, *cache_, request_.timer());
 }
 
-void LogHandshake::fail(std::string message) {
-  if (asks_again_ < kMaxAsksAgain) {
-    ++asks_again_;
-    if (step_ != Step::kSource) enter(Step::kSource);
-    return;
-  }
-  failure_ = Error{ErrorCode::kInvalidInput, std::move(message)};
+/// A vehicle that refuses says the same each time; damage and garbage differ.
+void LogHandshake::refuse(std::string message, std::span<const std::uint8_t> answer) {
+  std::string refusal = message;
+  refusal.append(answer.begin(), answer.end());
+  if (refusal != refusal_) asks_again_ = 0;
+  refusal_ = std::move(refusal);
+  if (asks_again_ == kMaxAsksAgain) return fail({ErrorCode::kInvalidInput, std::move(message)});
+  ++asks_again_;
+  if (step_ != Step::kSource) enter(Step::kSource);
+}
+
+void LogHandshake::fail(Error why) {
+  failure_ = std::move(why);
   enter(Step::kFailed);
 }
 
@@ -104,28 +110,29 @@ void LogHandshake::on_source(std::span<const std::uint8_t> packet) {
   if (text.starts_with(kSourceText)) return enter(Step::kVersion);
   // The right answer to the same request may still come.
   if (std::exchange(awaits_source_, false))
-    fail("the vehicle is not a Crazyflie, or older than CRTP protocol 1");
+    refuse("the vehicle is not a Crazyflie, or older than CRTP protocol 1", packet);
 }
 
 void LogHandshake::on_version(std::span<const std::uint8_t> packet) {
   if (packet.size() < 3 || packet[1] != static_cast<std::uint8_t>(VersionQuery::kProtocol)) return;
   protocol_ = packet[2];
   if (protocol_ < kOldestProtocol)
-    return fail("the vehicle's firmware has CRTP protocol " + std::to_string(protocol_) +
-                ", swiftlet needs 4 or newer: update it to 2018.10 or newer");
+    return refuse("the vehicle's firmware has CRTP protocol " + std::to_string(protocol_) +
+                      ", swiftlet needs 4 or newer: update it to 2018.10 or newer",
+                  packet);
   enter(Step::kReset);
 }
 
 void LogHandshake::on_reset(std::span<const std::uint8_t> packet) {
   // The id in the reply to a reset has no meaning.
   if (static_cast<LogError>(packet[3]) != LogError::kNone)
-    return fail("the vehicle refuses to reset its log, error " + std::to_string(packet[3]));
+    return refuse("the vehicle refuses to reset its log, error " + std::to_string(packet[3]));
   enter(Step::kToc);
 }
 
 void LogHandshake::on_toc(std::span<const std::uint8_t> packet, HostTime at) {
   toc_->on_frame(packet, at);
-  if (toc_->failure()) return fail(toc_->failure()->message);
+  if (toc_->failure()) return fail(*toc_->failure());  // it has asked again itself
   if (!toc_->finished()) return;
   request_ = PendingRequest(toc_->timer());
   if (toc_->came_from_cache()) restate_cached_toc();
@@ -151,8 +158,9 @@ void LogHandshake::plan_blocks() {
         if (find_readable(*toc_, name) == nullptr) missing += ' ' + std::string(name);
       for (const std::string_view name : kRangeBlock)
         if (find_readable(*toc_, name) == nullptr) missing += ' ' + std::string(name);
-      return fail("the vehicle's firmware does not offer the log variables" + missing +
-                  ": update it to a release of 2022.09 or newer, built with the range module");
+      cache_->forget(kLogTocTopic.port, toc_->info());  // a damaged answer may have been stored
+      return refuse("the vehicle's firmware does not offer the log variables" + missing +
+                    ": update it to a release of 2022.09 or newer, built with the range module");
     }
   }
   if (plan_block(kSlowBlockId, kSlow10ms, {}, kSlowBlock)) plan_.back().optional = true;
@@ -211,9 +219,9 @@ void LogHandshake::answer_refusal(LogCommand command, LogError error) {
   if (error == LogError::kNoRoom) remedy = ": its log is full; stop other clients";
   if (error == LogError::kUnknown) remedy = ": it does not know its own variables; restart it";
   if (error == LogError::kUnknownCommand) remedy = ": its firmware is too old; update it";
-  fail("the vehicle refuses log block " + std::to_string(plan_[block_].id) + ", command " +
-       std::to_string(static_cast<int>(command)) + ", error " + std::to_string(static_cast<int>(error)) +
-       remedy);
+  refuse("the vehicle refuses log block " + std::to_string(plan_[block_].id) + ", command " +
+         std::to_string(static_cast<int>(command)) + ", error " + std::to_string(static_cast<int>(error)) +
+         remedy);
 }
 
 std::vector<std::uint8_t> LogHandshake::essential_blocks() const {

@@ -53,7 +53,8 @@ class LogHandshake {
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
   /// The blocks that samples are made of. Once finished().
   [[nodiscard]] std::vector<std::uint8_t> essential_blocks() const;
-  /// Why this vehicle cannot be used; final: it was asked four times. Lost packets are no failure.
+  /// Why this vehicle cannot be used; final: it said so four times in the same words. Neither lost packets
+  /// nor garbage are a failure.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// CRTP protocol version; 0 until received. kNewestProtocol is the newest that swiftlet was tried with.
   [[nodiscard]] int protocol() const { return protocol_; }
@@ -67,7 +68,8 @@ class LogHandshake {
   };
 
   void enter(Step step);
-  void fail(std::string message);
+  void refuse(std::string message, std::span<const std::uint8_t> answer = {});
+  void fail(Error why);
   void on_source(std::span<const std::uint8_t> packet);
   void on_version(std::span<const std::uint8_t> packet);
   void on_toc(std::span<const std::uint8_t> packet, HostTime at);
@@ -93,7 +95,8 @@ class LogHandshake {
   std::vector<PlannedBlock> plan_;
   std::size_t block_ = 0;          ///< of the plan
   std::size_t block_request_ = 0;  ///< of the block
-  int asks_again_ = 0;             ///< from the beginning, after a refusal
+  std::string refusal_;            ///< the last one, and the answer that it was read from
+  int asks_again_ = 0;             ///< from the beginning, after this refusal
   bool awaits_source_ = false;     ///< the last request has not been answered
   int append_patience_ = 1;        ///< in usual waits
   std::optional<Error> failure_;

@@ -7,6 +7,11 @@
 #include <utility>
 
 namespace swiftlet {
+namespace {
+
+constexpr int kMaxRefusedInARow = 3;
+
+}  // namespace
 
 TocDownload::TocDownload(const CrtpTopic& topic, TocCache& cache, const RepeatTimer& timer)
     : topic_(topic), cache_(&cache), request_(timer), timer_(timer) {
@@ -42,8 +47,10 @@ void TocDownload::on_frame(std::span<const std::uint8_t> packet, HostTime at) {
     timer_ = request_.timer();
     return on_info(*info);
   }
-  // A reply of two bytes means that there is no such item, although the table counts it.
+  // A reply of two bytes means that there is no such item, although the table counts it; or that the request
+  // was damaged on its way.
   if (packet.size() == 2 && packet[1] == static_cast<std::uint8_t>(TocCommand::kItem)) {
+    if (++refused_in_a_row_ <= kMaxRefusedInARow) return;
     failure_ = Error{ErrorCode::kInvalidInput, "the vehicle's table of contents ends at item " +
                                                    std::to_string(known_) + " of " +
                                                    std::to_string(info_.count) + ": restart the vehicle"};
@@ -72,6 +79,7 @@ void TocDownload::on_item(TocItem item, HostTime at) {
   if (asked == open_.end()) return;  // the reply to a repetition
   if (!asked->was_repeated) timer_.on_round_trip(at - asked->sent_at);
   open_.erase(static_cast<std::size_t>(asked - open_.begin()));
+  refused_in_a_row_ = 0;
   items_[item.id] = std::move(item);
   ++known_;
   if (known_ == items_.size()) finish();

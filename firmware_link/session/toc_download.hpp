@@ -77,6 +77,7 @@ class TocDownload {
   std::size_t known_ = 0;
   std::uint16_t next_id_ = 0;  // of those not requested yet
   FixedVector<OpenItem, kMaxOpen> open_;
+  int refused_in_a_row_ = 0;  // since the last item
   bool finished_ = false;
   bool from_cache_ = false;
   std::optional<Error> failure_;

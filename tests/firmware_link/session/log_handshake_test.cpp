@@ -9,6 +9,7 @@
 #include <chrono>
 #include <deque>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -189,6 +190,43 @@ TEST_F(LogHandshakeTest, AsksThreeTimesMoreBeforeItBelievesARefusal) {
       EXPECT_FALSE(failure_after(link_.vehicle, hex(bad), times)) << bad << ", " << times << " times";
     EXPECT_TRUE(failure_after(link_.vehicle, hex(bad), 4)) << bad;
   }
+}
+
+TEST_F(LogHandshakeTest, BelievesNoRefusalThatTheVehicleDoesNotRepeat) {
+  for (const std::uint8_t header : {0xFD, 0xDD}) {
+    LogSession session;
+    TocCache cache;
+    LogHandshake handshake(session, cache);
+    ScriptedVehicle vehicle = link_.vehicle;
+    std::uint8_t bad_answers = 0;
+    for (std::int64_t ms = 0; ms < 60'000 && !handshake.finished() && !handshake.failure(); ++ms) {
+      const std::optional<CrtpPacket> request = handshake.next_request(host_ms(ms));
+      if (!request) continue;
+      std::optional<Bytes> reply = vehicle.answer(bytes_of(*request));
+      const bool is_garbage = (((*request)[0] ^ header) & 0xF3) == 0 && bad_answers < 20;
+      if (is_garbage) reply = Bytes{header, 0, 1, ++bad_answers};
+      const LinkFrame frame = received(*reply, host_ms(ms));
+      static_cast<void>(session.on_frame(frame));
+      handshake.on_frame(frame.packet(), frame.at);
+    }
+    EXPECT_TRUE(handshake.finished()) << int{header} << ", " << handshake.failure()->message;
+  }
+}
+
+TEST_F(LogHandshakeTest, ReadsATableAgainInWhichAVariableIsMissing) {
+  std::set<std::string> undamaged{"stateEstimate.x", "stateEstimateZ.x"};
+  for (std::int64_t ms = 0; ms < 60'000 && !handshake_.finished() && !handshake_.failure(); ++ms) {
+    const std::optional<CrtpPacket> request = handshake_.next_request(host_ms(ms));
+    if (!request) continue;
+    Bytes reply = *link_.vehicle.answer(bytes_of(*request));
+    const std::optional<TocItem> item = read_toc_item(reply);
+    if (item && undamaged.erase(item->name) > 0) reply[5] ^= 1U;
+    const LinkFrame frame = received(reply, host_ms(ms));
+    static_cast<void>(session_.on_frame(frame));
+    handshake_.on_frame(frame.packet(), frame.at);
+  }
+  EXPECT_TRUE(undamaged.empty());
+  EXPECT_TRUE(handshake_.finished());
 }
 
 TEST_F(LogHandshakeTest, IgnoresRepliesToOtherItemsAndBlocks) {

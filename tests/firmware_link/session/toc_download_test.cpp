@@ -103,12 +103,22 @@ TEST_F(TocDownloadTest, FailsIfTheTableEndsBeforeItsCount) {
   download_.on_frame(info_, host_ms(0));
   EXPECT_EQ(request(0), hex("5c 02 0000"));
   download_.on_frame(front_, host_ms(1));
-  download_.on_frame(hex("50 02"), host_ms(2));
+  for (int i = 0; i < 4; ++i) download_.on_frame(hex("50 02"), host_ms(2 + i));
   ASSERT_TRUE(download_.failure().has_value());
   EXPECT_THAT(download_.failure()->message, HasSubstr("item 1 of 2"));
   EXPECT_FALSE(download_.finished());
   EXPECT_EQ(request(1000), Bytes{});
   EXPECT_FALSE(cache_.load(kLogTocTopic.port, TocInfo{2, 0x714CA18C}).has_value());
+}
+
+TEST_F(TocDownloadTest, ADamagedRequestForAnItemDoesNotEndTheTable) {
+  download_.on_frame(info_, host_ms(0));
+  EXPECT_EQ(request(0), hex("5c 02 0000"));
+  for (int i = 0; i < 3; ++i) download_.on_frame(hex("50 02"), host_ms(1));
+  download_.on_frame(front_, host_ms(2));
+  for (int i = 0; i < 3; ++i) download_.on_frame(hex("50 02"), host_ms(3));
+  EXPECT_FALSE(download_.failure().has_value());
+  EXPECT_DOUBLE_EQ(download_.progress(), 0.5);
 }
 
 TEST_F(TocDownloadTest, AnEmptyTableIsComplete) {
