@@ -9,6 +9,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -17,6 +18,7 @@
 #include <set>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "core/base/check.hpp"
@@ -130,6 +132,21 @@ LinkInput input_for(FaultyFlight& flight, SampleTimes& times) {
   return input;
 }
 
+/// Simulated time has no use for the pauses of the radio thread, a millisecond of real time each.
+class HurriedClock final : public Clock {
+ public:
+  [[nodiscard]] MonotonicTime now() const override { return steady_.now(); }
+  void sleep_until(MonotonicTime /*wake_at*/) override {
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+  }
+  void wait_for(EventCount& event_count, std::uint32_t received, MonotonicTime wake_at) override {
+    steady_.wait_for(event_count, received, wake_at);
+  }
+
+ private:
+  SteadyClock steady_;
+};
+
 Json error_json(const Daemon& daemon, const LinkSampleSource& source) {
   const std::optional<RunError> error = run_error({.backend = daemon.pipeline().backend(),
                                                    .map = daemon.pipeline().map(),
@@ -171,7 +188,7 @@ int run(Duration duration, const RelayFaults& faults) {
   SampleTimes times;
   LinkSampleSource source(input_for(flight, times));
   const Configuration config;
-  SteadyClock clock;
+  HurriedClock clock;
   CountingPublisher publisher;
   // Simulated time waits for the frontend.
   Daemon daemon(config, source, clock, {.rate = {}, .refuses_when_full = false}, publisher);
