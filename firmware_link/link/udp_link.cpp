@@ -25,6 +25,8 @@ constexpr int kMaxAtOnce = 64;
 constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
 constexpr std::array<std::uint8_t, 1> kFarewell{0xF4};
 constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
+// A flood must not push the vehicle's packets out meanwhile. The system grants what net.core.rmem_max allows.
+constexpr int kSocketBufferBytes = 1 << 20;
 // A longer time means that the machine's clock was set meanwhile.
 constexpr Duration kMaxInSocket = std::chrono::seconds(1);
 
@@ -71,6 +73,8 @@ Result<std::unique_ptr<UdpLink>> UdpLink::open(const std::string& host, std::uin
                  "udp://" + host + ": the system gives no socket: " + std::strerror(errno)};
   const int on = 1;
   static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on));
+  static_cast<void>(
+      ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &kSocketBufferBytes, sizeof kSocketBufferBytes));
   return std::unique_ptr<UdpLink>(new UdpLink(socket, *peer, clock));
 }
 

@@ -181,6 +181,16 @@ TEST(UdpLink, DoesNotDeliverNullPacketsAndWrongSizes) {
   EXPECT_EQ(pair.link->statistics().packets_received, 1U);
 }
 
+TEST(UdpLink, KeepsABurstThatComesWhileNobodyReads) {
+  constexpr int kBurst = 400;
+  Pair pair;
+  pair.connect();
+  for (int i = 0; i < kBurst; ++i) pair.peer.send(hex("52 01 00 00 00 00"));
+  int delivered = 0;
+  while (pair.look()) ++delivered;
+  EXPECT_EQ(delivered, kBurst);
+}
+
 TEST(UdpLink, StampsAFrameWithItsTimeOfArrivalHoweverLateItIsRead) {
   SystemLinkClock clock;
   UdpPeer peer;
