@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "firmware_link/crtp/byte_order.hpp"
 
@@ -39,8 +40,10 @@ std::size_t byte_count(const LogEntries& entries) {
 }
 
 void LogBlockTable::on_request(std::span<const std::uint8_t> packet) {
-  if (packet.size() < 3) return;  // only reset is shorter, and its reply suffices
+  if (packet.size() < 2) return;
   const auto command = static_cast<LogCommand>(packet[1]);
+  if (command == LogCommand::kReset) reset_requested_ = true;
+  if (packet.size() < 3) return;
   Request& request = requests_[packet[2]];
   if (command == LogCommand::kCreate || command == LogCommand::kAppend) {
     request.command = command;
@@ -80,7 +83,8 @@ void LogBlockTable::on_reply(std::span<const std::uint8_t> packet) {
       if (done) forget(id);
       break;
     case LogCommand::kReset:
-      if (done) forget_all();
+      // Nobody asked for it: damaged, late, or for another program, whose reset ends the log data.
+      if (done && std::exchange(reset_requested_, false)) forget_all();
       break;
   }
   const bool names_block = command == LogCommand::kStart || command == LogCommand::kStartV2 ||

@@ -67,6 +67,7 @@ class LogBlockTable {
 
   std::array<LogBlock, 256> blocks_{};
   std::array<Request, 256> requests_{};
+  bool reset_requested_ = false;  ///< and not answered
   std::uint32_t revision_ = 0;
 };
 

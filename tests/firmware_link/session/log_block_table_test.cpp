@@ -62,6 +62,13 @@ TEST_F(LogBlockTableTest, StopKeepsTheLayoutDeleteAndResetDiscardIt) {
   EXPECT_FALSE(table_[3].exists);
 }
 
+TEST_F(LogBlockTableTest, AReplyToAResetThatNobodyRequestedDiscardsNothing) {
+  exchange("5d 05", "5d 05 f8 00");
+  exchange("5d 06 01 77 3e 00", "5d 06 01 00");
+  table_.on_reply(hex("5d 05 f8 00"));
+  EXPECT_TRUE(table_[1].exists);
+}
+
 TEST_F(LogBlockTableTest, DropsABlockThatTheVehicleDoesNotKnow) {
   exchange("5d 06 01 77 3e 00", "5d 06 01 00");
   exchange("5d 03 01 0a", "5d 03 01 02");
