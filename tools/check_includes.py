@@ -23,7 +23,7 @@ SAMPLE = SESSION + ["firmware_link/sample", "firmware_link/file"]
 FIRMWARE_LINK = SAMPLE + ["firmware_link/sharing", "firmware_link/capture", "firmware_link/laser_log", "firmware_link/simulation",
                           "firmware_link/input"]
 STAGES = ["daemon/config", "daemon/system", "daemon/workers"]
-DAEMON = STAGES + ["daemon/publish", "daemon/recording", "daemon/outputs", "daemon"]
+DAEMON = STAGES + ["daemon/publish", "daemon/view", "daemon/recording", "daemon/outputs", "daemon"]
 ALLOWED = {  # folder: folders it may include from, besides itself; the longest matching folder counts
     "core/base": [],
     "core/geometry": ["core/base"],
@@ -55,6 +55,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "daemon/config": CORE + ["daemon/system"],
     "daemon/workers": CORE + FIRMWARE_LINK + ["daemon/config", "daemon/system"],
     "daemon/publish": CORE + FIRMWARE_LINK + STAGES + ["proto"],
+    "daemon/view": CORE + FIRMWARE_LINK + STAGES + ["daemon/publish", "proto"],
     "daemon/recording": CORE + FIRMWARE_LINK + STAGES,
     "daemon/outputs": CORE + FIRMWARE_LINK + STAGES,
     "daemon": CORE + FIRMWARE_LINK + DAEMON,
@@ -66,6 +67,7 @@ ONE_FILE_ONLY = {
     "CHOLMOD": re.compile(r"(^|/)cholmod\.h$"),
     "LCM": re.compile(r"^lcm/lcm"),
     "libsystemd": re.compile(r"^systemd/"),
+    "Boost.Beast": re.compile(r"^boost/(beast|asio)"),
 }
 NOT_IN_CORE = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "fstream", "iostream", "filesystem"}
 ASKS_FOR_THE_TIME = re.compile(r"\bnow\s*\(\s*\)")

@@ -28,6 +28,7 @@
 #include "tools/map_command.hpp"
 #include "tools/record_command.hpp"
 #include "tools/sim_command.hpp"
+#include "tools/view_command.hpp"
 
 namespace {
 
@@ -187,6 +188,29 @@ CLI::App* add_latency_command(CLI::App& app, swiftlet::LatencyCommand& command) 
   return latency;
 }
 
+CLI::App* add_view_command(CLI::App& app, swiftlet::ViewCommand& command) {
+  CLI::App* view =
+      app.add_subcommand("view", "Show the live map of a running swiftletd, or a recording, in a browser");
+  CLI::Option* input =
+      view->add_option("INPUT", command.input,
+                       "To be mapped and shown; without it a running swiftletd is\n" + finite_inputs());
+  view->add_option("--listen", command.listen, "ADDRESS:PORT where the browser finds the page")
+      ->capture_default_str();
+  view->add_option("--lcm-url", command.lcm_url, "Where swiftletd publishes")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
+  view->add_option("--channel-prefix", command.channel_prefix, "As in swiftletd's configuration")
+      ->capture_default_str();
+  view->add_option("--rate", command.rate, "Play the input at this many times its pace")
+      ->check(swiftlet::number_from(0.1, 1000.0))
+      ->needs(input);
+  view->add_option("--config", command.config_file, "For the input: TOML file with settings")->needs(input);
+  view->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
+      ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)))
+      ->needs(input);
+  return view;
+}
+
 CLI::App* add_help_command(CLI::App& app, std::string& command) {
   CLI::App* help = app.add_subcommand("help", "Print the options of a command");
   help->add_option("COMMAND", command, "One of those that swiftlet --help lists");
@@ -241,6 +265,7 @@ struct Commands {
   swiftlet::CalibrateCommand calibrate;
   swiftlet::FlightsCommand flights;
   swiftlet::LatencyCommand latency;
+  swiftlet::ViewCommand view;
   std::string help;  ///< of this command; empty: of all
 };
 
@@ -267,6 +292,7 @@ std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
            [&c, done] { return done(swiftlet::run_flights_command(c.flights)); }},
           {add_latency_command(app, c.latency),
            [&c, done] { return done(swiftlet::run_latency_command(c.latency)); }},
+          {add_view_command(app, c.view), [&c, done] { return done(swiftlet::run_view_command(c.view)); }},
           {add_help_command(app, c.help), [&c, &app] { return run_help(app, c.help); }}};
 }
 

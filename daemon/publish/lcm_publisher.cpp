@@ -205,8 +205,8 @@ std::int8_t state_code(DaemonState state) {
 
 class LcmPublisher final : public Publisher {
  public:
-  LcmPublisher(std::unique_ptr<LcmTransport> transport, const std::string& prefix, std::int64_t map_id)
-      : lcm_(std::move(transport)),
+  LcmPublisher(MessageSink sink, const std::string& prefix, std::int64_t map_id)
+      : sink_(std::move(sink)),
         map_id_(map_id),
         pose_map_(prefix + "POSE"),
         pose_local_(prefix + "POSE_LOCAL"),
@@ -233,14 +233,14 @@ class LcmPublisher final : public Publisher {
     const std::size_t room = kMaxLcmMessageBytes - channel.size() - 1;
     const int bytes = message.encode(buffer_.data(), 0, static_cast<int>(room));
     SWIFTLET_CHECK(bytes > 0, "a message fits one datagram by construction");
-    if (lcm_->publish(channel, std::span(buffer_).first(static_cast<std::size_t>(bytes)))) return;
+    if (sink_(channel, std::span(buffer_).first(static_cast<std::size_t>(bytes)))) return;
     if (!std::exchange(has_failed_, true))
       spdlog::error("LCM did not take a message on {}: {}{}", channel, std::strerror(errno),
                     errno == ENOTCONN ? "; start its server, which is looked for until it answers" : "");
   }
   void send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose, const PoseUpdate& update);
 
-  std::unique_ptr<LcmTransport> lcm_;
+  MessageSink sink_;
   std::int64_t map_id_;
   // Channels.
   const std::string pose_map_, pose_local_, pose_odom_, pose2d_map_, pose2d_odom_, map_info_, map_tile_,
@@ -377,8 +377,16 @@ Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
                                                       std::int64_t map_id) {
   Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
   if (!transport) return transport.error();
-  return std::unique_ptr<Publisher>(
-      std::make_unique<LcmPublisher>(std::move(transport).value(), channel_prefix, map_id));
+  const std::shared_ptr<LcmTransport> lcm = std::move(transport).value();
+  const auto sink = [lcm](const std::string& channel, std::span<const std::uint8_t> message) {
+    return lcm->publish(channel, message);
+  };
+  return make_message_publisher(sink, channel_prefix, map_id);
+}
+
+std::unique_ptr<Publisher> make_message_publisher(MessageSink sink, const std::string& channel_prefix,
+                                                  std::int64_t map_id) {
+  return std::make_unique<LcmPublisher>(std::move(sink), channel_prefix, map_id);
 }
 
 }  // namespace swiftlet

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/base/result.hpp"
@@ -22,5 +24,12 @@ inline constexpr std::size_t kMaxWallsPerMessage = 1000;
 [[nodiscard]] Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
                                                                     const std::string& channel_prefix,
                                                                     std::int64_t map_id);
+
+/// Takes an encoded message, which is valid during the call. False, with errno: it is lost.
+using MessageSink = std::function<bool(const std::string& channel, std::span<const std::uint8_t> message)>;
+/// The same messages for `sink`, without LCM.
+[[nodiscard]] std::unique_ptr<Publisher> make_message_publisher(MessageSink sink,
+                                                                const std::string& channel_prefix,
+                                                                std::int64_t map_id);
 
 }  // namespace swiftlet

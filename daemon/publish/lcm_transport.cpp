@@ -18,6 +18,8 @@
 namespace swiftlet {
 namespace {
 
+constexpr int kWaitingMessages = 1000;  // of a channel; LCM's own 30 are fewer than tiles come at once
+
 /// LCM itself answers an unknown provider with two lines on stderr and no reason.
 bool has_known_provider(std::string_view url) {
   constexpr std::array<std::string_view, 4> kProviders{"udpm://", "file://", "tcpq://", "memq://"};
@@ -45,9 +47,13 @@ struct LcmTransport::State {
     if (lcm) return &*lcm;
     if (server && !server->is_there()) return nullptr;
     lcm.emplace(url);
-    for (Channel& channel : channels) lcm->subscribeFunction(channel.name, &Channel::take, &channel);
+    for (Channel& channel : channels) subscribe(channel);
     if (!lcm->good()) disconnect();
     return lcm ? &*lcm : nullptr;
+  }
+  void subscribe(Channel& channel) {
+    lcm::Subscription* const subscription = lcm->subscribeFunction(channel.name, &Channel::take, &channel);
+    if (subscription != nullptr) subscription->setQueueCapacity(kWaitingMessages);
   }
   void disconnect() {
     lcm.reset();
@@ -94,7 +100,7 @@ bool LcmTransport::publish(const std::string& channel, std::span<const std::uint
 
 void LcmTransport::listen(const std::string& channel, Listener listener) {
   Channel& kept = state_->channels.emplace_back(Channel{channel, std::move(listener)});
-  if (state_->lcm) state_->lcm->subscribeFunction(channel, &Channel::take, &kept);
+  if (state_->lcm) state_->subscribe(kept);
 }
 
 bool LcmTransport::receive(Duration timeout) {

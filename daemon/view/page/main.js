@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+
+// Puts the parts of the page together.
+
+import {Connection} from "./connection.js";
+import {EventLog} from "./event_log.js";
+import {connectKeys} from "./keys.js";
+import {LayerBoxes, storedLayers} from "./layers.js";
+import {MapInput} from "./map_input.js";
+import {Player} from "./player.js";
+import {RunModel} from "./run_model.js";
+import {SaveButtons} from "./save_buttons.js";
+import {Scene} from "./scene.js";
+import {StatusStrip} from "./status_strip.js";
+import {Theme} from "./theme.js";
+import {TileMap} from "./tile_map.js";
+import {Timeline} from "./timeline.js";
+import {ViewTransform} from "./view_transform.js";
+
+const SILENT_AFTER_ms = 4000;
+const NARROW_px = 760;
+const FREE_px = [48, 28, 60, 48];  // left, top, right, bottom: what lies over the map
+const byId = (id) => document.getElementById(id);
+
+class Page {
+  constructor() {
+    this.canvas = byId("map");
+    this.context = this.canvas.getContext("2d", {alpha: false});
+    this.transform = new ViewTransform();
+    this.model = new RunModel();
+    this.layers = storedLayers();
+    this.theme = new Theme((theme) => this.setColours(theme.colours));
+    this.tileMap = new TileMap(this.theme.colours);
+    this.scene = new Scene(this.model, this.tileMap, this.layers);
+    this.player = new Player(this.model, (at_us) => this.connection.lookAt(at_us));
+    this.timeline = new Timeline(byId("timeline"), this.model, this.player);
+    this.strip = new StatusStrip(byId("gauges"));
+    this.log = new EventLog(byId("log"), this.model, (at_us) => this.player.seek(at_us));
+    this.boxes = new LayerBoxes(byId("layers"), this.layers, () => this.redraw());
+    this.save = new SaveButtons(byId("save"), this);
+    this.input = new MapInput(this.canvas, this.transform, {
+      moved: (isPan) => this.onMoved(isPan),
+      clicked: (point_px) => this.onClicked(point_px),
+      hovered: (point_px) => this.onHovered(point_px),
+    });
+    this.isFitted = true;     // until the user moves the map
+    this.isFollowing = false;
+    this.isHeadingUp = false;
+    this.measure = null;      // {points} while measuring
+    this.isConnected = false;
+    this.lastMessage_ms = 0;
+    this.frames = 0;          // drawn so far
+    this.isSynced = false;
+    this.connectButtons();
+    connectKeys(this);
+    new ResizeObserver(() => this.resize()).observe(byId("stage"));
+    this.resize();
+    this.connection = new Connection((message) => this.onMessage(message), (isThere) => this.onConnection(isThere));
+    this.lastFrame_ms = performance.now();
+    requestAnimationFrame((now_ms) => this.frame(now_ms));
+  }
+
+  connectButtons() {
+    const on = (id, act) => byId(id).addEventListener("click", act);
+    on("zoom-in", () => this.input.closer());
+    on("zoom-out", () => this.input.farther());
+    on("fit", () => this.fit());
+    on("follow", () => this.toggleFollow());
+    on("heading-up", () => this.toggleHeadingUp());
+    on("measure", () => this.toggleMeasure());
+    on("theme", () => this.theme.toggle());
+    on("panel-toggle", () => this.togglePanel());
+    if (innerWidth < NARROW_px) this.togglePanel();
+  }
+
+  onMessage(message) {
+    this.lastMessage_ms = performance.now();
+    this.isSynced = message.type === "synced";
+    const handlers = {
+      run: () => this.beginRun(message),
+      status: () => this.model.status = message,
+      poses: () => this.model.addPoses(message.poses),
+      walls: () => this.model.walls = message.walls,
+      closures: () => this.model.addClosures(message.closures),
+      events: () => this.model.events.push(...message.events),
+      tiles: () => this.addTiles(message),
+    };
+    handlers[message.type]?.();
+    this.redraw();
+  }
+
+  beginRun(run) {
+    const isSame = run.map_id === this.model.run.map_id;
+    this.model.begin(run);
+    this.tileMap.clear();
+    this.log.clear();
+    this.player.begin(run);
+    this.timeline.showRates();
+    byId("title").textContent = titleOf(run);
+    document.title = `${titleOf(run)} – swiftlet`;
+    if (!isSame) this.isFitted = !this.isFollowing;
+  }
+
+  addTiles(message) {
+    this.model.resolution_m = message.resolution_m;
+    for (const tile of message.tiles) this.tileMap.set(tile);
+  }
+
+  onConnection(isThere) {
+    this.isConnected = isThere;
+    if (isThere) this.lastMessage_ms = performance.now();
+    this.redraw();
+  }
+
+  onMoved(isPan) {
+    this.isFitted = false;
+    if (isPan) this.setFollowing(false);
+    this.redraw();
+  }
+
+  onClicked(point_px) {
+    if (!this.measure) return;
+    const points = this.measure.points.length >= 2 ? [] : this.measure.points;
+    this.measure.points = [...points, this.transform.toMap(point_px)];
+    this.redraw();
+  }
+
+  onHovered(point_px) {
+    byId("readout").textContent = point_px === null ? "" : this.placeText(this.transform.toMap(point_px));
+  }
+
+  placeText(point) {
+    const place = point.map((part) => part.toFixed(2).replace("-", "−")).join(", ");
+    const percent = this.model.resolution_m > 0 ? this.tileMap.percentAt(point, this.model.resolution_m) : -1;
+    return percent < 0 ? `${place} m` : `${place} m · ${percent} % occupied`;
+  }
+
+  fit() {
+    this.setFollowing(false);
+    this.setHeadingUp(false);
+    this.isFitted = true;
+    this.redraw();
+  }
+
+  toggleFollow() {
+    this.setFollowing(!this.isFollowing);
+  }
+
+  setFollowing(isFollowing) {
+    this.isFollowing = isFollowing;
+    if (isFollowing) this.isFitted = false;
+    byId("follow").setAttribute("aria-pressed", isFollowing);
+    this.redraw();
+  }
+
+  toggleHeadingUp() {
+    this.setHeadingUp(!this.isHeadingUp);
+    if (this.isHeadingUp) this.setFollowing(true);
+  }
+
+  setHeadingUp(isHeadingUp) {
+    this.isHeadingUp = isHeadingUp;
+    if (!isHeadingUp) this.transform.up_rad = Math.PI / 2;
+    byId("heading-up").setAttribute("aria-pressed", isHeadingUp);
+    this.redraw();
+  }
+
+  toggleMeasure() {
+    this.measure = this.measure ? null : {points: []};
+    byId("measure").setAttribute("aria-pressed", this.measure !== null);
+    this.canvas.dataset.measuring = this.measure !== null;
+    this.redraw();
+  }
+
+  togglePanel() {
+    const isOpen = document.body.classList.toggle("panel-closed") === false;
+    byId("panel-toggle").setAttribute("aria-expanded", isOpen);
+  }
+
+  setColours(colours) {
+    this.tileMap?.setColours(colours);
+    this.redraw();
+  }
+
+  resize() {
+    const box = byId("stage").getBoundingClientRect();
+    this.transform.size = [Math.max(1, box.width), Math.max(1, box.height)];
+    this.canvas.width = this.transform.size[0] * devicePixelRatio;
+    this.canvas.height = this.transform.size[1] * devicePixelRatio;
+    this.redraw();
+  }
+
+  redraw() {
+    this.isStale = true;
+  }
+
+  frame(now_ms) {
+    const hasMoved = this.player.advance(now_ms - this.lastFrame_ms, now_ms);
+    this.lastFrame_ms = now_ms;
+    this.showNotice();
+    if (this.isStale || hasMoved) this.draw();
+    requestAnimationFrame((next_ms) => this.frame(next_ms));
+  }
+
+  draw() {
+    this.isStale = false;
+    this.frames += 1;
+    this.placeView();
+    this.scene.draw({
+      context: this.context, transform: this.transform, colours: this.theme.colours, pixelRatio: devicePixelRatio,
+      at_us: this.player.at_us, measure: this.measure,
+    });
+    this.strip.update(this.model, this.player.at_us);
+    this.timeline.update(this.theme.colours);
+    this.log.update();
+  }
+
+  placeView() {
+    const pose = this.model.poseAt(this.player.at_us);
+    if (this.isFollowing && pose) this.transform.center = pose.map.slice(0, 2);
+    if (this.isHeadingUp && pose) this.transform.up_rad = pose.map[2];
+    if (!this.isFitted) return;
+    const bounds = this.tileMap.bounds(this.model.resolution_m);
+    if (bounds) this.transform.fit(bounds, FREE_px);
+  }
+
+  showNotice() {
+    const [state, text] = this.connectionState();
+    const dot = byId("connection");
+    if (dot.dataset.state === state) return;
+    dot.dataset.state = state;
+    dot.setAttribute("aria-label", text || "connected");
+    byId("notice").textContent = text;
+  }
+
+  connectionState() {
+    if (!this.isConnected) return ["lost", "Connection lost: trying again"];
+    if (this.model.run.generation === 0) return ["waiting", "Waiting for swiftletd"];
+    const isOver = this.model.run.is_recording || this.model.status?.state === 2;
+    if (!isOver && performance.now() - this.lastMessage_ms > SILENT_AFTER_ms) return ["silent", "swiftletd is silent"];
+    return ["there", ""];
+  }
+}
+
+function titleOf(run) {
+  return run.is_recording ? run.title.split("/").pop() : "swiftlet live";
+}
+
+window.swiftletPage = new Page();

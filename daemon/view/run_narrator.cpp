@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/view/run_narrator.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <string>
+
+#include "firmware_link/link/link_condition.hpp"
+#include "swiftlet/link_status_t.hpp"
+#include "swiftlet/status_t.hpp"
+
+namespace swiftlet {
+namespace {
+
+// One cell, at rest under load: below that a Crazyflie soon sinks.
+constexpr double kBatteryLow_v = 3.2;
+constexpr double kBatteryRecovered_v = 3.5;
+
+std::string link_text(std::int8_t condition) {
+  if (condition < 0 || condition > static_cast<std::int8_t>(LinkCondition::kDeviceUnsuited))
+    return "link: unknown condition";
+  return "link: " + std::string(describe(static_cast<LinkCondition>(condition)));
+}
+
+}  // namespace
+
+void RunNarrator::begin_with_run() {
+  if (generation_ == history_.generation()) return;
+  generation_ = history_.generation();
+  status_.reset();
+  pose_.reset();
+  battery_is_low_ = false;
+}
+
+void RunNarrator::see_pose(const TrailPose& pose) {
+  begin_with_run();
+  if (!pose_) history_.add_event(pose.utime_us, EventLevel::kNote, "first pose");
+  if (pose_ && pose.segment != pose_->segment)
+    history_.add_event(pose.utime_us, EventLevel::kWarning,
+                       fmt::format("segment {}: dead reckoning began anew", pose.segment));
+  pose_ = pose;
+}
+
+void RunNarrator::see_status(const RunStatus& status) {
+  begin_with_run();
+  tell_state(status);
+  tell_link(status);
+  tell_battery(status);
+  tell_losses(status);
+  status_ = status;
+}
+
+void RunNarrator::tell_state(const RunStatus& status) {
+  const std::int8_t before = status_ ? status_->state : status_t::STATE_RUNNING;
+  if (status.state == before) return;
+  if (status.state == status_t::STATE_FINISHING)
+    history_.add_event(status.utime_us, EventLevel::kNote, "input ended: the final pass runs");
+  if (status.state == status_t::STATE_FINISHED)
+    history_.add_event(status.utime_us, EventLevel::kGood, "finished: the map is final");
+}
+
+void RunNarrator::tell_link(const RunStatus& status) {
+  const std::int8_t before = status_ ? status_->link_condition : link_status_t::CONDITION_NONE;
+  if (status.link_condition != before) {
+    const bool is_good = status.link_condition == link_status_t::CONDITION_CONNECTED;
+    history_.add_event(status.utime_us, is_good ? EventLevel::kGood : EventLevel::kBad,
+                       link_text(status.link_condition));
+  }
+  const int was_flying = status_ ? status_->flying : -1;
+  if (status.flying == 1 && was_flying != 1) history_.add_event(status.utime_us, EventLevel::kNote, "flying");
+  if (status.flying == 0 && was_flying == 1) history_.add_event(status.utime_us, EventLevel::kNote, "landed");
+}
+
+void RunNarrator::tell_battery(const RunStatus& status) {
+  if (status.battery_v <= 0.0) return;
+  if (!battery_is_low_ && status.battery_v < kBatteryLow_v) {
+    battery_is_low_ = true;
+    history_.add_event(status.utime_us, EventLevel::kBad,
+                       fmt::format("battery low: {:.2f} V", status.battery_v));
+  }
+  if (status.battery_v > kBatteryRecovered_v) battery_is_low_ = false;
+}
+
+void RunNarrator::tell_losses(const RunStatus& status) {
+  if (!status_) return;
+  if (status.missing_packets > status_->missing_packets)
+    history_.add_event(
+        status.utime_us, EventLevel::kWarning,
+        fmt::format("{} packets with ranges missing, {} in all",
+                    status.missing_packets - status_->missing_packets, status.missing_packets));
+  if (status.missed_deadlines > status_->missed_deadlines)
+    history_.add_event(
+        status.utime_us, EventLevel::kWarning,
+        fmt::format("{} poses later than allowed, {} in all",
+                    status.missed_deadlines - status_->missed_deadlines, status.missed_deadlines));
+}
+
+void RunNarrator::see_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us) {
+  begin_with_run();
+  if (is_dropped)
+    history_.add_event(utime_us, EventLevel::kWarning,
+                       fmt::format("loop {} dropped: it contradicts the others", closure.index));
+  else
+    history_.add_event(utime_us, EventLevel::kGood,
+                       fmt::format("loop {} closed: keyframe {} meets {}, score {:.2f}", closure.index,
+                                   closure.to_keyframe, closure.from_keyframe, closure.score));
+}
+
+}  // namespace swiftlet

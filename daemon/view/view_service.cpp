@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/view/view_service.hpp"
+
+#include <pthread.h>
+
+#include <chrono>
+#include <span>
+#include <utility>
+
+#include "daemon/publish/lcm_transport.hpp"
+#include "daemon/view/message_reader.hpp"
+#include "daemon/view/page_files.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::string_view kLivePath = "/live";
+constexpr std::chrono::milliseconds kStopWait{100};  // the longest a stop goes unnoticed
+
+}  // namespace
+
+Result<std::unique_ptr<ViewService>> ViewService::open(const ListenAddress& address,
+                                                       const ShownSource& source) {
+  std::unique_ptr<ViewService> service(new ViewService(source));
+  ViewService* const self = service.get();
+  const auto converse = [self](std::string_view path) -> std::unique_ptr<Conversation> {
+    if (path != kLivePath) return nullptr;
+    return std::make_unique<Viewer>(self->shared_, self->source_);
+  };
+  Result<std::unique_ptr<WebServer>> server =
+      WebServer::open(address, {.files = page_files(), .converse = converse});
+  if (!server) return server.error();
+  service->server_ = std::move(server).value();
+  service->thread_ = std::jthread([self](const std::stop_token& stop) { self->server_->run(stop); });
+  pthread_setname_np(service->thread_.native_handle(), "view");
+  return service;
+}
+
+ViewService::~ViewService() = default;
+
+Status view_lcm(const std::string& url, const std::string& channel_prefix, SharedRunHistory& shared,
+                const std::stop_token& stop) {
+  const Result<std::unique_ptr<LcmTransport>> lcm = LcmTransport::open(url);
+  if (!lcm) return lcm.error();
+  MessageReader reader(shared.history);
+  for (const std::string_view channel : viewed_channels())
+    (*lcm)->listen(channel_prefix + std::string(channel),
+                   [&reader, &shared, channel](std::span<const std::uint8_t> message) {
+                     const std::lock_guard lock(shared.mutex);
+                     reader.take(channel, message, std::chrono::steady_clock::now());
+                   });
+  while (!stop.stop_requested()) (*lcm)->receive(kStopWait);
+  return {};
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/base/result.hpp"
+#include "daemon/view/viewer.hpp"
+#include "daemon/view/web_server.hpp"
+
+namespace swiftlet {
+
+/// The page on which a run is watched: fills its history by what it is told, and serves it in a thread of its
+/// own.
+class ViewService {
+ public:
+  /// Error: kInvalidInput: it cannot listen there.
+  [[nodiscard]] static Result<std::unique_ptr<ViewService>> open(const ListenAddress& address,
+                                                                 const ShownSource& source);
+  ~ViewService();
+  ViewService(const ViewService&) = delete;
+  ViewService& operator=(const ViewService&) = delete;
+
+  [[nodiscard]] const WebServer& server() const { return *server_; }
+  /// Any thread, with its mutex.
+  [[nodiscard]] SharedRunHistory& shared() { return shared_; }
+
+ private:
+  explicit ViewService(const ShownSource& source) : source_(source) {}
+
+  SharedRunHistory shared_;
+  ShownSource source_;
+  std::unique_ptr<WebServer> server_;
+  std::jthread thread_;
+};
+
+/// Reads the messages of a swiftletd, until `stop` is requested, into the history. Error: as
+/// LcmTransport::open().
+[[nodiscard]] Status view_lcm(const std::string& url, const std::string& channel_prefix,
+                              SharedRunHistory& shared, const std::stop_token& stop);
+
+}  // namespace swiftlet
