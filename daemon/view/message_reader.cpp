@@ -108,6 +108,8 @@ void MessageReader::add(const pose_t& message) {
                              .sequence = message.sequence,
                              .segment = message.segment,
                              .correction_version = message.correction_version,
+                             .tracking = message.tracking,
+                             .covariance = std::to_array(message.covariance_map),
                              .map = pose};
   narrator_.see_pose(trail_pose);
   history_.add_pose(trail_pose);

@@ -30,7 +30,7 @@ class MessageReader {
   RunHistory& history_;
   RunNarrator narrator_;
   MonotonicTime last_accepted_{};
-  std::vector<WallSegment> walls_;  // of the parts so far
+  std::vector<SeenWall> walls_;  // of the parts so far
 
   template <typename Message>
   void decode(std::span<const std::uint8_t> bytes, MonotonicTime now);

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace swiftlet {
@@ -51,7 +50,6 @@ WebMessage text_message(const json& content) {
 }
 
 void put_record(ByteWriter& out, const TrailPose& pose) {
-  constexpr int kCovarianceEntries = 6;
   out.put(static_cast<double>(pose.utime_us));
   out.put_pose(pose.map);
   out.put_pose(pose.local);
@@ -59,8 +57,8 @@ void put_record(ByteWriter& out, const TrailPose& pose) {
   out.put(pose.sequence);
   out.put(pose.segment);
   out.put(pose.correction_version);
-  out.put(std::int32_t{-1});
-  for (int i = 0; i < kCovarianceEntries; ++i) out.put(std::numeric_limits<float>::quiet_NaN());
+  out.put(std::int32_t{pose.tracking});
+  for (const double entry : pose.covariance) out.put_f32(entry);
   out.put(pose.serial);
 }
 
@@ -132,10 +130,10 @@ WebMessage poses_message(std::span<const TrailPose> poses) {
   return std::move(out).message();
 }
 
-WebMessage walls_message(std::int64_t utime_us, std::span<const WallSegment> walls) {
+WebMessage walls_message(std::int64_t utime_us, std::span<const SeenWall> walls) {
   constexpr std::size_t kRecordBytes = 20;
   ByteWriter out(kWallsKind, walls.size(), static_cast<double>(utime_us), kRecordBytes);
-  for (const WallSegment& wall : walls) {
+  for (const SeenWall& wall : walls) {
     out.put(wall.id);
     for (const float part : wall.start) out.put(part);
     for (const float part : wall.end) out.put(part);

@@ -29,8 +29,7 @@ namespace swiftlet {
 // From the server, as bytes, little-endian: a header of 16 bytes (u32 kind, u32 count, f64 value), then
 // `count` records:
 //   1 poses, value 0: f64 utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment,
-//     correction_version, tracking (-1 unknown); f32[6] covariance in frame map (xx, xy, x yaw, yy, y yaw,
-//     yaw yaw; NaN unknown); u32 serial
+//     correction_version, tracking; f32[6] covariance_map as in pose_t; u32 serial
 //   2 walls, value utime_us: all of them: i32 id; f32[4] start x, y, end x, y
 //   3 tiles, value resolution_m: i32 x, y, version; i8[4096] occupancy as in map_tile_t. Version 0: gone
 // From the page, as text: {"at": utime_us} to look at the run as it was then, {"at": null} for the newest.
@@ -52,7 +51,7 @@ struct ShownSource {
 [[nodiscard]] WebMessage closures_message(std::span<const SeenClosure> closures);
 [[nodiscard]] WebMessage synced_message(std::int64_t at_us);
 [[nodiscard]] WebMessage poses_message(std::span<const TrailPose> poses);
-[[nodiscard]] WebMessage walls_message(std::int64_t utime_us, std::span<const WallSegment> walls);
+[[nodiscard]] WebMessage walls_message(std::int64_t utime_us, std::span<const SeenWall> walls);
 
 /// nullptr: a tile that was not there yet.
 using TileAsOf = std::pair<TileIndex, const StoredTile*>;

@@ -123,13 +123,13 @@ void RunHistory::thin_tiles() {
     versions.thin([this](const StoredTile& tile) { tile_bytes_ -= tile.deflated.size(); });
 }
 
-void RunHistory::add_walls(std::int64_t utime_us, const std::vector<WallSegment>& walls) {
+void RunHistory::add_walls(std::int64_t utime_us, const std::vector<SeenWall>& walls) {
   if (walls_.newest() != nullptr && walls_.newest()->value == walls) return;
   walls_.append(utime_us, walls);
   wall_segments_ += walls.size();
   ++changes_;
   if (wall_segments_ > limits_.wall_segments)
-    walls_.thin([this](const std::vector<WallSegment>& forgotten) { wall_segments_ -= forgotten.size(); });
+    walls_.thin([this](const std::vector<SeenWall>& forgotten) { wall_segments_ -= forgotten.size(); });
 }
 
 void RunHistory::add_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us) {

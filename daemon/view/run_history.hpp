@@ -25,17 +25,19 @@ struct TrailPose {
   std::int32_t sequence = 0;
   std::int32_t segment = 0;
   std::int32_t correction_version = 0;
-  std::array<double, 3> map{};    ///< x, y, yaw in frame map
-  std::array<double, 3> local{};  ///< in frame local
-  std::array<double, 3> odom{};   ///< in frame odom
+  std::int8_t tracking = 0;            ///< pose_t::TRACKING_...
+  std::array<double, 6> covariance{};  ///< of map, relative to the part of the map around; as in pose_t
+  std::array<double, 3> map{};         ///< x, y, yaw in frame map
+  std::array<double, 3> local{};       ///< in frame local
+  std::array<double, 3> odom{};        ///< in frame odom
   bool has_odom = false;
 };
 
-struct WallSegment {
+struct SeenWall {
   std::int32_t id = 0;
   std::array<float, 2> start{};  ///< m, frame map
   std::array<float, 2> end{};
-  bool operator==(const WallSegment&) const = default;
+  bool operator==(const SeenWall&) const = default;
 };
 
 /// A loop closure, and until when it was believed.
@@ -121,7 +123,7 @@ class RunHistory {
   /// Ignored unless the version is above the newest.
   void add_tile(std::int64_t utime_us, const MapTile& tile, double resolution_m);
   /// All walls.
-  void add_walls(std::int64_t utime_us, const std::vector<WallSegment>& walls);
+  void add_walls(std::int64_t utime_us, const std::vector<SeenWall>& walls);
   void add_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us);
   void add_status(const RunStatus& status);
   void add_event(std::int64_t utime_us, EventLevel level, std::string text);
@@ -143,7 +145,7 @@ class RunHistory {
   };
   [[nodiscard]] const std::map<std::int32_t, NumberedClosure>& closures() const { return closures_; }
   [[nodiscard]] const AsOfList<RunStatus>& statuses() const { return statuses_; }
-  [[nodiscard]] const AsOfList<std::vector<WallSegment>>& walls() const { return walls_; }
+  [[nodiscard]] const AsOfList<std::vector<SeenWall>>& walls() const { return walls_; }
   using Tiles = std::map<TileIndex, AsOfList<StoredTile>>;
   [[nodiscard]] const Tiles& tiles() const { return tiles_; }
   [[nodiscard]] std::size_t tile_bytes() const { return tile_bytes_; }
@@ -160,7 +162,7 @@ class RunHistory {
   std::uint32_t event_serial_ = 0;
   std::map<std::int32_t, NumberedClosure> closures_;
   AsOfList<RunStatus> statuses_;
-  AsOfList<std::vector<WallSegment>> walls_;
+  AsOfList<std::vector<SeenWall>> walls_;
   std::size_t wall_segments_ = 0;
   Tiles tiles_;
   std::size_t tile_bytes_ = 0;

@@ -8,6 +8,7 @@
 
 #include "firmware_link/link/link_condition.hpp"
 #include "swiftlet/link_status_t.hpp"
+#include "swiftlet/pose_t.hpp"
 #include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
@@ -39,7 +40,22 @@ void RunNarrator::see_pose(const TrailPose& pose) {
   if (pose_ && pose.segment != pose_->segment)
     history_.add_event(pose.utime_us, EventLevel::kWarning,
                        fmt::format("segment {}: dead reckoning began anew", pose.segment));
+  const std::int8_t before = pose_ ? pose_->tracking : pose_t::TRACKING_GOOD;
+  if (pose.tracking != before) tell_tracking(pose);
   pose_ = pose;
+}
+
+void RunNarrator::tell_tracking(const TrailPose& pose) {
+  const auto tell = [&](EventLevel level, const char* text) {
+    history_.add_event(pose.utime_us, level, text);
+  };
+  if (pose.tracking == pose_t::TRACKING_GOOD)
+    tell(EventLevel::kGood, "tracking good: what is seen agrees with the map");
+  if (pose.tracking == pose_t::TRACKING_UNCERTAIN)
+    tell(EventLevel::kWarning, "tracking uncertain: what is seen contradicts the map");
+  if (pose.tracking == pose_t::TRACKING_LOST) tell(EventLevel::kBad, "lost: motion was not watched");
+  if (pose.tracking == pose_t::TRACKING_RELOCALIZING)
+    tell(EventLevel::kWarning, "relocalizing: places in the map are weighed");
 }
 
 void RunNarrator::see_status(const RunStatus& status) {

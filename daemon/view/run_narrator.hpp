@@ -28,6 +28,7 @@ class RunNarrator {
   bool battery_is_low_ = false;
 
   void begin_with_run();
+  void tell_tracking(const TrailPose& pose);
   void tell_state(const RunStatus& status);
   void tell_link(const RunStatus& status);
   void tell_battery(const RunStatus& status);

@@ -69,7 +69,7 @@ export class Scene {
     const [right, bottom] = transform.toMap(transform.size);
     for (let i = Math.ceil((left + 40 / transform.scale_px) / step_m); i * step_m < right; ++i)
       label(context, colours, lengthText(i * step_m, step_m), transform.toScreen([i * step_m, 0])[0], 14, "center");
-    for (let i = Math.ceil(bottom / step_m); i * step_m < top - 30 / transform.scale_px; ++i)
+    for (let i = Math.ceil((bottom + 44 / transform.scale_px) / step_m); i * step_m < top - 30 / transform.scale_px; ++i)
       label(context, colours, lengthText(i * step_m, step_m), 6, transform.toScreen([0, i * step_m])[1] + 4, "left");
   }
 
@@ -110,7 +110,7 @@ export class Scene {
     const now_us = at_us ?? this.model.newest_us;
     for (const closure of this.model.closuresAt(at_us)) {
       const age = (now_us - closure.found_us) / FLASH_us;
-      context.globalAlpha = age < 1 ? 1 : 0.45;
+      context.globalAlpha = age < 1 ? 1 : 0.28;
       strokeLine(context, colours.closure, (age < 1 ? 2.5 : 1.25) / transform.scale_px, [...closure.from_map, ...closure.to_map]);
       if (age < 1) ring(context, colours.closure, closure.to_map, (8 + 26 * age) / transform.scale_px, 2 / transform.scale_px);
     }
@@ -139,7 +139,7 @@ export class Scene {
   /// Where the drone is with 95 %.
   drawEllipse(context, colours, pose, pixel_m) {
     const [xx, xy, , yy] = pose.covariance;
-    if (!Number.isFinite(xx + xy + yy)) return;
+    if (!(xx + yy > 0)) return;  // zero: not known yet
     const middle = (xx + yy) / 2;
     const apart = Math.hypot((xx - yy) / 2, xy);
     const axes_m = [middle + apart, middle - apart].map((variance) => ELLIPSE_SIGMAS * Math.sqrt(Math.max(0, variance)));

@@ -96,9 +96,13 @@ export class Timeline {
   drawEvents(context, colours, width, height) {
     const length_us = Math.max(1, this.model.newest_us - this.model.first_us);
     const shades = [colours.axis, colours.closure, colours.raw, colours.drone];
+    const reaches_px = [4, 4, 8, 10];
+    context.globalAlpha = 0.6;
     for (const event of this.model.events) {
+      const x_px = (event.utime_us - this.model.first_us) / length_us * (width - 2);
       context.fillStyle = shades[event.level];
-      context.fillRect(Math.round((event.utime_us - this.model.first_us) / length_us * (width - 2)), height / 2 - 8, 1.5, 16);
+      context.fillRect(x_px, height / 2 - reaches_px[event.level], 1, 2 * reaches_px[event.level]);
     }
+    context.globalAlpha = 1;
   }
 }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/view/message_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "swiftlet/landmarks_t.hpp"
+#include "swiftlet/pose_t.hpp"
+#include "swiftlet/status_t.hpp"
+
+namespace swiftlet {
+namespace {
+
+template <typename Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+pose_t pose_message(std::int8_t frame, std::int32_t sequence) {
+  pose_t message{};
+  message.utime = 1'000'000 + sequence;
+  message.map_id = 5;
+  message.sequence = sequence;
+  message.frame = frame;
+  message.x = 1.0 + frame;
+  return message;
+}
+
+class MessageReaderTest : public testing::Test {
+ protected:
+  RunHistory history_;
+  MessageReader reader_{history_};
+
+  template <typename Message>
+  void take(std::string_view channel, const Message& message) {
+    reader_.take(channel, encoded(message), MonotonicTime());
+  }
+  std::vector<std::string> log() const {
+    std::vector<std::string> texts;
+    for (const RunEvent& event : history_.events_after(0)) texts.push_back(event.text);
+    return texts;
+  }
+};
+
+TEST_F(MessageReaderTest, JoinsTheFramesOfOnePose) {
+  take("POSE", pose_message(pose_t::FRAME_MAP, 3));
+  take("POSE_LOCAL", pose_message(pose_t::FRAME_LOCAL, 3));
+  take("POSE_ODOM", pose_message(pose_t::FRAME_ODOM, 3));
+  ASSERT_EQ(history_.poses_after(0).size(), 1U);
+  EXPECT_EQ(history_.poses_after(0)[0].map[0], 1.0);
+  EXPECT_EQ(history_.poses_after(0)[0].local[0], 2.0);
+  EXPECT_EQ(history_.poses_after(0)[0].odom[0], 3.0);
+}
+
+TEST_F(MessageReaderTest, WhatIsNoMessageOfOursChangesNothing) {
+  std::vector<std::uint8_t> bytes = encoded(pose_message(pose_t::FRAME_MAP, 3));
+  reader_.take("POSE", std::span(bytes).first(bytes.size() / 2), MonotonicTime());
+  reader_.take("STATUS", bytes, MonotonicTime());
+  reader_.take("ELSEWHERE", bytes, MonotonicTime());
+  pose_t nowhere = pose_message(pose_t::FRAME_MAP, 3);
+  nowhere.x = std::nan("");
+  take("POSE", nowhere);
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, AClaimOfMoreWallsThanThereAreIsRefused) {
+  landmarks_t walls{};
+  walls.map_id = 5;
+  std::vector<std::uint8_t> bytes = encoded(walls);
+  bytes[bytes.size() - 4] = 0xff;  // their count, big-endian
+  reader_.take("LANDMARKS", bytes, MonotonicTime());
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, WallsOfSeveralMessagesAreTakenTogether) {
+  landmarks_t walls{};
+  walls.map_id = 5;
+  walls.total = 2;
+  walls.count = 1;
+  walls.landmarks.push_back({.id = 1, .start = {0, 0}, .end = {1, 0}});
+  take("LANDMARKS", walls);
+  EXPECT_EQ(history_.walls().size(), 0U);
+  walls.first = 1;
+  take("LANDMARKS", walls);
+  ASSERT_EQ(history_.walls().size(), 1U);
+  EXPECT_EQ(history_.walls().newest()->value.size(), 2U);
+}
+
+TEST_F(MessageReaderTest, ChangesOfTheStateAreToldInWords) {
+  status_t status{};
+  status.map_id = 5;
+  status.link.battery_v = 3.9;
+  take("STATUS", status);
+  status.link.condition = link_status_t::CONDITION_SILENT;
+  status.link.battery_v = 3.1;
+  take("STATUS", status);
+  take("STATUS", status);
+  status.state = status_t::STATE_FINISHED;
+  take("STATUS", status);
+  using testing::HasSubstr;
+  EXPECT_THAT(log(), testing::ElementsAre(HasSubstr("does not answer"), HasSubstr("battery low"),
+                                          HasSubstr("finished")));
+}
+
+TEST_F(MessageReaderTest, ALostVehicleIsTold) {
+  pose_t pose = pose_message(pose_t::FRAME_MAP, 1);
+  take("POSE", pose);
+  pose.tracking = pose_t::TRACKING_LOST;
+  take("POSE", pose);
+  EXPECT_THAT(log(), testing::ElementsAre("first pose", testing::HasSubstr("lost")));
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+"""The page of `swiftlet view` in a browser without a screen. view_page_test.py SWIFTLET SWIFTLETD
+
+Runs in a network of its own, so that nothing else is received. Exit code 77: skipped, the last line says why.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+INSIDE = "--inside"
+NETWORK = ["unshare", "--user", "--map-root-user", "--net", "--", "sh", "-c",
+           'ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo && exec "$@"', "sh"]
+LCM_URL = "udpm://239.255.76.67:7667?ttl=0"
+FLIGHT = "sim://loop?seed=1"
+PATIENCE_S = 60
+SKIPPED = 77
+DRIVER = "/usr/bin/chromedriver"
+PGM_OF_PAGE = """const done = arguments[0];
+swiftletPage.save.file('PGM').then((file) => file.arrayBuffer()).then((bytes) => done([...new Uint8Array(bytes)]));"""
+# Of the cells that are surely occupied or free: the share whose pixel on the canvas is dark or light accordingly.
+PICTURE_AGREES = """const page = swiftletPage, [good, all] = [[], []];
+for (const name of Object.keys(page.layers)) page.layers[name] = name === 'map';
+page.transform.scale_px = 60 / page.model.resolution_m / 10; page.isFitted = false;
+const tile = [...page.tileMap.tiles.values()].reduce((a, b) =>
+  a.cells.filter((p) => p >= 90).length > b.cells.filter((p) => p >= 90).length ? a : b);
+const side = 64 * page.model.resolution_m;
+page.transform.center = [(tile.x + 0.5) * side, (tile.y + 0.5) * side]; page.draw();
+tile.cells.forEach((percent, i) => {
+  if (percent < 90 && (percent < 0 || percent > 30)) return;
+  const point = [(tile.x * 64 + i % 64 + 0.5), (tile.y * 64 + Math.floor(i / 64) + 0.5)].map((c) => c * page.model.resolution_m);
+  const [x, y] = page.transform.toScreen(point).map((c) => Math.floor(c * devicePixelRatio));
+  if (x < 0 || y < 0 || x >= page.canvas.width || y >= page.canvas.height - 40) return;
+  const shade = page.context.getImageData(x, y, 1, 1).data[0];
+  all.push(i); if (percent >= 90 ? shade < 100 : shade > 200) good.push(i);
+}); return [good.length, all.length];"""
+programs = {}
+
+
+class View:
+    """`swiftlet view` as a process."""
+
+    def __init__(self, *options, port=0):
+        self.process = subprocess.Popen([programs["swiftlet"], "view", *options, "--listen", f"127.0.0.1:{port}"],
+                                        stdout=subprocess.PIPE, text=True)
+        self.url = re.search(r"http://\S+", self.process.stdout.readline())[0]
+        self.port = int(self.url.rsplit(":", 1)[1])
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait(PATIENCE_S)
+        self.process.stdout.close()
+
+
+def fly(*options):
+    return [programs["swiftletd"], FLIGHT, "--lcm-url", LCM_URL, *map(str, options)]
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        from selenium import webdriver
+        from selenium.webdriver.chrome.service import Service
+        options = webdriver.ChromeOptions()
+        for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1200,800"):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        cls.browser = webdriver.Chrome(options=options, service=Service(DRIVER))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+
+    def view(self, *options, port=0):
+        view = View(*options, port=port)
+        self.addCleanup(lambda: view.process.poll() is None and view.end())
+        return view
+
+    def js(self, expression):
+        return self.browser.execute_script("return " + expression)
+
+    def wait_until(self, expression):
+        end = time.monotonic() + PATIENCE_S
+        while not self.js(expression):
+            self.assertLess(time.monotonic(), end, f"not in time: {expression}; status {self.js('swiftletPage.model.status')}")
+            time.sleep(0.05)
+
+    def press(self, *keys):
+        from selenium.webdriver.common.action_chains import ActionChains
+        ActionChains(self.browser).send_keys(*keys).perform()
+
+    def open_finished(self):
+        """A whole recording, looked at from its end."""
+        view = self.view(FLIGHT, "--rate", "100")
+        self.browser.get(view.url)
+        self.wait_until("swiftletPage.model.poses.length > 0")
+        self.js("swiftletPage.player.goLive()")
+        self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.isSynced")
+        return view
+
+    def check_pgm(self, folder):
+        self.assertEqual(bytes(self.browser.execute_async_script(PGM_OF_PAGE)), (folder / "map.pgm").read_bytes())
+
+    def test_1_a_recording_ends_with_the_daemons_own_map(self):
+        with tempfile.TemporaryDirectory() as parent:
+            out = Path(parent, "out")
+            subprocess.run(fly("--rate", 1000, "-o", out), check=True, capture_output=True)
+            self.open_finished()
+            self.check_pgm(out)
+        good, count = self.browser.execute_script(PICTURE_AGREES)
+        self.assertGreater(count, 50)
+        self.assertGreaterEqual(good, 0.98 * count)
+        self.assertEqual([line for line in self.browser.get_log("browser") if line["level"] == "SEVERE"], [])
+
+    def test_2_pan_zoom_and_keys(self):
+        self.open_finished()
+        self.press("f")
+        time.sleep(0.2)
+        before = self.js("[swiftletPage.transform.scale_px, ...swiftletPage.transform.center]")
+        self.press("+")
+        self.assertGreater(self.js("swiftletPage.transform.scale_px"), before[0])
+        self.press("\ue014")  # arrow right
+        self.assertGreater(self.js("swiftletPage.transform.center[0]"), before[1])
+        self.press("l")
+        self.assertEqual(self.js("document.getElementById('follow').getAttribute('aria-pressed')"), "true")
+        self.press("4")
+        self.assertTrue(self.js("swiftletPage.layers.raw"))
+        self.press("m")
+        for x, y in ((400, 300), (500, 300)):
+            from selenium.webdriver.common.action_chains import ActionChains
+            ActionChains(self.browser).move_by_offset(x, y).click().move_by_offset(-x, -y).perform()
+        self.assertEqual(self.js("swiftletPage.measure.points.length"), 2)
+
+    def test_3_pause_seek_and_step_go_back_to_the_map_of_then(self):
+        self.open_finished()
+        all_tiles = self.js("swiftletPage.tileMap.tiles.size")
+        self.press(" ")
+        self.js("swiftletPage.player.seek(swiftletPage.model.first_us + 5e6)")
+        self.wait_until("swiftletPage.player.requested_us === swiftletPage.player.at_us && swiftletPage.isSynced && "
+                        f"swiftletPage.tileMap.tiles.size < {all_tiles}")
+        index = self.js("swiftletPage.model.indexAt(swiftletPage.player.at_us)")
+        self.press(".")
+        self.assertEqual(self.js("swiftletPage.model.indexAt(swiftletPage.player.at_us)"), index + 1)
+        self.press("\ue010")  # End
+        self.wait_until(f"swiftletPage.tileMap.tiles.size === {all_tiles}")
+
+    def test_4_a_lost_connection_is_told_and_mended(self):
+        view = self.open_finished()
+        view.end()
+        self.wait_until("document.getElementById('notice').textContent.startsWith('Connection lost')")
+        self.view(FLIGHT, port=view.port)
+        self.wait_until("document.getElementById('notice').textContent === ''")
+
+    def test_5_a_narrow_screen_in_the_dark(self):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                     {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        self.open_finished()
+        self.assertEqual(self.js("document.documentElement.scrollWidth"), 390)
+        self.assertEqual(self.js("document.documentElement.dataset.theme"), "dark")
+        self.assertLess(self.js("[...document.getElementById('map').getContext('2d').getImageData(5, 5, 1, 1).data][0]"), 60)
+        self.press("t")
+        self.assertEqual(self.js("document.documentElement.dataset.theme"), "light")
+        self.js("localStorage.clear()")
+
+    def test_6_a_late_page_sees_a_live_flight_and_its_successor(self):
+        view = self.view("--lcm-url", LCM_URL)
+        with tempfile.TemporaryDirectory() as parent:
+            first, second = Path(parent, "first"), Path(parent, "second")
+            subprocess.run(fly("--rate", 200, "-o", first), check=True, capture_output=True)
+            self.browser.get(view.url)
+            self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.isSynced")
+            self.check_pgm(first)
+            run = self.js("swiftletPage.model.run.map_id")
+            subprocess.run(fly("--rate", 200, "-o", second), check=True, capture_output=True)
+            self.wait_until(f"swiftletPage.model.run.map_id !== '{run}' && swiftletPage.model.status?.state === 2 && "
+                            "swiftletPage.isSynced")
+            self.check_pgm(second)
+
+
+def skip(why):
+    print("skipped: " + why)
+    return SKIPPED
+
+
+def main():
+    if INSIDE not in sys.argv:
+        try:
+            import selenium  # noqa: F401
+        except ImportError:
+            return skip("python3-selenium is not installed")
+        if not Path(DRIVER).exists():
+            return skip("chromium-driver is not installed")
+        if subprocess.run([*NETWORK, "true"], capture_output=True, check=False).returncode != 0:
+            return skip("network namespaces are not permitted here")
+        return subprocess.run([*NETWORK, sys.executable, *sys.argv[:3], INSIDE, *sys.argv[3:]], check=False).returncode
+    programs["swiftlet"], programs["swiftletd"] = map(os.path.abspath, sys.argv[1:3])
+    with tempfile.TemporaryDirectory() as home:  # chromium writes there
+        os.environ["HOME"] = home
+        return not unittest.main(argv=[sys.argv[0], *sys.argv[4:]], exit=False, verbosity=2).result.wasSuccessful()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
