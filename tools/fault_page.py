@@ -80,9 +80,9 @@ then.
 {tables(report)}
 ## Known not to work
 
-Jumps of the heading by 20 degrees and more, slips and teleports are not noticed: nothing tells of them, and nothing
-looks for them yet. Loop closures mend some jumps nonetheless; the other maps stay bent or apart, as the final errors
-show.
+Nothing tells of jumps of the heading, slips and teleports. They are noticed where what is seen contradicts the older map
+([how often](confidence.md)). Those that are not, and many of those that are noticed, stay in the map, bent or apart, as the
+final errors show.
 
 Runs over {WRONG_M:g} m though the input told of the break:
 

@@ -132,7 +132,7 @@ void LogHandshake::on_reset(std::span<const std::uint8_t> packet) {
 
 void LogHandshake::on_toc(std::span<const std::uint8_t> packet, HostTime at) {
   toc_->on_frame(packet, at);
-  if (toc_->failure()) return fail(*toc_->failure());  // it has asked again itself
+  if (toc_->failure()) return refuse(toc_->failure()->message, {});  // its length may have been damaged
   if (!toc_->finished()) return;
   request_ = PendingRequest(toc_->timer());
   if (toc_->came_from_cache()) restate_cached_toc();

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/firmware_link/frames.hpp"
@@ -193,7 +194,7 @@ TEST_F(LogHandshakeTest, AsksThreeTimesMoreBeforeItBelievesARefusal) {
 }
 
 TEST_F(LogHandshakeTest, BelievesNoRefusalThatTheVehicleDoesNotRepeat) {
-  for (const std::uint8_t header : {0xFD, 0xDD}) {
+  for (const std::uint8_t header : {std::uint8_t{0xFD}, std::uint8_t{0xDD}}) {
     LogSession session;
     TocCache cache;
     LogHandshake handshake(session, cache);
@@ -226,6 +227,21 @@ TEST_F(LogHandshakeTest, ReadsATableAgainInWhichAVariableIsMissing) {
     handshake_.on_frame(frame.packet(), frame.at);
   }
   EXPECT_TRUE(undamaged.empty());
+  EXPECT_TRUE(handshake_.finished());
+}
+
+TEST_F(LogHandshakeTest, ReadsATableAgainWhoseLengthWasDamaged) {
+  bool was_damaged = false;
+  for (std::int64_t ms = 0; ms < 60'000 && !handshake_.finished() && !handshake_.failure(); ++ms) {
+    const std::optional<CrtpPacket> request = handshake_.next_request(host_ms(ms));
+    if (!request) continue;
+    Bytes reply = *link_.vehicle.answer(bytes_of(*request));
+    if (read_toc_info(reply) && !std::exchange(was_damaged, true)) reply[3] = 0xDE;
+    const LinkFrame frame = received(reply, host_ms(ms));
+    static_cast<void>(session_.on_frame(frame));
+    handshake_.on_frame(frame.packet(), frame.at);
+  }
+  EXPECT_TRUE(was_damaged);
   EXPECT_TRUE(handshake_.finished());
 }
 
