@@ -6,8 +6,10 @@
 Runs in a network of its own, so that nothing else is received. Exit code 77: skipped, the last line says why.
 """
 
+import http.client
 import os
 import re
+import socket
 import subprocess
 import sys
 import tempfile
@@ -61,6 +63,51 @@ class View:
 
 def fly(*options):
     return [programs["swiftletd"], FLIGHT, "--lcm-url", LCM_URL, *map(str, options)]
+
+
+class ServerTest(unittest.TestCase):
+    """The server without a browser."""
+
+    def setUp(self):
+        self.view = View("--lcm-url", LCM_URL)
+        self.addCleanup(self.view.end)
+
+    def status(self, path="/", method="GET", **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", self.view.port, timeout=PATIENCE_S)
+        connection.request(method, path, headers=headers)
+        answer = connection.getresponse()
+        answer.read()
+        connection.close()
+        return answer.status
+
+    def handshake(self, origin):
+        key = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+               "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}
+        return self.status("/live", **key, Origin=origin)
+
+    def test_answers_its_own_page_alone(self):
+        self.assertEqual(self.status(), 200)
+        self.assertEqual(self.status(method="HEAD"), 200)
+        self.assertEqual(self.status("/../etc/passwd"), 404)
+        self.assertEqual(self.status(Host="evil.example"), 403)
+        self.assertEqual(self.status(Origin="http://evil.example"), 403)
+        self.assertEqual(self.status(method="POST"), 405)
+        self.assertEqual(self.handshake("http://evil.example"), 403)
+        self.assertEqual(self.handshake(self.view.url), 101)
+
+    def test_what_is_no_request_is_refused_and_the_next_one_answered(self):
+        for nonsense in (b"\x16\x03\x01\r\n\r\n", b"GET / HTTP/1.1\r\nX: " + 20_000 * b"x" + b"\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", self.view.port), timeout=PATIENCE_S) as client:
+                client.sendall(nonsense)
+                self.assertTrue(client.recv(100).startswith(b"HTTP/1.1 400"))
+        self.assertEqual(self.status(), 200)
+
+    def test_bad_options_get_one_line_and_exit_code_2(self):
+        for options in (["--listen", "nowhere:1"], ["--listen", "127.0.0.1:x"], ["--lcm-url", "nothing://"],
+                        ["missing.pcap"], ["--rate", "5"], ["--listen", self.view.url[7:]]):
+            done = subprocess.run([programs["swiftlet"], "view", *options], capture_output=True, text=True,
+                                  timeout=PATIENCE_S, check=False)
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), (options, done.stderr))
 
 
 class PageTest(unittest.TestCase):
