@@ -60,14 +60,13 @@ ScanRange Backend::State::refine_window(const BackendUpdate& update) {
   return refined;
 }
 
-/// At the newest keyframe. What contradicts a pose says nothing of the one it is corrected to.
+/// At the newest keyframe. What contradicts a pose is no evidence against the one it is corrected to.
 void Backend::State::correct_newest(const Pose2& T_local_body) {
   const Pose2 T_map_newest = refinement.T_map_newest(T_map_keyframe(), T_local_keyframe());
   const Point2 was = correction.T_map_local * T_local_body.position();
   correction = {chain.all().last_id(), T_map_newest * T_local_keyframe().values().back().inverse(), version};
   const Point2 is = correction.T_map_local * T_local_body.position();
-  if (std::hypot(is.x_m - was.x_m, is.y_m - was.y_m) > config.tuning.confidence.tolerance_m)
-    agreement.begin_again();
+  if (distance_m(was, is) > config.tuning.confidence.tolerance_m) agreement.begin_again();
 }
 
 /// With the older map, at the pose that the newest correction gives it.

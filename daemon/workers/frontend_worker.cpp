@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/workers/frontend_worker.hpp"
 
-#include <cmath>
-
 #include "core/base/check.hpp"
 
 namespace swiftlet {
@@ -38,7 +36,7 @@ void FrontendWorker::take_correction() noexcept {
   const Point2 before = applied_.T_map_local * T_local_body_.position();
   if (!correction_.load_if_new(applied_)) return;
   const Point2 after = applied_.T_map_local * T_local_body_.position();
-  correction_m_ = std::hypot(after.x_m - before.x_m, after.y_m - before.y_m);
+  correction_m_ = distance_m(before, after);
 }
 
 const FrontendStep& FrontendWorker::process() noexcept {

@@ -14,7 +14,7 @@
 
 namespace swiftlet {
 
-/// What one return says of the pose it was seen from.
+/// What one return contributes about the pose it was seen from.
 enum class ReturnVerdict : std::uint8_t {
   kUnknown,      ///< ground that no older submap knows
   kAgrees,       ///< near a wall of an older submap
