@@ -12,6 +12,7 @@
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "tests/daemon/view/view_samples.hpp"
 
 namespace swiftlet {
 namespace {
@@ -90,7 +91,7 @@ TEST_F(MessageReaderTest, WallsOfSeveralMessagesAreTakenTogether) {
   walls.first = 1;
   take("LANDMARKS", walls);
   ASSERT_EQ(history_.walls().size(), 1U);
-  EXPECT_EQ(history_.walls().newest()->value.size(), 2U);
+  EXPECT_EQ(value_of(history_.walls().newest()).size(), 2U);
 }
 
 TEST_F(MessageReaderTest, ChangesOfTheStateAreToldInWords) {

@@ -39,8 +39,8 @@ TEST(RunHistory, ATileIsFoundAsItWas) {
   history.add_tile(20 * kSecond_us, uniform_tile({2, -1}, 2, 80), 0.05);
   const auto& versions = history.tiles().at({2, -1});
   EXPECT_EQ(versions.at(9 * kSecond_us), nullptr);
-  EXPECT_THAT(inflate_tile(versions.at(15 * kSecond_us)->value.deflated), testing::Each(20));
-  EXPECT_THAT(inflate_tile(versions.newest()->value.deflated), testing::Each(80));
+  EXPECT_THAT(inflate_tile(value_of(versions.at(15 * kSecond_us)).deflated), testing::Each(20));
+  EXPECT_THAT(inflate_tile(value_of(versions.newest()).deflated), testing::Each(80));
 }
 
 TEST(RunHistory, AnOlderVersionOfATileChangesNothing) {
@@ -86,7 +86,7 @@ TEST(RunHistory, TilesThatChangeForHoursTakeBoundedRoom) {
     history.add_tile(version * kSecond_us,
                      uniform_tile({0, 0}, version, static_cast<std::int8_t>(version % 100)), 0.05);
   EXPECT_LE(history.tile_bytes(), 20'000U);
-  EXPECT_EQ(history.tiles().at({0, 0}).newest()->value.version, 4999U);
+  EXPECT_EQ(value_of(history.tiles().at({0, 0}).newest()).version, 4999U);
   EXPECT_NE(history.tiles().at({0, 0}).at(kSecond_us), nullptr);
 }
 
@@ -96,7 +96,7 @@ TEST(RunHistory, AMapBeyondAllBuildingsIsRefused) {
   for (int x = 0; x < 5; ++x) history.add_tile(1, uniform_tile({x, 0}, 1, 50), 0.05);
   history.add_tile(2, uniform_tile({1, 0}, 2, 50), 0.05);
   EXPECT_EQ(history.tiles().size(), 2U);
-  EXPECT_EQ(history.tiles().at({1, 0}).newest()->value.version, 2U);
+  EXPECT_EQ(value_of(history.tiles().at({1, 0}).newest()).version, 2U);
 }
 
 TEST(RunHistory, AClosureKeepsWhenItWasFoundAndWhenItWasDropped) {

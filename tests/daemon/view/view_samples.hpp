@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include <stdexcept>
+
 #include "core/mapping/map_tile.hpp"
 #include "daemon/view/run_history.hpp"
 
@@ -16,6 +18,13 @@ inline MapTile uniform_tile(TileIndex index, std::uint32_t version, std::int8_t 
   MapTile tile{.index = index, .version = version};
   tile.occupancy_percent.fill(percent);
   return tile;
+}
+
+/// The value that was found; where none was, the test fails.
+template <typename Entry>
+const auto& value_of(const Entry* entry) {
+  if (entry == nullptr) throw std::out_of_range("nothing was found");
+  return entry->value;
 }
 
 /// Adds a pose, in all its frames.
