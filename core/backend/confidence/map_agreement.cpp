@@ -122,7 +122,7 @@ void MapAgreement::weigh(ReturnVerdict verdict) {
   if (verdict == ReturnVerdict::kUnknown) return;
   const bool contradicts = verdict == ReturnVerdict::kContradicts;
   ++returns_compared_;
-  share_ += ((contradicts ? 1.0 : 0.0) - share_) / tuning_->share_returns;
+  share_ += ((contradicts ? 1.0 : 0.0) - share_) / tuning_->recent_returns;
   const double right = tuning_->share_if_right;
   const double off = tuning_->share_if_off;
   log_odds_ += contradicts ? std::log(off / right) : std::log((1.0 - off) / (1.0 - right));

@@ -155,7 +155,7 @@ struct ConfidenceTuning {
   double share_if_off = 0.2;     ///< likewise, where it is off by half a metre or more
   double alarm_log_odds = 18.0;  ///< a right pose meets 18000 returns in an hour: 9.8, were they independent;
                                  ///< those of scans 0.1 m apart count for about half
-  double share_returns = 50.0;   ///< the published share is of about so many
+  double recent_returns = 50.0;  ///< the published share is of about so many
 
   static constexpr TuningValue<ConfidenceTuning> kValues[] = {
       {"slip_along_m2_per_m", &ConfidenceTuning::slip_along_m2_per_m},
@@ -174,7 +174,7 @@ struct ConfidenceTuning {
       {"share_if_right", &ConfidenceTuning::share_if_right},
       {"share_if_off", &ConfidenceTuning::share_if_off},
       {"alarm_log_odds", &ConfidenceTuning::alarm_log_odds},
-      {"share_returns", &ConfidenceTuning::share_returns}};
+      {"recent_returns", &ConfidenceTuning::recent_returns}};
 };
 
 struct BuildingAxisPriorTuning {

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -189,7 +190,8 @@ TEST_F(LogHandshakeTest, AsksThreeTimesMoreBeforeItBelievesARefusal) {
        {"fd 4e 6f 6e 73 65 6e 73 65", "dd 00 02 00 00 00", "5d 05 00 08", "50 02", "5d 06 01 0c"}) {
     for (int times = 1; times <= 3; ++times)
       EXPECT_FALSE(failure_after(link_.vehicle, hex(bad), times)) << bad << ", " << times << " times";
-    EXPECT_TRUE(failure_after(link_.vehicle, hex(bad), 4)) << bad;
+    // Of an item that the table lacks: four times in each of four tables.
+    EXPECT_TRUE(failure_after(link_.vehicle, hex(bad), std::string_view(bad) == "50 02" ? 16 : 4)) << bad;
   }
 }
 

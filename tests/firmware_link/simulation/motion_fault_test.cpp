@@ -28,8 +28,8 @@ TEST(MotionFault, RefusesEachMistakeByName) {
   };
   constexpr std::array kMistakes{Mistake{"", "names no fault"},
                                  Mistake{"crash@60", "must be silence, reset"},
-                                 Mistake{"reset", "after how many seconds"},
-                                 Mistake{"reset@nan", "after how many seconds"},
+                                 Mistake{"reset", "needs the seconds after which it begins"},
+                                 Mistake{"reset@nan", "needs the seconds after which it begins"},
                                  Mistake{"reset@60:1", "takes no amount"},
                                  Mistake{"silence@60", "for how long or how far"},
                                  Mistake{"silence@60:-1", "for how long or how far"},

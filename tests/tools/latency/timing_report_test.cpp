@@ -60,7 +60,7 @@ TEST_F(TimingReportTest, RefusesWhatIsNoSuchReport) {
     const Result<TimingReport> report = read(text);
     ASSERT_FALSE(report.ok()) << text;
     EXPECT_EQ(report.error().code, ErrorCode::kInvalidInput);
-    EXPECT_THAT(report.error().message, HasSubstr("report.json: not a report.json that tells"));
+    EXPECT_THAT(report.error().message, HasSubstr("report.json: not a report.json with the times of a run"));
   }
   EXPECT_EQ(read_timing_report("/nowhere/report.json").error().code, ErrorCode::kNotFound);
 }

@@ -85,7 +85,7 @@ TEST_F(MapAgreementTest, BeamsThatEndInTheOpenAndBeamsThroughWallsBothContradict
   see({0.0, 0.0}, {1.0, 0.0});
   // Ahead through the wall, behind in the open; left and right on walls still.
   EXPECT_EQ(agreement_.returns_compared(), 4U);
-  EXPECT_NEAR(agreement_.contradicting_share(), 2.0 / tuning_.share_returns, 0.005);
+  EXPECT_NEAR(agreement_.contradicting_share(), 2.0 / tuning_.recent_returns, 0.005);
 }
 
 TEST_F(MapAgreementTest, WhoeverHoversIsComparedOnce) {
