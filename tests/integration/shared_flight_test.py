@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-from flight_bench import Flight, run_case
+from flight_bench import Bench, Flight, run_case
 from simulated_vehicle_client_test import COMMANDER_GENERIC, Client
 from simulation import Simulation, expect
 

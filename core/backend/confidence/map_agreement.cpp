@@ -10,29 +10,27 @@ namespace {
 
 constexpr double kPerProbability = 255.0;
 
-double distance_cells(CellIndex cell, const Point2& p_cells) {
-  return std::hypot(cell.x + 0.5 - p_cells.x_m, cell.y + 0.5 - p_cells.y_m);
-}
-
 /// 255 * p(occupied); 0 where nothing is known.
 int occupied_at(const Submap& submap, CellIndex cell) {
   return submap.geometry.contains(cell) ? submap.cells[submap.geometry.offset(cell)] : 0;
 }
 
-/// A beam goes through a wall where two cells in a row are surely occupied.
+/// A beam goes through a wall where two cells in a row are surely occupied, farther than the tolerance from
+/// both its ends.
 bool passes_a_wall(const Submap& submap, const Point2& from_cells, const Point2& end_cells,
                    const ConfidenceTuning& tuning) {
-  const double tolerance_cells = tuning.tolerance_m / submap.geometry.resolution_m;
+  const double x = end_cells.x_m - from_cells.x_m;
+  const double y = end_cells.y_m - from_cells.y_m;
+  const double share = tuning.tolerance_m / submap.geometry.resolution_m / std::hypot(x, y);
+  if (share >= 0.5) return false;
+  const double wall = tuning.wall_probability * kPerProbability;
   int in_a_row = 0;
   bool passes = false;
-  walk_ray(from_cells, end_cells, [&](CellIndex cell) {
-    if (distance_cells(cell, end_cells) < tolerance_cells ||
-        distance_cells(cell, from_cells) < tolerance_cells)
-      return;
-    const bool is_wall = occupied_at(submap, cell) > tuning.wall_probability * kPerProbability;
-    in_a_row = is_wall ? in_a_row + 1 : 0;
-    passes |= in_a_row >= 2;
-  });
+  walk_ray({from_cells.x_m + share * x, from_cells.y_m + share * y},
+           {end_cells.x_m - share * x, end_cells.y_m - share * y}, [&](CellIndex cell) {
+             in_a_row = occupied_at(submap, cell) > wall ? in_a_row + 1 : 0;
+             passes |= in_a_row >= 2;
+           });
   return passes;
 }
 
@@ -53,20 +51,28 @@ bool passes_a_wall_on_any_side(const Submap& submap, const Point2& from_cells, c
   return passes_beside(1.0) && passes_beside(-1.0);
 }
 
-/// What stands around the end of a beam.
+/// What stands around the end of a beam, in the rows of cells that the tolerance reaches.
 ReturnVerdict verdict_of_end(const Submap& submap, const Point2& end_cells, const ConfidenceTuning& tuning) {
   const double reach_cells = tuning.tolerance_m / submap.geometry.resolution_m;
-  const int reach = static_cast<int>(std::ceil(reach_cells));
+  const int reach = static_cast<int>(reach_cells);
+  const double wall = tuning.occupied_probability * kPerProbability;
+  const double open = tuning.free_probability * kPerProbability;
   const CellIndex end = cell_of(end_cells);
+  const GridGeometry& grid = submap.geometry;
   int around = 0;
   int free = 0;
   for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      if (std::hypot(dx, dy) > reach_cells) continue;
-      const int occupied = occupied_at(submap, {end.x + dx, end.y + dy});
-      if (occupied > tuning.occupied_probability * kPerProbability) return ReturnVerdict::kAgrees;
-      ++around;
-      free += static_cast<int>(occupied > 0 && occupied < tuning.free_probability * kPerProbability);
+    const int half = static_cast<int>(std::sqrt(reach_cells * reach_cells - dy * dy));
+    around += 2 * half + 1;
+    if (end.y + dy < 0 || end.y + dy >= grid.height) continue;
+    const int first = std::max(end.x - half, 0);
+    const int last = std::min(end.x + half, grid.width - 1);
+    if (first > last) continue;
+    const std::size_t row = grid.offset({0, end.y + dy});
+    for (int cx = first; cx <= last; ++cx) {
+      const int occupied = submap.cells[row + static_cast<std::size_t>(cx)];
+      if (occupied > wall) return ReturnVerdict::kAgrees;
+      free += static_cast<int>(occupied > 0 && occupied < open);
     }
   }
   return 2 * free > around ? ReturnVerdict::kContradicts : ReturnVerdict::kUnknown;
