@@ -3,18 +3,6 @@
 #include "core/backend/refinement/refinement_problem.hpp"
 
 namespace swiftlet {
-namespace {
-
-/// In a different order for each beam, so that all of them give their share.
-std::uint32_t scattered(std::size_t number) {
-  return (static_cast<std::uint32_t>(number) * 2654435761U) >> 16U;
-}
-
-}  // namespace
-
-bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning) {
-  return scattered(index_of(scan) * kMaxBeams + return_of_scan) % tuning.hold_out_every == 0;
-}
 
 WallMap RefinementProblem::walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
                                     std::span<const TraversalPoint> others_thinned) const {

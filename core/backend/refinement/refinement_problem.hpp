@@ -14,10 +14,6 @@
 
 namespace swiftlet {
 
-/// A tenth of the returns, the same in all windows and in the batch, is held out and judges. So no return
-/// judges poses that it has helped to fit. `return_of_scan`: its place in ScanStore::returns().
-[[nodiscard]] bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning = {});
-
 struct PlacedReturn {
   PoseIndex pose{};  ///< of its scan, in the problem's list of poses
   std::uint32_t traversal = 0;

@@ -8,6 +8,19 @@
 #include "core/backend/store/traversal.hpp"
 
 namespace swiftlet {
+namespace {
+
+/// In a different order for each beam, so that all of them give their share.
+std::uint32_t scattered(std::size_t number) {
+  return (static_cast<std::uint32_t>(number) * 2654435761U) >> 16U;
+}
+
+}  // namespace
+
+bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning) {
+  return scattered(index_of(scan) * kMaxBeams + return_of_scan) % tuning.hold_out_every == 0;
+}
+
 /// `first_pose`: of the window's first scan.
 void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_pose) {
   const std::size_t count = scans_->return_count(window);
