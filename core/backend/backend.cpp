@@ -82,8 +82,8 @@ void Backend::State::compare_newest_scan(const FrontendStep& step) {
 void Backend::State::doubt_motion_if_contradicted() {
   if (!agreement.is_contradicted()) return loops.end_doubt();
   if (loops.unplaced_since()) return;
-  const KeyframeId agreed = scans[agreement.agreed_last()].keyframe;
-  const KeyframeId first = chain.all().next(agreed);
+  const ScanId agreed = scans.all().at_or_after(agreement.agreed_last());  // it may have been pruned
+  const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
   if (first >= chain.all().end_id()) return;
   graph.doubt_motion_to(first);
   loops.doubt_since(first, config.tuning.confidence.alarm_log_odds);
@@ -200,7 +200,7 @@ TrackingFigures Backend::tracking() const {
           .times_uncertain = s.agreement.times_contradicted(),
           .places_weighed = unplaced ? static_cast<std::uint32_t>(s.loops.places_weighed()) : 0,
           .way_since_closure_m = closures.empty() ? here_m : since_m(closures.values().back().to),
-          .way_unplaced_m = unplaced ? since_m(*unplaced) : 0.0};
+          .way_unplaced_m = unplaced ? since_m(s.chain.all().at_or_after(*unplaced)) : 0.0};
 }
 
 PoseConfidence Backend::confidence() {
