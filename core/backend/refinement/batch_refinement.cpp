@@ -13,14 +13,13 @@ namespace {
 
 RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tuning) {
   RefinementProblem problem(tuning);
-  std::uint32_t count = 0;
   const std::span<const StoredScan> stored = scans.all().values();
   for (std::size_t i = 0; i < stored.size(); ++i) {
+    const ScanId id = scans.all().id_at(i);
     for (const ScanReturn& beam : scans.returns(stored[i])) {
       if (!beam.is_hit) continue;
-      const bool held_out = count++ % tuning.hold_out_every == 0;
-      problem.add(
-          {make_id<PoseIndex>(i), index_of(traversal_of(stored[i])), held_out, scans.point_body(beam)});
+      problem.add({make_id<PoseIndex>(i), index_of(traversal_of(stored[i])),
+                   is_held_out(id, beam.beam, tuning), scans.point_body(beam)});
     }
   }
   return problem;

@@ -185,9 +185,9 @@ void OnlineRefinement::file_traversal(TraversalId traversal, const KeyframePoses
     const ScanId id = scans_->all().id_at(first + i);
     const Pose2 T_reference_body = T_reference_map * refined(id, T_map_graph[i / every]);
     const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
-    for (std::size_t k = 0; k < beams.size(); ++k) {
-      if (!beams[k].is_hit || is_held_out(id, k, refinement_tuning_)) continue;
-      const Point2 p = T_reference_body * scans_->point_body(beams[k]);
+    for (const ScanReturn& beam : beams) {
+      if (!beam.is_hit || is_held_out(id, beam.beam, refinement_tuning_)) continue;
+      const Point2 p = T_reference_body * scans_->point_body(beam);
       if (cells.is_first(p)) walls.points_reference.push_back(p);
     }
   }

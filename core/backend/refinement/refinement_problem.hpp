@@ -21,6 +21,12 @@ struct PlacedReturn {
   Point2 p_body;
 };
 
+/// Whether a return judges refined poses: of each beam one scan in ten, neighbouring beams one after another.
+/// The same in every problem.
+[[nodiscard]] inline bool is_held_out(ScanId scan, std::uint8_t beam, const RefinementTuning& tuning = {}) {
+  return (index_of(scan) + beam) % tuning.hold_out_every == 0;
+}
+
 /// What the held-out returns decide about refined poses.
 struct HeldOutVerdict {
   double held_out_before_m = 0.0;  ///< capped mean distance of held-out returns from other traversals' walls

@@ -8,18 +8,6 @@
 #include "core/backend/store/traversal.hpp"
 
 namespace swiftlet {
-namespace {
-
-/// In a different order for each beam, so that all of them give their share.
-std::uint32_t scattered(std::size_t number) {
-  return (static_cast<std::uint32_t>(number) * 2654435761U) >> 16U;
-}
-
-}  // namespace
-
-bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning) {
-  return scattered(index_of(scan) * kMaxBeams + return_of_scan) % tuning.hold_out_every == 0;
-}
 
 /// `first_pose`: of the window's first scan.
 void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_pose) {
@@ -35,7 +23,7 @@ void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_p
     for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
       if (!beams[k].is_hit || number % every != 0) continue;
       problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])),
-                    is_held_out(id, k, tuning_), scans_->point_body(beams[k])});
+                    is_held_out(id, beams[k].beam, tuning_), scans_->point_body(beams[k])});
     }
   }
 }

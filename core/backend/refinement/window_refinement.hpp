@@ -27,10 +27,6 @@ struct WindowPoses {
   std::vector<Pose2> T_local_body;  ///< along the frontend's path, which gives the steps between them
 };
 
-/// A tenth of the returns, the same in all windows, is held out and judges. `return_of_scan`: its place in
-/// ScanStore::returns().
-[[nodiscard]] bool is_held_out(ScanId scan, std::size_t return_of_scan, const RefinementTuning& tuning = {});
-
 /// One Gauss-Newton step of joint refinement over a window of consecutive scans: point-to-line factors to the
 /// walls of other traversals, the frontend's path between neighbouring scans, and for each keyframe a weak
 /// factor to its pose in the graph. Views the scans, which must outlive it. Allocates. One thread at a time.
