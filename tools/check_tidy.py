@@ -5,7 +5,7 @@
 is on that branch. A changed header stands for the source of its name. Of many, the MOST with the most changed lines: two
 minutes on two cores. Exit code 1 if clang-tidy reports anything.
 
-Usage: check_tidy.py [--all | FILE...]     --all: every source, which takes an hour
+Usage: check_tidy.py [--all | FILE...]     --all: every source, which takes hours
 """
 
 import os
