@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
-#include "core/backend/loop_closing/correlative_matcher.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
 namespace {
+
+constexpr int kCoarseness = 3;         // cells a side of a coarse cell: as wide as the max kernel
+constexpr double kHeadingReach = 2.0;  // coarse angular steps around what the coarse search has found
 
 /// Anywhere on the submap, with any heading.
 SearchWindow window_over(const Submap& submap) {
@@ -16,6 +18,24 @@ SearchWindow window_over(const Submap& submap) {
   const Point2& high = submap.high_m;
   return {Pose2(0.5 * (low.x_m + high.x_m), 0.5 * (low.y_m + high.y_m), 0.0),
           0.5 * std::max(high.x_m - low.x_m, high.y_m - low.y_m), kPi};
+}
+
+/// With the largest of the cells that make a cell, so that no score is less than the submap's.
+Submap coarse(const Submap& submap) {
+  Submap result = submap;
+  GridGeometry& grid = result.geometry;
+  grid.resolution_m *= kCoarseness;
+  grid.width = (grid.width + kCoarseness - 1) / kCoarseness;
+  grid.height = (grid.height + kCoarseness - 1) / kCoarseness;
+  result.cells.assign(grid.cell_count(), 0);
+  auto value = submap.cells.begin();
+  for (int y = 0; y < submap.geometry.height; ++y) {
+    for (int x = 0; x < submap.geometry.width; ++x) {
+      std::uint8_t& largest = result.cells[grid.offset({x / kCoarseness, y / kCoarseness})];
+      largest = std::max(largest, *value++);
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -31,19 +51,32 @@ void PlaceSearch::begin(KeyframeId query, const ScanRange& recent,
                         const KeyframePoses& T_local_keyframe) {
   stop();
   query_ = query;
-  points_query_ = thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse(),
-                               config_->tuning.detector.thinning_cell_m);
+  const Pose2 T_query_local = T_local_keyframe[query].inverse();
+  const double thinning_cell_m = config_->tuning.detector.thinning_cell_m;
+  points_query_ = thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_query_local, thinning_cell_m);
+  coarse_points_query_ =
+      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_query_local, kCoarseness * thinning_cell_m);
   if (points_query_.size() < static_cast<std::size_t>(config_->min_match_points)) return;
   cross_check_.emplace(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
   for (std::size_t i = 0; i < submaps.size(); i += 2) left_.push_back(submaps[i]);
 }
 
+/// The best of all places in coarse cells, and then the best around it.
+std::optional<MatchResult> PlaceSearch::match_anywhere(const Submap& submap) const {
+  const CorrelativeMatcherTuning& tuning = config_->tuning.matcher;
+  const Submap coarse_submap = coarse(submap);
+  const CorrelativeMatcher anywhere(coarse_submap, coarse_points_query_, window_over(submap), tuning);
+  const std::optional<DiscreteMatch> found = anywhere.best_by_branch_and_bound(config_->min_score);
+  if (!found) return std::nullopt;
+  const SearchWindow around{anywhere.T_submap_scan(*found), tuning.max_spread_m,
+                            kHeadingReach * anywhere.angle_step_rad()};
+  return CorrelativeMatcher(submap, points_query_, around, tuning).match(config_->min_score);
+}
+
 void PlaceSearch::step() {
   const std::shared_ptr<const Submap> submap = left_.back();
   left_.pop_back();
-  const std::optional<MatchResult> match =
-      CorrelativeMatcher(*submap, points_query_, window_over(*submap), config_->tuning.matcher)
-          .match(config_->min_score);
+  const std::optional<MatchResult> match = match_anywhere(*submap);
   if (!match || !cross_check_->holds(*submap, match->T_submap_scan_best)) return;
   found_.push_back({.from = submap->reference,
                     .to = query_,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/backend/config/backend_config.hpp"
+#include "core/backend/loop_closing/correlative_matcher.hpp"
 #include "core/backend/loop_closing/cross_check.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/loop_closing/submap.hpp"
@@ -38,11 +39,14 @@ class PlaceSearch {
   void stop();
 
  private:
+  [[nodiscard]] std::optional<MatchResult> match_anywhere(const Submap& submap) const;
+
   const BackendConfig* config_;
   const ScanStore* scans_;
   const KeyframeChain* chain_;
   KeyframeId query_{};
   std::vector<Point2> points_query_;
+  std::vector<Point2> coarse_points_query_;  // of about as many cells as they are fewer
   std::optional<CrossCheck> cross_check_;
   std::vector<std::shared_ptr<const Submap>> left_;  // to be searched
   std::vector<LoopClosure> found_;
