@@ -24,9 +24,9 @@ constexpr int kMaxFolders = 10'000;  // of one name
 
 std::string name_of(const std::string& input) {
   const Result<InputUri> uri = parse_input_uri(input);
-  if (uri && uri->as<InputFile>() != nullptr) {
-    const std::string file = fs::path(uri->as<InputFile>()->path).filename().string();
-    return file.substr(0, file.find('.'));
+  if (const InputFile* file = uri ? uri->as<InputFile>() : nullptr) {
+    const std::string name = fs::path(file->path).filename().string();
+    return name.substr(0, name.find('.'));
   }
   const std::size_t start = uri && uri->is(InputNature::kSimulation) ? uri->kind->scheme.size() : 0;
   return input.substr(start, input.find('?') - start);

@@ -30,9 +30,9 @@ constexpr std::array kChannels{kPose, kPoseLocal, kPoseOdom, kMapTile, kLandmark
 
 constexpr std::size_t kMaxWalls = 100'000;
 constexpr std::int32_t kMaxTileIndex = 1 << 20;
-constexpr double kFarthest_m = 1e7;
+constexpr double kFarthestM = 1e7;
 
-bool is_place(double x_m, double y_m) { return std::abs(x_m) < kFarthest_m && std::abs(y_m) < kFarthest_m; }
+bool is_place(double x_m, double y_m) { return std::abs(x_m) < kFarthestM && std::abs(y_m) < kFarthestM; }
 bool is_place(const double (&point)[2]) { return is_place(point[0], point[1]); }
 bool is_place(const float (&point)[2]) {
   return is_place(static_cast<double>(point[0]), static_cast<double>(point[1]));

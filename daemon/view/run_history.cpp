@@ -11,7 +11,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kSilenceThatEndsARun_s = 5.0;
+constexpr double kSilenceThatEndsARunS = 5.0;
 
 std::vector<std::uint8_t> deflate_tile(const std::array<std::int8_t, kCellsInTile>& cells) {
   std::array<std::uint8_t, kCellsInTile> bytes;
@@ -50,7 +50,7 @@ std::array<std::int8_t, kCellsInTile> inflate_tile(std::span<const std::uint8_t>
 
 bool RunHistory::enter_run(std::int64_t map_id, double silence_s) {
   if (generation_ > 0 && map_id == map_id_) return true;
-  if (generation_ > 0 && map_id < map_id_ && silence_s < kSilenceThatEndsARun_s) return false;
+  if (generation_ > 0 && map_id < map_id_ && silence_s < kSilenceThatEndsARunS) return false;
   begin_run(map_id);
   return true;
 }

@@ -15,8 +15,8 @@ namespace swiftlet {
 namespace {
 
 // One cell, at rest under load: below that a Crazyflie soon sinks.
-constexpr double kBatteryLow_v = 3.2;
-constexpr double kBatteryRecovered_v = 3.5;
+constexpr double kBatteryLowV = 3.2;
+constexpr double kBatteryRecoveredV = 3.5;
 
 std::string link_text(std::int8_t condition) {
   if (condition < 0 || condition > static_cast<std::int8_t>(LinkCondition::kDeviceUnsuited))
@@ -90,12 +90,12 @@ void RunNarrator::tell_link(const RunStatus& status) {
 
 void RunNarrator::tell_battery(const RunStatus& status) {
   if (status.battery_v <= 0.0) return;
-  if (!battery_is_low_ && status.battery_v < kBatteryLow_v) {
+  if (!battery_is_low_ && status.battery_v < kBatteryLowV) {
     battery_is_low_ = true;
     history_.add_event(status.utime_us, EventLevel::kBad,
                        fmt::format("battery low: {:.2f} V", status.battery_v));
   }
-  if (status.battery_v > kBatteryRecovered_v) battery_is_low_ = false;
+  if (status.battery_v > kBatteryRecoveredV) battery_is_low_ = false;
 }
 
 void RunNarrator::tell_losses(const RunStatus& status) {

@@ -38,8 +38,11 @@ std::string input_forms(std::initializer_list<InputNature> natures) {
     forms.push_back(std::string(kind.scheme).append(kind.form));
     if (kind.nature == InputNature::kFile) forms.emplace_back("a path (.pcap or .clf, also in gzip)");
   }
-  std::string text = forms.front();
-  for (std::size_t i = 1; i < forms.size(); ++i) text += (i + 1 < forms.size() ? ", " : " or ") + forms[i];
+  std::string text;
+  for (const std::string& form : forms) {
+    if (!text.empty()) text += &form == &forms.back() ? " or " : ", ";
+    text += form;
+  }
   return text;
 }
 
