@@ -13,6 +13,10 @@ foreach(file
     lib/udev/rules.d/70-swiftlet-crazyflie.rules
     share/swiftlet/60-swiftlet-lcm.conf
     share/swiftlet/swiftletd.toml
+    include/swiftlet/pose_t.hpp
+    share/cmake/swiftlet_messages/swiftlet_messages-config.cmake
+    share/swiftlet/lcm/README.md
+    share/swiftlet/lcm/pose_t.lcm
     share/doc/swiftlet/README.md
     share/doc/swiftlet/docs/flying.md
     share/doc/swiftlet/docs/images/office.png)
