@@ -19,6 +19,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/config/configuration.hpp"
 #include "daemon/daemon.hpp"
+#include "daemon/manual/page_option.hpp"
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/publish/lcm_publisher.hpp"
@@ -93,6 +94,23 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--print-configuration-reference", options.print_reference,
                "write docs/configuration.md and exit");
   app.add_flag("--print-tuning", options.print_tuning)->group("");  // for experiments: not in the help
+}
+
+/// What the manual says beyond --help.
+ManualFacts manual_facts() {
+  return {
+      .section = 8,
+      .version = version_text("swiftletd"),
+      .sections =
+          {{"EXIT STATUS",
+            "0: the run is complete.\n1: an internal failure.\n2: bad input or configuration; one line on "
+            "stderr says what."},
+           {"FILES",
+            "/etc/swiftlet/swiftletd.toml: the configuration of the service.\n"
+            "/etc/default/swiftletd: the input and the LCM address of the service.\n"
+            "/var/lib/swiftlet: recordings of the service."},
+           {"SEE ALSO", "swiftlet(1), systemctl(1), /usr/share/doc/swiftlet"}},
+      .choices = {}};
 }
 
 int refuse(const std::string& why) {
@@ -301,8 +319,10 @@ int main_without_exceptions(int argc, char** argv) {
   static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");
+  app.name("swiftletd");
   app.set_version_flag("--version", version_text("swiftletd"));
   declare(app, options);
+  add_page_option(app, manual_facts());
   try {
     app.parse(argc, argv);
     options.record.asked = app.count("--record") > 0;

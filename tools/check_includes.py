@@ -23,7 +23,7 @@ SAMPLE = SESSION + ["firmware_link/sample", "firmware_link/file"]
 FIRMWARE_LINK = SAMPLE + ["firmware_link/sharing", "firmware_link/capture", "firmware_link/laser_log", "firmware_link/simulation",
                           "firmware_link/input"]
 STAGES = ["daemon/config", "daemon/system", "daemon/workers"]
-DAEMON = STAGES + ["daemon/publish", "daemon/view", "daemon/recording", "daemon/outputs", "daemon"]
+DAEMON = STAGES + ["daemon/manual", "daemon/publish", "daemon/view", "daemon/recording", "daemon/outputs", "daemon"]
 ALLOWED = {  # folder: folders it may include from, besides itself; the longest matching folder counts
     "core/base": [],
     "core/geometry": ["core/base"],
@@ -52,6 +52,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "firmware_link/simulation": SENSING + LINK,
     "firmware_link/input": SENSING + FIRMWARE_LINK,
     "daemon/system": ["core/base"],
+    "daemon/manual": [],
     "daemon/config": CORE + ["daemon/system"],
     "daemon/workers": CORE + FIRMWARE_LINK + ["daemon/config", "daemon/system"],
     "daemon/publish": CORE + FIRMWARE_LINK + STAGES + ["proto"],

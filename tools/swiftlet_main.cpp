@@ -15,6 +15,7 @@
 
 #include "core/sensing/range_sample.hpp"
 #include "daemon/command_line.hpp"
+#include "daemon/manual/page_option.hpp"
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/version.hpp"
 #include "firmware_link/input/input_uri.hpp"
@@ -296,6 +297,21 @@ std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
           {add_help_command(app, c.help), [&c, &app] { return run_help(app, c.help); }}};
 }
 
+/// What the manual says beyond --help.
+swiftlet::ManualFacts manual_facts(const std::vector<Choice>& choices) {
+  swiftlet::ManualFacts facts{
+      .section = 1, .version = swiftlet::version_text("swiftlet"), .sections = {}, .choices = {}};
+  for (const swiftlet::WorldPlan& world : swiftlet::simulated_worlds())
+    facts.choices["--world"].emplace_back(world.name);
+  facts.choices["--missing-deck"] = {"flow", "multiranger"};
+  for (const Choice& choice : choices) facts.choices["COMMAND"].push_back(choice.command->get_name());
+  facts.sections["EXIT STATUS"] =
+      "0: done.\n1: swiftlet doctor found a problem that stops a flight.\n2: bad input; one line on stderr "
+      "says what.";
+  facts.sections["SEE ALSO"] = "swiftletd(8), /usr/share/doc/swiftlet";
+  return facts;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("2D SLAM for four range beams");
   app.name("swiftlet");
@@ -303,6 +319,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Commands commands;
   const std::vector<Choice> choices = add_commands(app, commands);
+  swiftlet::add_page_option(app, manual_facts(choices));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& question) {

@@ -14,6 +14,12 @@ foreach(file
     share/swiftlet/60-swiftlet-lcm.conf
     share/swiftlet/swiftletd.toml
     include/swiftlet/pose_t.hpp
+    share/bash-completion/completions/swiftlet
+    share/bash-completion/completions/swiftletd
+    share/man/man1/swiftlet.1
+    share/man/man8/swiftletd.8
+    share/zsh/vendor-completions/_swiftlet
+    share/zsh/vendor-completions/_swiftletd
     share/cmake/swiftlet_messages/swiftlet_messages-config.cmake
     share/swiftlet/lcm/README.md
     share/swiftlet/lcm/pose_t.lcm
