@@ -61,7 +61,7 @@ class InstalledMessagesTest(unittest.TestCase):
         types = {path.stem for path in (ROOT / "proto").glob("*.lcm")}
         self.assertEqual({path.stem for path in (self.prefix / "share/swiftlet/lcm").glob("*.lcm")}, types)
         self.assertEqual({path.stem for path in (self.prefix / "include/swiftlet").iterdir()}, types)
-        jar = self.prefix / "share/java/swiftlet_messages.jar"
+        jar = self.prefix / "share/swiftlet/swiftlet-messages.jar"
         if jar.exists():  # the build found a JDK
             classes = run("jar", "--list", "--file", jar).splitlines()
             self.assertEqual({Path(name).stem for name in classes if name.endswith(".class")}, types)

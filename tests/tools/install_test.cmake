@@ -16,8 +16,8 @@ foreach(file
     include/swiftlet/pose_t.hpp
     share/bash-completion/completions/swiftlet
     share/bash-completion/completions/swiftletd
-    share/man/man1/swiftlet.1
-    share/man/man8/swiftletd.8
+    share/man/man1/swiftlet.1.gz
+    share/man/man8/swiftletd.8.gz
     share/zsh/vendor-completions/_swiftlet
     share/zsh/vendor-completions/_swiftletd
     share/cmake/swiftlet_messages/swiftlet_messages-config.cmake
