@@ -20,8 +20,8 @@ CORE = SLAM + BACKEND + ["core/mapping", "core/mapping/picture", "core/evaluatio
 LINK = ["firmware_link/crtp", "firmware_link/link"]
 SESSION = LINK + ["firmware_link/session"]
 SAMPLE = SESSION + ["firmware_link/sample", "firmware_link/file"]
-FIRMWARE_LINK = SAMPLE + ["firmware_link/sharing", "firmware_link/capture", "firmware_link/laser_log", "firmware_link/simulation",
-                          "firmware_link/input"]
+FIRMWARE_LINK = SAMPLE + ["firmware_link/sharing", "firmware_link/capture", "firmware_link/laser_log",
+                          "firmware_link/sample_table", "firmware_link/simulation", "firmware_link/input"]
 STAGES = ["daemon/config", "daemon/system", "daemon/workers"]
 DAEMON = STAGES + ["daemon/manual", "daemon/publish", "daemon/view", "daemon/recording", "daemon/outputs", "daemon"]
 ALLOWED = {  # folder: folders it may include from, besides itself; the longest matching folder counts
@@ -49,6 +49,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "firmware_link/sharing": SENSING + SESSION,
     "firmware_link/capture": SENSING + SESSION + ["firmware_link/file"],
     "firmware_link/laser_log": SENSING + ["firmware_link/file", "firmware_link/sample"],
+    "firmware_link/sample_table": SENSING + ["firmware_link/file", "firmware_link/sample"],
     "firmware_link/simulation": SENSING + LINK,
     "firmware_link/input": SENSING + FIRMWARE_LINK,
     "daemon/system": ["core/base"],

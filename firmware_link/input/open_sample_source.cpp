@@ -14,6 +14,7 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
+#include "firmware_link/sample_table/sample_table_source.hpp"
 #include "firmware_link/sharing/client_socket.hpp"
 #include "firmware_link/sharing/shared_link.hpp"
 #include "firmware_link/simulation/address.hpp"
@@ -106,6 +107,7 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   if (!size) return size.error();
   if (begins_like_capture(path) || path.ends_with(".pcap") || path.ends_with(".pcap.gz"))
     return open_capture(path, options);
+  if (is_taken_for_sample_table(path)) return SampleTableSource::open(path, options);
   const Status limits = check_limits(options, SensorModel::carmen_laser());
   if (!limits) return limits.error();
   return CarmenSampleSource::open(path, options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 // Writes the seeds of the fuzz targets: make_seeds FOLDER.
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "firmware_link/capture/capture_writer.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/link/frame_sink.hpp"
+#include "firmware_link/sample_table/sample_table.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/fuzz/fuzz_bytes.hpp"
 
@@ -154,6 +156,23 @@ constexpr std::string_view kRelations =
     "90.239599 90.719599 0.42 0 0 0 0 0.01\n90.719599 90.239599 -0.42 0 0 0 0 0\n";
 /// May be either.
 constexpr std::string_view kRelationsOrTruth = "1 2 0.5 0 0 0 0 1\n2 1 0 0 0 0 0 1\n";
+/// Two samples with each kind of range.
+std::string sample_table() {
+  RangeSample sample;
+  sample.starts_segment = true;
+  sample.T_odom_body = Pose2(1.0, -2.0, 0.5);
+  sample.beam_count = 4;
+  sample.distance_m = {1.5F};
+  sample.status = {RangeStatus::kHit, RangeStatus::kNoReturn, RangeStatus::kInvalid, RangeStatus::kNoReturn};
+  std::string text =
+      sample_table_head({.beams = BeamLayout::multiranger(), .sensor = SensorModel::crazyflie()});
+  append_sample_row(text, sample);
+  sample.starts_segment = false;
+  sample.measured_at += std::chrono::milliseconds(100);
+  append_sample_row(text, sample);
+  return text;
+}
+
 /// Two scans of the smallest known width.
 std::string laser_log() {
   std::string log = "PARAM robot_frontlaser_offset 0.0\n";
@@ -176,8 +195,9 @@ bool write_all(const std::filesystem::path& folder) {
          write(folder / "log_session/compressed", as_fuzz_bytes(compressed_session())) &&
          write(folder / "recording/radio.pcap", one_block, CaptureLinkKind::kRadio) &&
          write(folder / "recording/usb.pcap", two_blocks, CaptureLinkKind::kUsb) &&
-         write(folder / "recording/laser.clf", laser_log()) && write(folder / "reference/truth", kTruth) &&
-         write(folder / "reference/relations", kRelations) &&
+         write(folder / "recording/laser.clf", laser_log()) &&
+         write(folder / "recording/samples.csv", sample_table()) &&
+         write(folder / "reference/truth", kTruth) && write(folder / "reference/relations", kRelations) &&
          write(folder / "reference/either", kRelationsOrTruth) &&
          write(folder / "block_description/one.toml", kDescription);
 }

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample_table/sample_table_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+/// The limits of both.
+SensorModel narrowed(SensorModel sensor, const SampleSourceOptions& options) {
+  sensor.min_range_m = std::max(sensor.min_range_m, options.min_range_m.value_or(0.0));
+  sensor.max_range_m = std::min(sensor.max_range_m, options.max_range_m.value_or(sensor.max_range_m));
+  return sensor;
+}
+
+Result<SampleTableHead> read_head(GzipLines& lines) {
+  std::array<std::string, 4> head;
+  for (std::string& line : head) {
+    const Result<std::string_view> next = lines.next();
+    if (!next) return Error{ErrorCode::kInvalidInput, "it ends within its head"};
+    line = *next;
+    if (head[0] != kSampleTableMark)
+      return Error{ErrorCode::kInvalidInput, "its first line is not '" + std::string(kSampleTableMark) + "'"};
+  }
+  Result<SampleTableHead> parsed = parse_sample_table_head(head[1], head[2]);
+  if (parsed && head[3] != sample_table_columns(parsed->beams.count))
+    return Error{ErrorCode::kInvalidInput,
+                 "its columns are not " + sample_table_columns(parsed->beams.count)};
+  return parsed;
+}
+
+}  // namespace
+
+bool is_taken_for_sample_table(const std::string& path) {
+  if (path.ends_with(".csv") || path.ends_with(".csv.gz")) return true;
+  Result<GzipLines> lines = GzipLines::open(path);
+  if (!lines) return false;
+  const Result<std::string_view> first = lines->next();
+  return first && *first == kSampleTableMark;
+}
+
+SampleTableSource::SampleTableSource(std::string path, GzipLines lines, const SampleTableHead& head)
+    : path_(std::move(path)), lines_(std::move(lines)), head_(head) {
+  report_.shows_age = false;
+}
+
+Result<std::unique_ptr<SampleSource>> SampleTableSource::open(const std::string& path,
+                                                              const SampleSourceOptions& options) {
+  Result<GzipLines> lines = GzipLines::open(path);
+  if (!lines) return lines.error();
+  Result<SampleTableHead> head = read_head(*lines);
+  if (!head)
+    return Error{ErrorCode::kInvalidInput, path + " is no table of samples: " + head.error().message +
+                                               "; swiftlet convert writes such tables"};
+  head->sensor = narrowed(head->sensor, options);
+  if (head->sensor.min_range_m >= head->sensor.max_range_m)
+    return Error{ErrorCode::kInvalidInput, path + ": no range lies between the limits set and its own"};
+  return std::unique_ptr<SampleSource>(new SampleTableSource(path, std::move(lines).value(), *head));
+}
+
+Error SampleTableSource::end_with(const std::string& problem) {
+  has_ended_ = true;
+  if (!problem.empty()) report_.problems.push_back(problem);
+  return {ErrorCode::kEndOfRecording, "end of the table of samples"};
+}
+
+void SampleTableSource::count(const RangeSample& sample) {
+  InputCounters& counters = report_.counters;
+  ++counters.frames;
+  ++counters.samples;
+  if (sample.starts_segment) ++counters.segments;
+  for (std::size_t i = 0; i < sample.beam_count; ++i) {
+    const RangeStatus status = sample.status[i];
+    ++(status == RangeStatus::kHit        ? counters.hits
+       : status == RangeStatus::kNoReturn ? counters.no_returns
+                                          : counters.invalid);
+  }
+}
+
+Result<ReceivedSample> SampleTableSource::next() {
+  if (has_ended_) return end_with("");
+  const Result<std::string_view> row = lines_.next();
+  if (!row) return end_with(row.error().code == ErrorCode::kEndOfRecording ? "" : row.error().message);
+  const std::string where = path_ + ", line " + std::to_string(lines_.line_number()) + ": ";
+  Result<RangeSample> sample = parse_sample_row(*row, head_);
+  if (!sample) return end_with(where + sample.error().message + "; the table is used up to there");
+  if (!last_measured_at_) sample->starts_segment = true;
+  if (!sample->starts_segment && sample->measured_at <= *last_measured_at_)
+    return end_with(where + "measured_at_ns does not increase; the table is used up to there");
+  last_measured_at_ = sample->measured_at;
+  sample->sequence = static_cast<std::uint32_t>(report_.counters.samples);
+  count(*sample);
+  return ReceivedSample{.sample = *sample};
+}
+
+}  // namespace swiftlet
