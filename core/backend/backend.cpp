@@ -222,6 +222,7 @@ PoseConfidence Backend::confidence() {
 }
 const IdMap<ClosureId, LoopClosure>& Backend::closures() const { return state_->loops.closures(); }
 const std::vector<Wall>& Backend::walls() const { return state_->estimates.walls(); }
+const PoseGraph& Backend::pose_graph() const { return state_->graph.graph(); }
 
 BackendCounters Backend::counters() const {
   const State& s = *state_;

@@ -19,6 +19,8 @@
 
 namespace swiftlet {
 
+struct PoseGraph;
+
 /// Carries the frontend's continuous frame into the map: T_map_body = T_map_local * T_local_body. Plain
 /// struct: crosses threads through a LatestValue.
 struct MapCorrection {
@@ -94,6 +96,8 @@ class Backend {
   [[nodiscard]] PoseConfidence confidence();
   [[nodiscard]] const IdMap<ClosureId, LoopClosure>& closures() const;
   [[nodiscard]] const std::vector<Wall>& walls() const;
+  /// Of the keyframes that were not pruned. Refinement moves scans, not these poses.
+  [[nodiscard]] const PoseGraph& pose_graph() const;
   [[nodiscard]] BackendCounters counters() const;
 
  private:
