@@ -197,6 +197,10 @@ CLI::App* add_view_command(CLI::App& app, swiftlet::ViewCommand& command) {
                        "To be mapped and shown; without it a running swiftletd is\n" + finite_inputs());
   view->add_option("--listen", command.listen, "ADDRESS:PORT where the browser finds the page")
       ->capture_default_str();
+  view->add_option("--allow-origin", command.foreign_origins,
+                   "Let pages from there look, too, as their browser names it: https://app.foxglove.dev, or "
+                   "file:// for Foxglove's desktop application; may be given twice")
+      ->allow_extra_args(false);
   view->add_option("--lcm-url", command.lcm_url, "Where swiftletd publishes")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();

@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds kStopWait{100};  // the longest a signal goe
 Result<std::unique_ptr<ViewService>> open_service(const ViewCommand& command, const ShownSource& source) {
   const Result<ListenAddress> address = parse_listen_address(command.listen);
   if (!address) return address.error();
-  Result<std::unique_ptr<ViewService>> service = ViewService::open(*address, source);
+  Result<std::unique_ptr<ViewService>> service = ViewService::open(*address, source, command.foreign_origins);
   if (!service) return service;
   std::printf("%s: open %s in a browser; Ctrl-C ends\n", source.title.c_str(),
               (*service)->server().url().c_str());
@@ -38,7 +38,7 @@ Status view_live(const ViewCommand& command, const std::stop_token& stop) {
   const Result<std::unique_ptr<ViewService>> service =
       open_service(command, {.title = command.lcm_url, .is_recording = false, .rate = 1.0});
   if (!service) return service.error();
-  return view_lcm(command.lcm_url, command.channel_prefix, (*service)->shared(), stop);
+  return view_lcm(command.lcm_url, command.channel_prefix, (*service)->shared(), stop, {});
 }
 
 Status view_recording(const ViewCommand& command, const std::stop_token& stop) {

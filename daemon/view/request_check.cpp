@@ -45,10 +45,17 @@ bool is_own(const std::string& name, const OwnNames& own) {
   return is_address(name) || std::find(own.names.begin(), own.names.end(), name) != own.names.end();
 }
 
+bool is_welcome(std::string_view origin, std::string_view host, const OwnNames& own) {
+  const std::string name = lower(origin);
+  if (name == "http://" + lower(host)) return true;
+  return std::any_of(own.foreign_origins.begin(), own.foreign_origins.end(),
+                     [&name](const std::string& allowed) { return lower(allowed) == name; });
+}
+
 }  // namespace
 
 OwnNames own_names(const std::string& host) {
-  OwnNames own{.is_loopback = is_loopback(lower(host)), .names = {}};
+  OwnNames own{.is_loopback = is_loopback(lower(host)), .names = {}, .foreign_origins = {}};
   std::array<char, 256> name{};
   if (gethostname(name.data(), name.size() - 1) == 0 && name.front() != '\0') {
     own.names.push_back(lower(name.data()));
@@ -61,7 +68,7 @@ std::optional<Refusal> refuse_request(const RequestHead& head, const OwnNames& o
   if (head.method != "GET" && head.method != "HEAD") return Refusal{405, "only GET is answered\n"};
   if (!is_own(name_of_host(head.host), own))
     return Refusal{403, "this server is not known by that name; use its address\n"};
-  if (head.origin && lower(*head.origin) != "http://" + lower(head.host))
+  if (head.origin && !is_welcome(*head.origin, head.host, own))
     return Refusal{403, "pages of other sites are not answered\n"};
   return std::nullopt;
 }

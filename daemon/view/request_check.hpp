@@ -14,6 +14,8 @@ namespace swiftlet {
 struct OwnNames {
   bool is_loopback = true;         ///< listens within the machine: loopback addresses and localhost alone
   std::vector<std::string> names;  ///< otherwise addresses, localhost and these
+  /// Pages of these may ask, too, as their browsers name them: "https://app.foxglove.dev", "file://".
+  std::vector<std::string> foreign_origins{};
 };
 /// For a server that listens on `host`.
 [[nodiscard]] OwnNames own_names(const std::string& host);

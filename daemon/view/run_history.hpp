@@ -134,6 +134,8 @@ class RunHistory {
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   /// Counts every change up, over all runs.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
+  /// nullptr before the first; valid until the next change.
+  [[nodiscard]] const TrailPose* newest_pose() const { return poses_.empty() ? nullptr : &poses_.back(); }
   /// The newest pose has arrived in all its frames only when the next one is there, or odom is.
   [[nodiscard]] std::span<const TrailPose> poses_after(std::uint32_t serial) const;
   /// Those of the events after `serial`, oldest first.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "daemon/publish/lcm_transport.hpp"
+#include "daemon/view/foxglove_conversation.hpp"
 #include "daemon/view/message_reader.hpp"
 #include "daemon/view/page_files.hpp"
 
@@ -21,15 +22,21 @@ constexpr std::chrono::milliseconds kStopWait{100};  // the longest a stop goes 
 }  // namespace
 
 Result<std::unique_ptr<ViewService>> ViewService::open(const ListenAddress& address,
-                                                       const ShownSource& source) {
+                                                       const ShownSource& source,
+                                                       const std::vector<std::string>& foreign_origins) {
   std::unique_ptr<ViewService> service(new ViewService(source));
   ViewService* const self = service.get();
-  const auto converse = [self](std::string_view path) -> std::unique_ptr<Conversation> {
-    if (path != kLivePath) return nullptr;
-    return std::make_unique<Viewer>(self->shared_, self->source_);
+  const auto converse = [self](const SocketRequest& wanted) -> SocketAnswer {
+    const std::string_view foxglove = foxglove_subprotocol(wanted.subprotocols);
+    if (!foxglove.empty())
+      return {std::make_unique<FoxgloveConversation>(self->shared_, self->source_,
+                                                     std::chrono::steady_clock::now),
+              foxglove};
+    if (wanted.path != kLivePath) return {};
+    return {std::make_unique<Viewer>(self->shared_, self->source_), {}};
   };
-  Result<std::unique_ptr<WebServer>> server =
-      WebServer::open(address, {.files = page_files(), .converse = converse});
+  Result<std::unique_ptr<WebServer>> server = WebServer::open(
+      address, {.files = page_files(), .converse = converse, .foreign_origins = foreign_origins});
   if (!server) return server.error();
   service->server_ = std::move(server).value();
   service->thread_ = std::jthread([self](const std::stop_token& stop) { self->server_->run(stop); });
@@ -40,15 +47,16 @@ Result<std::unique_ptr<ViewService>> ViewService::open(const ListenAddress& addr
 ViewService::~ViewService() = default;
 
 Status view_lcm(const std::string& url, const std::string& channel_prefix, SharedRunHistory& shared,
-                const std::stop_token& stop) {
+                const std::stop_token& stop, const std::function<void()>& after_message) {
   const Result<std::unique_ptr<LcmTransport>> lcm = LcmTransport::open(url);
   if (!lcm) return lcm.error();
   MessageReader reader(shared.history);
   for (const std::string_view channel : viewed_channels())
     (*lcm)->listen(channel_prefix + std::string(channel),
-                   [&reader, &shared, channel](std::span<const std::uint8_t> message) {
+                   [&, channel](std::span<const std::uint8_t> message) {
                      const std::lock_guard lock(shared.mutex);
                      reader.take(channel, message, std::chrono::steady_clock::now());
+                     if (after_message) after_message();
                    });
   while (!stop.stop_requested()) (*lcm)->receive(kStopWait);
   return {};

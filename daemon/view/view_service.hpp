@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/base/result.hpp"
 #include "daemon/view/viewer.hpp"
@@ -12,13 +14,14 @@
 
 namespace swiftlet {
 
-/// The page on which a run is watched: fills its history by what it is told, and serves it in a thread of its
-/// own.
+/// The page on which a run is watched, and the same for Foxglove: fills its history by what it is told, and
+/// serves it in a thread of its own.
 class ViewService {
  public:
-  /// Error: kInvalidInput: it cannot listen there.
-  [[nodiscard]] static Result<std::unique_ptr<ViewService>> open(const ListenAddress& address,
-                                                                 const ShownSource& source);
+  /// Pages of `foreign_origins` may look, too. Error: kInvalidInput: it cannot listen there.
+  [[nodiscard]] static Result<std::unique_ptr<ViewService>> open(
+      const ListenAddress& address, const ShownSource& source,
+      const std::vector<std::string>& foreign_origins);
   ~ViewService();
   ViewService(const ViewService&) = delete;
   ViewService& operator=(const ViewService&) = delete;
@@ -36,9 +39,10 @@ class ViewService {
   std::jthread thread_;
 };
 
-/// Reads the messages of a swiftletd, until `stop` is requested, into the history. Error: as
-/// LcmTransport::open().
+/// Reads the messages of a swiftletd, until `stop` is requested, into the history; `after_message`, where it
+/// is set, is called after each, with the mutex held. Error: as LcmTransport::open().
 [[nodiscard]] Status view_lcm(const std::string& url, const std::string& channel_prefix,
-                              SharedRunHistory& shared, const std::stop_token& stop);
+                              SharedRunHistory& shared, const std::stop_token& stop,
+                              const std::function<void()>& after_message);
 
 }  // namespace swiftlet

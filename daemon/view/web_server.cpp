@@ -32,7 +32,7 @@ constexpr std::chrono::seconds kHttpTimeout{15};
 constexpr std::chrono::milliseconds kAcceptPause{100};  // after a failure: no descriptor is free, for example
 constexpr std::size_t kMaxConnections = 64;
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr std::size_t kMaxMessageBytes = 1024;
+constexpr std::size_t kMaxMessageBytes = 4096;
 constexpr const char* kSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
     "'self'; "
@@ -65,14 +65,21 @@ class CountedConnection {
 /// A WebSocket and what it carries.
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
  public:
-  WebSocketSession(beast::tcp_stream stream, std::unique_ptr<Conversation> conversation,
-                   std::shared_ptr<CountedConnection> counted)
-      : socket_(std::move(stream)), conversation_(std::move(conversation)), counted_(std::move(counted)) {}
+  WebSocketSession(beast::tcp_stream stream, SocketAnswer answer, std::shared_ptr<CountedConnection> counted)
+      : socket_(std::move(stream)),
+        conversation_(std::move(answer.conversation)),
+        subprotocol_(answer.subprotocol),
+        counted_(std::move(counted)) {}
 
   void accept(const Request& request) {
     beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own times
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     socket_.read_message_max(kMaxMessageBytes);
+    if (!subprotocol_.empty())
+      socket_.set_option(
+          websocket::stream_base::decorator([name = subprotocol_](websocket::response_type& response) {
+            response.set(http::field::sec_websocket_protocol, beast::string_view(name.data(), name.size()));
+          }));
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) return;
       self->is_open_ = true;
@@ -95,6 +102,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
  private:
   websocket::stream<beast::tcp_stream> socket_;
   std::unique_ptr<Conversation> conversation_;
+  std::string_view subprotocol_;
   std::shared_ptr<CountedConnection> counted_;
   beast::flat_buffer received_;
   WebMessage sent_;
@@ -186,11 +194,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     return target.substr(0, target.find('?'));
   }
   void upgrade(const Request& request) {
-    std::unique_ptr<Conversation> conversation = site_.content.converse(path_of(request));
-    if (!conversation)
+    SocketRequest wanted{.path = path_of(request), .subprotocols = {}};
+    for (const auto name : http::token_list(request[http::field::sec_websocket_protocol]))
+      wanted.subprotocols.push_back(view_of(name));
+    SocketAnswer answer = site_.content.converse(wanted);
+    if (!answer.conversation)
       return send(http::status::not_found, {"text/plain", "there is no such socket\n"}, false);
     const auto session =
-        std::make_shared<WebSocketSession>(std::move(stream_), std::move(conversation), std::move(counted_));
+        std::make_shared<WebSocketSession>(std::move(stream_), std::move(answer), std::move(counted_));
     sockets_.add(session);
     session->accept(request);
   }
@@ -302,8 +313,9 @@ Result<ListenAddress> parse_listen_address(std::string_view text) {
 Result<std::unique_ptr<WebServer>> WebServer::open(const ListenAddress& address, WebSite site) {
   auto state = std::make_unique<State>();
   if (Status listening = state->listen(address); !listening) return listening.error();
-  state->site.content = std::move(site);
   state->site.names = own_names(address.host);
+  state->site.names.foreign_origins = site.foreign_origins;
+  state->site.content = std::move(site);
   return std::unique_ptr<WebServer>(new WebServer(std::move(state)));
 }
 

@@ -7,8 +7,8 @@
 namespace swiftlet {
 namespace {
 
-const OwnNames kLoopback{.is_loopback = true, .names = {"mybox"}};
-const OwnNames kNetwork{.is_loopback = false, .names = {"mybox", "mybox.local"}};
+const OwnNames kLoopback{.is_loopback = true, .names = {"mybox"}, .foreign_origins = {}};
+const OwnNames kNetwork{.is_loopback = false, .names = {"mybox", "mybox.local"}, .foreign_origins = {}};
 
 bool passes(std::string_view host, const OwnNames& own, std::optional<std::string_view> origin = {}) {
   return !refuse_request({.method = "GET", .host = host, .origin = origin}, own);
@@ -39,6 +39,19 @@ TEST(RequestCheck, APageOfAnotherSiteIsRefused) {
   for (const char* origin :
        {"http://evil.example", "http://127.0.0.1:8441", "https://127.0.0.1:8440", "null", ""})
     EXPECT_FALSE(passes("127.0.0.1:8440", kLoopback, origin)) << origin;
+}
+
+TEST(RequestCheck, AnOriginThatIsAllowedPassesAsAWhole) {
+  const OwnNames own{
+      .is_loopback = true, .names = {}, .foreign_origins = {"https://app.foxglove.dev", "file://"}};
+  for (const char* origin : {"https://app.foxglove.dev", "HTTPS://App.Foxglove.dev", "file://"})
+    EXPECT_TRUE(passes("127.0.0.1:8440", own, origin)) << origin;
+  for (const char* origin :
+       {"http://app.foxglove.dev", "https://app.foxglove.dev:8443", "https://foxglove.dev",
+        "https://app.foxglove.dev.evil.example", "file:///x", "*", "null", ""})
+    EXPECT_FALSE(passes("127.0.0.1:8440", own, origin)) << origin;
+  EXPECT_FALSE(passes("evil.example", own, "https://app.foxglove.dev"))
+      << "the name of the server still counts";
 }
 
 TEST(RequestCheck, NothingButReadingIsAnswered) {
