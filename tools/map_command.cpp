@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/map_command.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -18,30 +17,10 @@
 #include "tools/calibration/input_calibration.hpp"
 #include "tools/evaluation/live_observer.hpp"
 #include "tools/prepared_run.hpp"
-#include "tools/progress_bar.hpp"
 
 namespace swiftlet {
 
 namespace {
-
-/// To the end of the input, before the eyes of the observer if there is one. The report, with what ended the
-/// input before its time among the problems.
-InputReport run_to_end(Pipeline& pipeline, const SampleSource& source, LiveObserver* observer) {
-  ProgressBar bar(stderr, ProgressBar::Clock::now());
-  Result<bool> more = pipeline.step();
-  while (more && *more) {
-    if (observer != nullptr) observer->look();
-    bar.update(source.progress(), ProgressBar::Clock::now());
-    more = pipeline.step();
-  }
-  InputReport report = source.report();
-  if (!more) {
-    const std::string& reason = more.error().message;
-    if (std::find(report.problems.begin(), report.problems.end(), reason) == report.problems.end())
-      report.problems.push_back(reason);
-  }
-  return report;
-}
 
 void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs, const RunView& run) {
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
@@ -66,14 +45,6 @@ void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs,
         "error before correction %.3f m, live %.3f m, after %.3f m (RMSE of %zu positions, aligned)\n",
         error->odometry.rmse_m, error->live.rmse_m, error->corrected.rmse_m, error->corrected.pairs);
   std::printf("picture: %s\n", (output.path() / "map.png").c_str());
-}
-
-/// All that was wrong with the input, in the one line that main prints.
-Status damage_of(const InputReport& report) {
-  if (report.problems.empty()) return {};
-  std::string message = report.problems.front();
-  for (std::size_t i = 1; i < report.problems.size(); ++i) message += "; " + report.problems[i];
-  return Error{ErrorCode::kDamaged, message};
 }
 
 bool is_simulation(const std::string& input) {
@@ -115,7 +86,9 @@ Status run_map_command(const MapCommand& command) {
   pipeline.keep_pruned(*pruned);
   std::optional<LiveObserver> observer;
   if (is_simulation(command.input)) observer.emplace(pipeline.backend());
-  InputReport report = run_to_end(pipeline, source, observer ? &*observer : nullptr);
+  InputReport report = run_to_end(pipeline, source, [&observer] {
+    if (observer) observer->look();
+  });
   if (prepared->calibration) report.notes.push_back(calibration_note(*prepared->calibration));
   if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
   const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room

@@ -2,12 +2,15 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/prepared_run.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 #include "firmware_link/sample/sign_mending_source.hpp"
 #include "tools/calibration/input_calibration.hpp"
+#include "tools/progress_bar.hpp"
 
 namespace swiftlet {
 
@@ -76,6 +79,31 @@ Status check_usable(const MapCommand& command, const InputReport& report, const 
   const std::string reason =
       report.problems.empty() ? "it ended before the first one" : report.problems.front();
   return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
+}
+
+InputReport run_to_end(Pipeline& pipeline, const SampleSource& source,
+                       const std::function<void()>& after_sample) {
+  ProgressBar bar(stderr, ProgressBar::Clock::now());
+  Result<bool> more = pipeline.step();
+  while (more && *more) {
+    if (after_sample) after_sample();
+    bar.update(source.progress(), ProgressBar::Clock::now());
+    more = pipeline.step();
+  }
+  InputReport report = source.report();
+  if (!more) {
+    const std::string& reason = more.error().message;
+    if (std::find(report.problems.begin(), report.problems.end(), reason) == report.problems.end())
+      report.problems.push_back(reason);
+  }
+  return report;
+}
+
+Status damage_of(const InputReport& report) {
+  if (report.problems.empty()) return {};
+  std::string message = report.problems.front();
+  for (std::size_t i = 1; i < report.problems.size(); ++i) message += "; " + report.problems[i];
+  return Error{ErrorCode::kDamaged, message};
 }
 
 }  // namespace swiftlet

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -29,5 +30,12 @@ struct PreparedRun {
 /// kInvalidInput where the run had no sample; `report` has the reason.
 [[nodiscard]] Status check_usable(const MapCommand& command, const InputReport& report,
                                   const Backend& backend);
+
+/// All of the input through the pipeline, with progress on stderr; `after_sample`, where it is set, is called
+/// after each. The report, with what ended the input before its time among the problems.
+[[nodiscard]] InputReport run_to_end(Pipeline& pipeline, const SampleSource& source,
+                                     const std::function<void()>& after_sample);
+/// All that was wrong with the input, in one line: kDamaged.
+[[nodiscard]] Status damage_of(const InputReport& report);
 
 }  // namespace swiftlet

@@ -22,6 +22,7 @@
 #include "firmware_link/simulation/flight.hpp"
 #include "firmware_link/simulation/world.hpp"
 #include "tools/calibrate_command.hpp"
+#include "tools/convert_command.hpp"
 #include "tools/doctor_command.hpp"
 #include "tools/eval_command.hpp"
 #include "tools/flights_command.hpp"
@@ -168,6 +169,33 @@ CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& comma
   return calibrate;
 }
 
+CLI::App* add_convert_command(CLI::App& app, swiftlet::ConvertCommand& command) {
+  CLI::App* convert =
+      app.add_subcommand("convert", "Write an input, or what is made of it, for other programs");
+  convert
+      ->add_option("INPUT", command.input,
+                   finite_inputs() + "; " + swiftlet::kLcmInput + " a running swiftletd, to .mcap")
+      ->required();
+  convert
+      ->add_option(
+          "OUTPUT", command.output,
+          "The file to write, by its ending: .csv samples, which swiftlet reads back; .g2o pose graph; "
+          ".mcap run for Foxglove")
+      ->required();
+  convert->add_option("--config", command.config_file, "TOML file with settings");
+  convert->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
+      ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
+  convert->add_flag_callback(
+      "--no-calibrate", [&command] { command.calibrate = false; },
+      "As of swiftlet map: take the sensors as expected");
+  convert->add_option("--lcm-url", command.lcm_url, "With lcm: where swiftletd publishes")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
+  convert->add_option("--channel-prefix", command.channel_prefix, "With lcm: as in swiftletd's configuration")
+      ->capture_default_str();
+  return convert;
+}
+
 CLI::App* add_flights_command(CLI::App& app, swiftlet::FlightsCommand& command) {
   CLI::App* flights =
       app.add_subcommand("flights", "List the flights whose outputs have folders of their own");
@@ -242,7 +270,8 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
       {"map", "swiftlet map flight.pcap -o out"},
       {"record", "swiftlet record radio://0/80/2M/E7E7E7E7E7 -o flight.pcap"},
       {"eval", "swiftlet eval out/trajectory.tum truth.tum"},
-      {"calibrate", "swiftlet calibrate flight.pcap"}};
+      {"calibrate", "swiftlet calibrate flight.pcap"},
+      {"convert", "swiftlet convert flight.pcap flight.csv"}};
   const std::vector<CLI::App*> named = app.get_subcommands();
   if (named.empty() && app.remaining_size() > 0)
     return "no command '" + app.remaining().front() + "'; see swiftlet --help";
@@ -268,6 +297,7 @@ struct Commands {
   swiftlet::DoctorCommand doctor;
   swiftlet::EvalCommand eval;
   swiftlet::CalibrateCommand calibrate;
+  swiftlet::ConvertCommand convert;
   swiftlet::FlightsCommand flights;
   swiftlet::LatencyCommand latency;
   swiftlet::ViewCommand view;
@@ -293,6 +323,8 @@ std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
           {add_eval_command(app, c.eval), [&c, done] { return done(swiftlet::run_eval_command(c.eval)); }},
           {add_calibrate_command(app, c.calibrate),
            [&c, done] { return done(swiftlet::run_calibrate_command(c.calibrate)); }},
+          {add_convert_command(app, c.convert),
+           [&c, done] { return done(swiftlet::run_convert_command(c.convert)); }},
           {add_flights_command(app, c.flights),
            [&c, done] { return done(swiftlet::run_flights_command(c.flights)); }},
           {add_latency_command(app, c.latency),

@@ -52,7 +52,7 @@ Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
   const Result<std::unique_ptr<ViewService>> service =
       open_service(command, {.title = command.input, .is_recording = true, .rate = command.rate});
   if (!service) return service.error();
-  const Status mapped = map_recording(*run, (*service)->shared(), stop);
+  const Status mapped = map_recording(*run, (*service)->shared(), stop, {});
   if (!mapped) std::fprintf(stderr, "swiftlet: note: %s\n", mapped.error().message.c_str());
   while (!stop.stop_requested()) std::this_thread::sleep_for(kStopWait);
   return {};

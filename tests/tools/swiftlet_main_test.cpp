@@ -77,6 +77,42 @@ std::string small_log() {
   return text.str();
 }
 
+TEST_F(SwiftletCommand, ConvertsSamplesToATableThatMapsTheSame) {
+  write("log.clf", small_log());
+  const Outcome converted = run("convert {}/log.clf {}/log.csv");
+  EXPECT_EQ(converted.exit_code, 0) << converted.err;
+  EXPECT_THAT(converted.out, StartsWith("150 samples: "));
+  EXPECT_EQ(converted.err, "");
+  ASSERT_EQ(run("map --no-calibrate {}/log.clf -o {}/a").exit_code, 0);
+  ASSERT_EQ(run("map --no-calibrate {}/log.csv -o {}/b").exit_code, 0);
+  EXPECT_EQ(text_of(file("a/trajectory.tum")), text_of(file("b/trajectory.tum")));
+  EXPECT_EQ(text_of(file("a/map.pgm")), text_of(file("b/map.pgm")));
+}
+
+TEST_F(SwiftletCommand, ConvertsToAPoseGraphAndTellsWhatItReplaces) {
+  write("log.clf", small_log());
+  EXPECT_EQ(run("convert {}/log.clf {}/run.g2o").exit_code, 0);
+  EXPECT_THAT(text_of(file("run.g2o")),
+              AllOf(StartsWith("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 "), HasSubstr("\nFIX 0\nEDGE_SE2 0 1 ")));
+  const Outcome again = run("convert {}/log.clf {}/run.g2o");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, HasSubstr("run.g2o was there and has been replaced"));
+}
+
+TEST_F(SwiftletCommand, ConvertRefusesWhatItCannotReadOrWriteInOneLine) {
+  write("log.clf", small_log());
+  EXPECT_THAT(run("convert"), refuses_with("for example: swiftlet convert flight.pcap flight.csv"));
+  EXPECT_THAT(run("convert {}/log.clf {}/out.bag"), refuses_with("must end with .csv"));
+  EXPECT_THAT(run("convert {}/none.clf {}/out.csv"), refuses_with("none.clf"));
+  EXPECT_THAT(run("convert {}/log.clf {}/none/out.csv"), refuses_with("there is no directory"));
+  EXPECT_THAT(run("convert udp://127.0.0.1:1 {}/out.csv"), refuses_with("a live vehicle has no end"));
+  write("table.csv", "1,2\n");
+  EXPECT_THAT(run("convert {}/table.csv {}/table.csv"), refuses_with("this is the input"));
+  EXPECT_THAT(run("convert {}/table.csv {}/out.g2o"), refuses_with("is no table of samples"));
+  EXPECT_FALSE(fs::exists(file("out.csv")));
+  EXPECT_FALSE(fs::exists(file("out.g2o")));
+}
+
 TEST_F(SwiftletCommand, LatencyTellsAndDrawsHowARunKeptTime) {
   write("small.clf", small_log());
   ASSERT_EQ(run("map {}/small.clf -o {}/out").exit_code, 0);

@@ -56,15 +56,19 @@ class RecordingRun {
                  .pose_latency = unused_latency_},
                 *publisher_, data_clock_) {}
 
-  Status run(const std::stop_token& stop) {
+  Status run(const std::stop_token& stop, const RecordingWatch& watch) {
+    if (watch.pruned != nullptr) pipeline_.keep_pruned(*watch.pruned);
     constexpr int kPublisherSteps = 4;  // of some tiles each: more than a sample changes
     Result<bool> more = true;
     while (more && *more && !stop.stop_requested()) {
       more = pipeline_.step();
       for (int i = 0; i < kPublisherSteps; ++i) worker_.step();
+      if (watch.after_sample) watch.after_sample();
     }
     while (!stop.stop_requested() && worker_.step() != StepResult::kFinished) {
     }
+    if (watch.at_end)
+      if (Status told = watch.at_end(pipeline_.backend()); !told) return told;
     return more ? Status() : Status(more.error());
   }
 
@@ -92,8 +96,9 @@ class RecordingRun {
 
 }  // namespace
 
-Status map_recording(PreparedRun& run, SharedRunHistory& shared, const std::stop_token& stop) {
-  return std::make_unique<RecordingRun>(run, shared)->run(stop);
+Status map_recording(PreparedRun& run, SharedRunHistory& shared, const std::stop_token& stop,
+                     const RecordingWatch& watch) {
+  return std::make_unique<RecordingRun>(run, shared)->run(stop, watch);
 }
 
 }  // namespace swiftlet
