@@ -36,7 +36,7 @@ class FoxgloveConversationTest : public testing::Test {
     if (shared_.history.generation() == 0) {
       EXPECT_TRUE(shared_.history.enter_run(7, 0.0));
     }
-    add_whole_pose(shared_.history, kSecond_us * (1 + sequence), sequence);
+    add_whole_pose(shared_.history, kSecondUs * (1 + sequence), sequence);
   }
   static std::vector<std::string> all(FoxgloveConversation& conversation) {
     std::vector<std::string> messages;
@@ -135,7 +135,7 @@ TEST_F(FoxgloveConversationTest, SendsTheMapAsOneGridAndANewOneOnceItHasChanged)
   FoxgloveConversation& conversation = *greeted_one;
   conversation.take(subscription(3, FoxgloveTopic::kMap));
   add_pose(0);
-  shared_.history.add_tile(kSecond_us, uniform_tile({-1, 2}, 1, 100), 0.05);
+  shared_.history.add_tile(kSecondUs, uniform_tile({-1, 2}, 1, 100), 0.05);
   const std::vector<std::string> first = all(conversation);
   ASSERT_EQ(first.size(), 1U);
   const json grid = json::parse(first[0].substr(13));
@@ -145,7 +145,7 @@ TEST_F(FoxgloveConversationTest, SendsTheMapAsOneGridAndANewOneOnceItHasChanged)
   EXPECT_THAT(grid["data"].get<std::string>(), testing::StartsWith("ZGRk"));
   add_pose(1);
   EXPECT_TRUE(all(conversation).empty()) << "nothing has changed";
-  shared_.history.add_tile(2 * kSecond_us, uniform_tile({-1, 2}, 2, 0), 0.05);
+  shared_.history.add_tile(2 * kSecondUs, uniform_tile({-1, 2}, 2, 0), 0.05);
   EXPECT_EQ(all(conversation).size(), 1U);
 }
 

@@ -123,7 +123,7 @@ TEST_F(FoxgloveSocket, SpeaksAsTheProtocolHasIt) {
   {
     const std::lock_guard lock(server->shared().mutex);
     ASSERT_TRUE(server->shared().history.enter_run(7, 0.0));
-    add_whole_pose(server->shared().history, kSecond_us, 0);
+    add_whole_pose(server->shared().history, kSecondUs, 0);
   }
   EXPECT_EQ(
       client.receive_message(2),

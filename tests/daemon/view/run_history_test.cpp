@@ -35,11 +35,11 @@ TEST(RunHistory, ALateMessageOfAnOlderRunIsNotBelievedUnlessTheNewerOneIsSilent)
 TEST(RunHistory, ATileIsFoundAsItWas) {
   RunHistory history;
   ASSERT_TRUE(history.enter_run(1, 0.0));
-  history.add_tile(10 * kSecond_us, uniform_tile({2, -1}, 1, 20), 0.05);
-  history.add_tile(20 * kSecond_us, uniform_tile({2, -1}, 2, 80), 0.05);
+  history.add_tile(10 * kSecondUs, uniform_tile({2, -1}, 1, 20), 0.05);
+  history.add_tile(20 * kSecondUs, uniform_tile({2, -1}, 2, 80), 0.05);
   const auto& versions = history.tiles().at({2, -1});
-  EXPECT_EQ(versions.at(9 * kSecond_us), nullptr);
-  EXPECT_THAT(inflate_tile(value_of(versions.at(15 * kSecond_us)).deflated), testing::Each(20));
+  EXPECT_EQ(versions.at(9 * kSecondUs), nullptr);
+  EXPECT_THAT(inflate_tile(value_of(versions.at(15 * kSecondUs)).deflated), testing::Each(20));
   EXPECT_THAT(inflate_tile(value_of(versions.newest()).deflated), testing::Each(80));
 }
 
@@ -70,7 +70,7 @@ TEST(RunHistory, APoseIsShownWithItsDeadReckoning) {
 TEST(RunHistory, AnHourOfPosesTakesBoundedRoomAndKeepsItsBeginning) {
   RunHistory history({.poses = 1000});
   ASSERT_TRUE(history.enter_run(1, 0.0));
-  for (int i = 0; i < 36'000; ++i) add_whole_pose(history, i * kSecond_us / 10, i);
+  for (int i = 0; i < 36'000; ++i) add_whole_pose(history, i * kSecondUs / 10, i);
   const auto poses = history.poses_after(0);
   EXPECT_LE(poses.size(), 1000U);
   EXPECT_GE(poses.size(), 500U);
@@ -83,11 +83,11 @@ TEST(RunHistory, TilesThatChangeForHoursTakeBoundedRoom) {
   RunHistory history({.tile_bytes = 20'000});
   ASSERT_TRUE(history.enter_run(1, 0.0));
   for (std::uint32_t version = 1; version < 5000; ++version)
-    history.add_tile(version * kSecond_us,
+    history.add_tile(version * kSecondUs,
                      uniform_tile({0, 0}, version, static_cast<std::int8_t>(version % 100)), 0.05);
   EXPECT_LE(history.tile_bytes(), 20'000U);
   EXPECT_EQ(value_of(history.tiles().at({0, 0}).newest()).version, 4999U);
-  EXPECT_NE(history.tiles().at({0, 0}).at(kSecond_us), nullptr);
+  EXPECT_NE(history.tiles().at({0, 0}).at(kSecondUs), nullptr);
 }
 
 TEST(RunHistory, AMapBeyondAllBuildingsIsRefused) {

@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-inline constexpr std::int64_t kSecond_us = 1'000'000;
+inline constexpr std::int64_t kSecondUs = 1'000'000;
 
 /// A tile all of whose cells hold `percent`.
 inline MapTile uniform_tile(TileIndex index, std::uint32_t version, std::int8_t percent) {

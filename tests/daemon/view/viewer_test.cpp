@@ -89,7 +89,7 @@ TEST_F(ViewerTest, ASlowPageGetsTheNewestVersionAndNoneBetween) {
   ReadingPage page;
   page.read_all(viewer);
   for (std::uint32_t version = 1; version <= 1000; ++version)
-    history_.add_tile(version * kSecond_us, uniform_tile({0, 0}, version, 40), 0.05);
+    history_.add_tile(version * kSecondUs, uniform_tile({0, 0}, version, 40), 0.05);
   page.types.clear();
   page.read_all(viewer);
   EXPECT_EQ(page.types, (std::vector<std::string>{"tiles", "synced"}));
@@ -111,9 +111,9 @@ TEST_F(ViewerTest, ANewRunBeginsAnew) {
 
 TEST_F(ViewerTest, LookingBackTakesTilesAwayAndLookingOnBringsThemAgain) {
   begin_run();
-  history_.add_tile(10 * kSecond_us, uniform_tile({0, 0}, 1, 40), 0.05);
-  history_.add_tile(20 * kSecond_us, uniform_tile({0, 0}, 2, 40), 0.05);
-  history_.add_tile(20 * kSecond_us, uniform_tile({1, 0}, 1, 40), 0.05);
+  history_.add_tile(10 * kSecondUs, uniform_tile({0, 0}, 1, 40), 0.05);
+  history_.add_tile(20 * kSecondUs, uniform_tile({0, 0}, 2, 40), 0.05);
+  history_.add_tile(20 * kSecondUs, uniform_tile({1, 0}, 1, 40), 0.05);
   Viewer viewer(shared_, live_);
   ReadingPage page;
   page.read_all(viewer);
@@ -142,7 +142,7 @@ TEST_F(ViewerTest, TheFinalStatusIsSaidAlthoughItsTimeIsTheOneBefore) {
 TEST_F(ViewerTest, ARecordingBeginsAtItsBeginning) {
   const ShownSource recording{.title = "a.pcap", .is_recording = true, .rate = 5.0};
   begin_run();
-  history_.add_tile(10 * kSecond_us, uniform_tile({0, 0}, 1, 40), 0.05);
+  history_.add_tile(10 * kSecondUs, uniform_tile({0, 0}, 1, 40), 0.05);
   Viewer viewer(shared_, recording);
   ReadingPage page;
   page.read_all(viewer);
