@@ -135,7 +135,8 @@ std::string sample_table_columns(std::size_t beam_count) {
 std::string sample_table_head(const SampleTableHead& head) {
   const SensorModel& sensor = head.sensor;
   const bool is_wheeled = sensor.odometry.drift_yaw_per_metre_rad > 0.0;
-  std::string text = std::string(kSampleTableMark) + "\n";
+  std::string text(kSampleTableMark);
+  text += '\n';
   text.append(kSensorMark).append(is_wheeled ? kWheels : kFlow).append(" min_range_m=");
   append_number(text, sensor.min_range_m);
   append_number(text += " max_range_m=", sensor.max_range_m);
