@@ -22,7 +22,7 @@ FLIGHTS = [f"vicon/{name}" for name in ("exp1_two_d0", "exp1_two_d1", "exp1_four
                                         "exp1_four_d3", "exp3_two_d0", "exp3_two_d1", "icp_d0", "icp_d1")]
 UNTRUE_FLIGHTS = ["flights/olsson", "flights/rice"]  # held against their own final path
 ALARM = "alarm_log_odds"
-THRESHOLDS = [36.0]  # besides the default, for buildings, healthy offices and mazes, and faults
+THRESHOLDS = [10.0, 36.0]  # besides the default, for buildings, healthy offices and mazes, and faults
 
 
 @dataclasses.dataclass(frozen=True)
