@@ -96,7 +96,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--print-tuning", options.print_tuning)->group("");  // for experiments: not in the help
 }
 
-/// What the manual says beyond --help.
+/// What the manual page has beyond --help.
 ManualFacts manual_facts() {
   return {
       .section = 8,

@@ -333,7 +333,7 @@ std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
           {add_help_command(app, c.help), [&c, &app] { return run_help(app, c.help); }}};
 }
 
-/// What the manual says beyond --help.
+/// What the manual page has beyond --help.
 swiftlet::ManualFacts manual_facts(const std::vector<Choice>& choices) {
   swiftlet::ManualFacts facts{
       .section = 1, .version = swiftlet::version_text("swiftlet"), .sections = {}, .choices = {}};

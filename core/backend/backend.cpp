@@ -78,7 +78,7 @@ void Backend::State::compare_newest_scan(const FrontendStep& step) {
   if (!has_restarted) agreement.add_newest_scan(T_map_body);
 }
 
-/// A jump, a slip or a carried vehicle that nothing tells of: behind the last agreement with the older map.
+/// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
 void Backend::State::doubt_motion_if_contradicted() {
   if (!agreement.is_contradicted()) return loops.end_doubt();
   if (loops.unplaced_since()) return;
@@ -89,7 +89,7 @@ void Backend::State::doubt_motion_if_contradicted() {
   loops.doubt_since(first, config.tuning.confidence.alarm_log_odds);
 }
 
-/// A break whose motion the vehicle's estimate tells makes the covariance grow and no more.
+/// Across a break with known motion (the vehicle's estimate ran on) only the covariance grows.
 Tracking Backend::State::tracking() const {
   if (loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart)
     return loops.places_weighed() > 1 ? Tracking::kRelocalizing : Tracking::kLost;

@@ -12,10 +12,10 @@
 namespace swiftlet {
 
 /// Draws the occupancy map from the backend's scans at their corrected poses, and follows when poses change:
-/// each scan remembers where it was drawn, is rubbed out there exactly (cells count hits and misses as
-/// integers) and drawn anew. While flying, scans follow once they would move by half a cell; once settled,
-/// the map depends on the final poses alone, never on the order of corrections. Allocates as the map grows.
-/// One thread at a time (the backend's).
+/// the pose at which a scan was drawn is stored, so that it is taken out there exactly (cells count hits and
+/// misses as integers) and drawn anew. While flying, scans follow once they would move by half a cell; once
+/// settled, the map depends on the final poses alone, never on the order of corrections. Allocates as the map
+/// grows. One thread at a time (the backend's).
 class MapBuilder {
  public:
   /// Precondition: config.validate() is empty.

@@ -8,7 +8,7 @@
 
 namespace swiftlet {
 
-/// What --help tells of an option or of an argument without a name.
+/// The text of --help on an option or a positional argument.
 struct OptionText {
   std::vector<std::string> names;  ///< "-o", "--output"; of an argument: its placeholder, "INPUT"
   std::string value;               ///< placeholder of what follows, "TEXT"; empty: nothing does
@@ -24,7 +24,7 @@ struct OptionText {
   std::vector<std::string> choices{};  ///< all values there are; empty: many
 };
 
-/// What --help tells of a program, or of one of its commands.
+/// The text of --help on a program, or on one of its commands.
 struct CommandText {
   std::string name;
   std::string description;
@@ -34,7 +34,7 @@ struct CommandText {
   std::vector<CommandText> commands;
 };
 
-/// What --help does not tell.
+/// What a manual page has beyond --help.
 struct ManualFacts {
   int section = 1;                              ///< of the manual
   std::string version;                          ///< as --version prints it

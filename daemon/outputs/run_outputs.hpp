@@ -66,7 +66,7 @@ struct WrittenOutputs {
   std::vector<std::string> removed;  ///< those of an earlier run that this one does not have
 };
 /// Writes the outputs into the directory, which is created where missing. Files of other names stay, except
-/// those of which an earlier run's report.json there says that it wrote them. Each file is complete or not
+/// those that an earlier run's report.json there lists as its own. Each file is complete or not
 /// there: the first that cannot be written ends it, those before it stay.
 [[nodiscard]] Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory,
                                                        const RunView& run);

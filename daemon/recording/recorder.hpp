@@ -21,7 +21,7 @@
 
 namespace swiftlet {
 
-/// How the recorder speaks to people; called on its thread (and on that which starts it).
+/// Where the recorder's messages for people go; called on its thread (and on that which starts it).
 struct RecorderVoice {
   std::function<void(const std::string&)> note;
   std::function<void(const std::string&)> problem;

@@ -14,8 +14,8 @@
 
 namespace swiftlet {
 
-/// Hands what changed in the map to the publisher and remembers what its queues had no room for, so that
-/// nothing is lost: what is offered again is the newest state and not each step on the way.
+/// Gives what changed in the map to the publisher, and keeps what its queues had no room for. Nothing is
+/// lost: what is offered again is the newest state, not each step on the way.
 /// One thread at a time (the backend's). Allocates.
 class MapFeed {
  public:

@@ -28,7 +28,7 @@ class Pipeline {
   /// For lockstep: samples are taken as fast as they are read, nobody publishes. `source` must outlive the
   /// pipeline. Precondition: config.validate() is empty.
   Pipeline(const Configuration& config, SampleSource& source);
-  /// For threads: samples are taken as `policy` says, and what a publisher needs goes to
+  /// For threads: samples are taken by `policy`, and what a publisher needs goes to
   /// queues().to_publisher. `clock` must outlive the pipeline.
   Pipeline(const Configuration& config, SampleSource& source, const Clock& clock, const InputPolicy& policy);
   ~Pipeline();
@@ -39,8 +39,8 @@ class Pipeline {
   void keep_pruned(PrunedScans& pruned);
 
   /// Lockstep: takes the next sample through all stages in the calling thread. False when the input has ended
-  /// and the backend's final pass is done. Errors: whatever ended the input before its time, said once the
-  /// final pass is done (outputs are valid).
+  /// and the backend's final pass is done. Errors: whatever ended the input before its time, returned once
+  /// the final pass is done (outputs are valid).
   [[nodiscard]] Result<bool> step();
 
   // Not while threads run.

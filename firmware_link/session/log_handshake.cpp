@@ -89,7 +89,7 @@ void LogHandshake::enter(Step step) {
   if (step == Step::kToc) toc_.emplace(kLogTocTopic, *cache_, request_.timer());
 }
 
-/// A vehicle that refuses says the same each time; damage and garbage differ.
+/// A vehicle that refuses gives the same answer each time; damage and garbage differ.
 void LogHandshake::refuse(std::string message, std::span<const std::uint8_t> answer) {
   std::string refusal = message;
   refusal.append(answer.begin(), answer.end());

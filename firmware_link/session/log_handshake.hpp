@@ -53,8 +53,8 @@ class LogHandshake {
   [[nodiscard]] bool finished() const { return step_ == Step::kFinished; }
   /// The blocks that samples are made of. Once finished().
   [[nodiscard]] std::vector<std::uint8_t> essential_blocks() const;
-  /// Why this vehicle cannot be used; final: it said so four times in the same words. Neither lost packets
-  /// nor garbage are a failure.
+  /// Why this vehicle cannot be used; final: it refused four times in the same way. Lost packets and
+  /// garbage are no failure.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// CRTP protocol version; 0 until received. kNewestProtocol is the newest that swiftlet was tried with.
   [[nodiscard]] int protocol() const { return protocol_; }

@@ -13,8 +13,7 @@ namespace swiftlet {
 namespace {
 
 constexpr Duration kReportPeriod = std::chrono::minutes(1);
-// Ports and channels on which the vehicle speaks only when it is asked, and this program does not ask, or no
-// longer.
+// Ports and channels on which the vehicle only answers requests, and this program sends none, or no longer.
 constexpr std::array<CrtpTopic, 9> kAnswersOnly{kLogTocTopic,    kParamTocTopic,   kParamReadTopic,
                                                 CrtpTopic{2, 2}, CrtpTopic{4, 0},  CrtpTopic{4, 1},
                                                 CrtpTopic{4, 2}, kLinkSourceTopic, kPlatformVersionTopic};

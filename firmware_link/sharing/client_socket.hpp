@@ -45,7 +45,7 @@ class ClientSocket {
 
   struct Arrival {
     bool is_any = false;                   ///< false: nothing waits
-    bool ended = false;                    ///< the client has said goodbye
+    bool ended = false;                    ///< the client has closed the connection
     std::span<const std::uint8_t> packet;  ///< of the client, if not empty; valid until the next call
   };
   /// Reads one datagram. `is_connected`: the vehicle is received: null packets are answered.

@@ -51,7 +51,7 @@ struct Flight {
   VehicleModel vehicle;
 };
 
-/// Hears each sample while the link still remembers the truth of its time.
+/// Receives each sample while the link still has the truth of its time.
 using Witness = std::function<void(const RangeSample& sample, SimulatedLink& link)>;
 
 /// The flight of `sim://office?seed=N`, if the vehicle is the default one.

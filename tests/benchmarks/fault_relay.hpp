@@ -33,8 +33,8 @@ struct RelayFaults {
   bool set(const std::string& assignment);
 };
 
-/// Passes datagrams between one client and a server on the loopback, faults included. Time only as it is
-/// told. One thread at a time; allocates.
+/// Passes datagrams between one client and a server on the loopback, faults included. Time is an
+/// argument. One thread at a time; allocates.
 class FaultRelay {
  public:
   FaultRelay(std::uint16_t server_port, const RelayFaults& faults, std::uint64_t seed);

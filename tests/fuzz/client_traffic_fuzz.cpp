@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 // What a client of a shared link sends, what its owner sends, and what the vehicle answers, in any order: a
-// byte before each frame says whether it is the client's.
+// byte before each frame chooses whose it is.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -17,7 +17,7 @@
 namespace swiftlet {
 namespace {
 
-/// Each byte says what comes next: see receive().
+/// Each byte chooses what comes next: see receive().
 class MoodyLink final : public Link {
  public:
   explicit MoodyLink(FuzzBytes bytes) : bytes_(bytes) {

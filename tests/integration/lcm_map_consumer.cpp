@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
-// A consumer as others would write one: listens on LCM until the daemon says that it has finished, and writes
+// A consumer as others would write one: listens on LCM until the daemon reports its end, and writes
 // the map that its tiles make. lcm_map_consumer URL MAP.pgm TIMEOUT_S
 
 #include <algorithm>

@@ -27,7 +27,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kAsked = 100;  // samples, by which time a vehicle has told what it is
+constexpr std::size_t kAsked = 100;  // samples: by then the vehicle has been identified
 
 /// Through the daemon as fast as it goes. `radio` is the span that the source's own parts may know of; it
 /// begins at the sample of the number `from`.
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Reference, RecordedRun,
                                          KnownInput{"killian", "radish/mit-killian.clf.gz", 10'000}),
                          [](const auto& input) { return std::string(input.param.name); });
 
-/// The simulated vehicle lives in the radio thread and may allocate; what hears it may not.
+/// The simulated vehicle lives in the radio thread and may allocate; what receives from it may not.
 class UncountedVehicle final : public Link {
  public:
   UncountedVehicle(std::unique_ptr<SimulatedLink> vehicle, test::HeapSpan& span)

@@ -15,7 +15,7 @@ struct DeadReckoningNoise {
   double per_metre_rad = 0.02;
 };
 
-/// The plainest frontend there is, to feed a backend under test: believes the dead reckoning, sees no walls,
+/// The plainest frontend there is, to feed a backend under test: takes dead reckoning as it is, has no walls,
 /// makes a keyframe every 0.5 m or 30 degrees and where a segment starts.
 class DeadReckoningFrontend {
  public:

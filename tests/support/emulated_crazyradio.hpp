@@ -39,7 +39,7 @@ enum class DongleFault : std::uint8_t {
 enum class DongleModel : std::uint8_t { kPa, k2 };
 
 /// A Crazyradio PA as USB shows it (firmware 0.53, with ACKs) or a Crazyradio 2.0 (5.4), without inline mode,
-/// a vehicle's radio in range. Knows nothing of how the host gets at it. Time only as it is told. One thread
+/// a vehicle's radio in range. Independent of how the host reaches it. Time is an argument. One thread
 /// at a time; allocates.
 class EmulatedCrazyradio {
  public:

@@ -42,8 +42,8 @@ struct AirExchange {
   Duration duration{};
 };
 
-/// The radio chip (nRF51) of a simulated vehicle: addressing, safelink, queues, losses on the air. Time only
-/// as it is told. One thread at a time; allocates. Noise sources: "air_packet", "air_ack".
+/// The radio chip (nRF51) of a simulated vehicle: addressing, safelink, queues, losses on the air. Time is
+/// an argument. One thread at a time; allocates. Noise sources: "air_packet", "air_ack".
 class EmulatedReceiver {
  public:
   static constexpr std::size_t kRadioQueue = 8;      ///< packets waiting in the radio chip...
@@ -59,7 +59,7 @@ class EmulatedReceiver {
   /// The vehicle must outlive it.
   EmulatedReceiver(SimulatedVehicle& vehicle, std::uint64_t seed);
 
-  /// The dongle sends `packet`, and again up to `retransmissions` times until it hears an ACK.
+  /// The dongle sends `packet`, and again up to `retransmissions` times until it receives an ACK.
   [[nodiscard]] AirExchange exchange(const AirSetting& dongle, std::span<const std::uint8_t> packet,
                                      int retransmissions);
   /// The vehicle lives on. With it the chip restarts, and stays silent while the vehicle boots.
@@ -67,7 +67,7 @@ class EmulatedReceiver {
 
   [[nodiscard]] bool safelink() const { return safelink_; }
   /// Every log data packet that found room in the queues and was not thrown away with them, as the vehicle
-  /// made it: what a client must hear, once each.
+  /// made it: what a client must receive, once each.
   [[nodiscard]] const std::vector<SentPacket>& queued_log() const { return queued_log_; }
   /// Every packet that reached the vehicle, null packets left out.
   [[nodiscard]] const std::vector<PacketBytes>& uplink() const { return uplink_; }

@@ -65,7 +65,7 @@ class WatchfulClock final : public Clock {
   mutable HeapSpan span_;  // of that thread alone
 };
 
-/// Another source, watched from one of its samples, counted from 1, to the call that tells of the end.
+/// Another source, watched from one of its samples, counted from 1, to the call that returns the end.
 class WatchedSource final : public SampleSource {
  public:
   WatchedSource(SampleSource& source, HeapSpan& span, std::size_t from)

@@ -13,8 +13,8 @@
 namespace swiftlet {
 
 /// The plainest client of a vehicle's log: one block of two variables at 10 Hz, made anew whenever its data
-/// stays away; requests repeat after 200 ms. Knows nothing of radios: what it hears is the link's doing. Link
-/// and clock must outlive it. One thread at a time.
+/// stays away; requests repeat after 200 ms. Independent of radios: what it receives is the link's doing.
+/// Link and clock must outlive it. One thread at a time.
 class LogListener {
  public:
   LogListener(Link& link, LinkClock& clock) : link_(link), clock_(clock) {}

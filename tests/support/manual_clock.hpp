@@ -8,7 +8,7 @@
 
 namespace swiftlet {
 
-/// Time that moves only when told to, or when someone sleeps: sleeping takes no time at all. Any thread.
+/// Time that a test moves, or a sleep, which returns at once. Any thread.
 class ManualClock final : public Clock {
  public:
   [[nodiscard]] MonotonicTime now() const override { return MonotonicTime(now_.load()); }

@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// Whether two poses agree within a distance and an angle; says both poses where not.
+/// Whether two poses agree within a distance and an angle; prints both poses where not.
 inline testing::AssertionResult poses_near(const Pose2& actual, const Pose2& expected, double tolerance_m,
                                            double tolerance_rad) {
   const double off_m = std::hypot(actual.x_m() - expected.x_m(), actual.y_m() - expected.y_m());

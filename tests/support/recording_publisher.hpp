@@ -33,7 +33,7 @@ class RecordingPublisher final : public Publisher {
   std::vector<MapTile> tiles;
   std::map<TileIndex, MapTile> newest;
   std::vector<MapSummary> maps;
-  std::vector<WallInMap> walls;  ///< as said last
+  std::vector<WallInMap> walls;  ///< as published last
   std::vector<ClosureUpdate> closures;
   std::vector<DaemonStatus> statuses;
   std::function<void()> on_pose;  ///< called after each pose, if set

@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-/// Time that moves only when told to, or when someone sleeps; what is to happen on the way happens at its
+/// Time that a test moves, or a sleep; what is to happen on the way happens at its
 /// instant. One thread at a time.
 class ScheduledLinkClock final : public LinkClock {
  public:

@@ -11,7 +11,7 @@
 
 namespace swiftlet {
 
-/// Delivers what a test wrote down, then ends as the test says.
+/// Delivers a list of samples, then ends as the test has set.
 class ScriptedSampleSource final : public SampleSource {
  public:
   explicit ScriptedSampleSource(std::vector<RangeSample> samples,

@@ -23,7 +23,7 @@ struct TestVehicleModel {
   double odometry_sigma_m = 0.0;  ///< noise of each step of dead reckoning
 };
 
-/// A quadrotor with a Multiranger in a TextRoom: turns on the spot, flies straight, remembers what it
+/// A quadrotor with a Multiranger in a TextRoom: turns on the spot, flies straight, stores what it
 /// measured and where it truly was. Same seed, same flight.
 class TestVehicle {
  public:

@@ -168,7 +168,7 @@ class UmockdevDongle::Impl {
  private:
   void appear() {
     file_ = device_file(dongle_.bus_address());
-    // Before the device: whoever hears of it may open it at once.
+    // Before the device: a program that is notified may open it at once.
     bool done = umockdev_testbed_attach_ioctl(testbed_.get(), file_.c_str(), handler_.get(), nullptr) != 0;
     done = done && umockdev_testbed_add_from_string(
                        testbed_.get(), device_record(dongle_.bus_address()).c_str(), nullptr) != 0;

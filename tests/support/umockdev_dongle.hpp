@@ -26,7 +26,7 @@ class UmockdevDongle {
 
   /// Does something to the dongle, its receiver or its vehicle while nobody else does.
   void with(const std::function<void(EmulatedCrazyradio&)>& action);
-  /// The system notices, and tells the programs that listen for it.
+  /// The system notices, and notifies the programs that listen for it.
   void unplug();
   void plug_in();
   /// Whether the calling thread may open the device's file, also where it runs as root.

@@ -17,7 +17,7 @@
 
 namespace swiftlet {
 
-/// What a flight looks like along the trajectory, and what its capture had to say about itself.
+/// How sharp a flight's walls are along the trajectory, and the report on its capture.
 struct FlightResult {
   FlightSharpness sharpness;
   InputReport input;

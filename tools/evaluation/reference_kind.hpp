@@ -21,7 +21,7 @@ enum class ReferenceKind {
 /// a day later (relations), but not both.
 ///
 /// Errors: kNotFound, kInvalidInput, kDamaged: as read_number_rows(). kInvalidInput: undecidable; the message
-/// says what speaks against or for which, and how to say it.
+/// gives the evidence for each, and how to state the kind.
 [[nodiscard]] Result<ReferenceKind> recognise_reference(const std::string& path);
 
 }  // namespace swiftlet

@@ -12,16 +12,16 @@
 
 namespace swiftlet {
 
-/// Who looks on while a recording is mapped, in the same thread. What is not set is not called.
+/// Called while a recording is mapped, in the same thread. What is not set is not called.
 struct RecordingWatch {
   std::function<void()> after_sample;            ///< `shared` is up to date, and its mutex is free
-  std::function<Status(const Backend&)> at_end;  ///< after the final pass, when all has been told
+  std::function<Status(const Backend&)> at_end;  ///< after the final pass, when `shared` has it all
   PrunedScans* pruned = nullptr;                 ///< keeps what at_end needs of scans that are pruned
 };
 
-/// Maps the input as fast as it can, in this thread, and tells `shared` what a daemon would have published
-/// and at which moment of the data. Until the end of the input, or until `stop` is requested. Errors:
-/// whatever ended the input before its time, what came before has been told; what `watch.at_end` gives.
+/// Maps the input as fast as it can, in this thread, and fills `shared` with what a daemon would have
+/// published, each with its moment of the data. Until the end of the input, or until `stop` is requested.
+/// Errors: whatever ended the input before its time (`shared` has what came before); those of `watch.at_end`.
 [[nodiscard]] Status map_recording(PreparedRun& run, SharedRunHistory& shared, const std::stop_token& stop,
                                    const RecordingWatch& watch);
 

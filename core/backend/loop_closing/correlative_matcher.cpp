@@ -264,7 +264,7 @@ void CorrelativeMatcher::spread_around(const DiscreteMatch& best, double best_sc
       const int dx = stride * (static_cast<int>(i) % side) - reach;
       const int dy = stride * (static_cast<int>(i) / side) - reach;
       const Eigen::Vector3d d(dx * cell_m, dy * cell_m, (yaw - best.steps_yaw) * angle_step_rad_);
-      // Points on unknown ground speak neither for the pose nor against it.
+      // Points on unknown ground are no evidence for the pose or against it.
       likely.add(std::exp(tuning_.likelihood_per_score * at.share * (at.score - best_score)), d);
       covered.add(1.0, d);
     }

@@ -37,7 +37,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
       const ScanId scan = chain_->scan_of(made.id);
       const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
       forget_places();
-      places_.begin(made.odometry_ran_on ? Duration::zero() : unwatched);  // its estimate tells the way
+      places_.begin(made.odometry_ran_on ? Duration::zero() : unwatched);  // its estimate gives the way
     }
   }
   const double here_m = chain_->path_m(made.id);

@@ -19,21 +19,20 @@
 
 namespace swiftlet {
 
-/// Where travel may lie in the map whose beginning nobody watched. Each hypothesis is one place of the whole
-/// travel; what is seen on the way is evidence for or against each: hits on walls that earlier submaps show
-/// there, and hits in what they know to be free. Unknown ground says nothing. A hypothesis is believed once
-/// it is so much likelier than every other, and than a place that the map does not show, that only one
-/// decision in a thousand would be wrong. Views its arguments, which must outlive it. One thread at a time;
-/// allocates.
+/// Where travel after a break may lie in the map. Each hypothesis is one place of the whole travel. The scans
+/// on the way are evidence for or against each: hits on walls of earlier submaps there, and hits in their
+/// free space. Unknown ground is no evidence. A hypothesis is accepted once it is so much likelier than every
+/// other, and than a place outside of the map, that one decision in a thousand would be wrong. Views its
+/// arguments, which must outlive it. One thread at a time; allocates.
 class PlaceHypotheses {
  public:
   PlaceHypotheses(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
       : config_(&config), scans_(&scans), chain_(&chain) {}
 
-  /// Forgets all; the first query begins with one hypothesis: the travel lies as the graph has it.
-  /// `unwatched`: for how long nobody watched; `log_odds_moved`: evidence that it was moved meanwhile.
+  /// Starts anew: the first query begins with one hypothesis, that the travel lies where the graph puts it.
+  /// `unwatched`: length of the break; `log_odds_moved`: evidence that the vehicle was moved meanwhile.
   void begin(Duration unwatched, double log_odds_moved = 0.0);
-  /// Forgets all but how long nobody watched: keyframes are pruned.
+  /// Starts anew with the same break: keyframes are pruned.
   void begin_again() { begin(unwatched_, log_odds_moved_); }
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
   /// `submaps`: those of before. Returns whether it was taken.
@@ -43,8 +42,7 @@ class PlaceHypotheses {
   /// A match of the travel with a submap is another hypothesis, unless it is one of them already.
   void propose(const LoopClosure& match, std::span<const std::shared_ptr<const Submap>> submaps,
                const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
-  /// The matches of the hypothesis that is believed, one for each query that shows known walls; empty while
-  /// none is.
+  /// The matches of the accepted hypothesis, one for each query that shows known walls; empty before.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
 

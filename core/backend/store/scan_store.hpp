@@ -24,7 +24,7 @@ struct ScanReturn {
   bool is_hit = false;
 };
 
-/// One scan as the backend remembers it: about 250 bytes with four beams.
+/// One scan as the backend stores it: about 250 bytes with four beams.
 struct StoredScan {
   HostTime stamp{};
   Pose2 T_odom_body;

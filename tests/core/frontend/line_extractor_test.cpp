@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-// Points of one scan and one beam, seen at a right angle unless told otherwise.
+// Points of one scan and one beam, seen at a right angle unless given otherwise.
 class LineExtractorTest : public testing::Test {
  protected:
   void add_wall(const Point2& from, const Point2& to, int points, std::uint8_t beam = 0) {

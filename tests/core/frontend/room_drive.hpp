@@ -25,7 +25,7 @@ struct RoomDrive {
 };
 
 struct DriveErrors {
-  double odometry_noise_scale = 1.0;     // of what SensorModel says
+  double odometry_noise_scale = 1.0;     // of SensorModel's
   double yaw_drift_rad_per_metre = 0.0;  // systematic
 };
 

@@ -10,7 +10,7 @@
 namespace swiftlet {
 
 /// A flight of 81 samples through a room, drawn, with a truth of which the odometry knows nothing: every step
-/// was a tenth longer than it said.
+/// was a tenth longer than odometry measured.
 struct FinishedRun {
   explicit FinishedRun(int samples = 81) {
     for (const FrontendStep& step : room_flight(samples)) {

@@ -31,7 +31,7 @@ std::string socket_path() {
 /// A watch whose time and progress the test makes.
 class ServiceWatchTest : public testing::Test {
  protected:
-  /// What is said when it looks so much later.
+  /// The messages of a look so much later.
   std::vector<std::string> look_after(milliseconds later) {
     now_ += later;
     watch_.look(now_,
@@ -89,7 +89,7 @@ TEST(ServiceManager, IsSilentWhereThereIsNone) {
   nobody.feed_watchdog();
 }
 
-/// Hangs in next(), as a broken driver would, while told so.
+/// Hangs in next(), as a broken driver would, while it is set to.
 class HangingSource final : public SampleSource {
  public:
   [[nodiscard]] Result<ReceivedSample> next() override {

@@ -21,7 +21,7 @@ std::uint32_t u32_at(const std::string& bytes, std::size_t offset) {
   return number;
 }
 
-/// Takes messages until there are no more; what it was told, as a page would keep it.
+/// Takes messages until there are no more; what they hold, as a page would keep it.
 struct ReadingPage {
   std::vector<std::string> types;
   std::map<std::pair<std::int32_t, std::int32_t>, std::uint32_t> tile_versions;

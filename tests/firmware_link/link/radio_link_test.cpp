@@ -193,7 +193,7 @@ TEST_F(RadioLinkTest, TellsTheVehicleToDoWithoutSafelinkIfTheUserSwitchedItOff) 
 }
 
 TEST_F(RadioLinkTest, ReceivesEveryPacketWithoutSafelinkAfterAProgramThatUsedIt) {
-  dongle_.vehicle.has_safelink = true;  // it keeps that until told
+  dongle_.vehicle.has_safelink = true;  // it keeps that until it is switched off
   address_.safelink = false;
   connect();
   dongle_.vehicle.waiting = {{0x50, 1}, {0x50, 2}, {0x50, 3}};

@@ -29,7 +29,7 @@ class ClientTrafficTest : public testing::Test {
     LinkFrame frame = frame_of(LinkDirection::kToVehicle, now_, bytes_of(packet));
     EXPECT_FALSE(traffic_.on_frame(frame));
   }
-  /// What the client gets; is_ours_ says whether the owner gets it, too.
+  /// What the client gets; is_ours_: the owner gets it, too.
   Bytes from_vehicle(const Bytes& packet) {
     LinkFrame frame = frame_of(LinkDirection::kFromVehicle, now_, packet);
     const Bytes clients = bytes(traffic_.on_frame(frame));

@@ -18,7 +18,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The ranges are 20 ms older than was set, the rest is as it was; sideways nothing can be told.
+/// The ranges are 20 ms older than was set, the rest is as it was; sideways nothing can be estimated.
 CalibrationReport report_of(const std::string& uri) {
   JointEstimate estimate;
   estimate.errors(index_of(SystematicError::kRangeAge)) = 0.02;

@@ -33,7 +33,7 @@ PairedRun standing(int samples) {
   return run;
 }
 
-/// Its ranges are 0.17 s old, not 0.1 s as the sensor model says.
+/// Its ranges are 0.17 s old, not 0.1 s as in the sensor model.
 Result<PairedRun> simulated_flight(std::optional<Duration> range_age) {
   SampleSourceOptions options;
   options.range_age = range_age;

@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// A bus with the devices that the test plugs in, all of which open as `opening` says.
+/// A bus with the devices that the test plugs in, all of which open with the result `opening`.
 class FakeUsbBus final : public UsbBus {
  public:
   std::vector<UsbIdentity> devices;

@@ -102,7 +102,7 @@ BeamLayout star() {
   return beams;
 }
 
-/// Sixty looks at a room from here and there, three to a traversal, with dead reckoning that says next to
+/// Sixty looks at a room from here and there, three to a traversal, with dead reckoning that gives next to
 /// nothing.
 struct LooksAtARoom {
   ScanStore scans{star()};
