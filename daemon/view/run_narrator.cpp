@@ -5,6 +5,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <string>
+#include <string_view>
 
 #include "firmware_link/link/link_condition.hpp"
 #include "swiftlet/link_status_t.hpp"
@@ -22,6 +23,10 @@ std::string link_text(std::int8_t condition) {
   if (condition < 0 || condition > static_cast<std::int8_t>(LinkCondition::kDeviceUnsuited))
     return "link: unknown condition";
   return "link: " + std::string(describe(static_cast<LinkCondition>(condition)));
+}
+
+std::string counted(std::int64_t count, std::string_view things) {
+  return fmt::format("{} {}{}", count, things, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -101,15 +106,15 @@ void RunNarrator::tell_battery(const RunStatus& status) {
 void RunNarrator::tell_losses(const RunStatus& status) {
   if (!status_) return;
   if (status.missing_packets > status_->missing_packets)
-    history_.add_event(
-        status.utime_us, EventLevel::kWarning,
-        fmt::format("{} packets with ranges missing, {} in all",
-                    status.missing_packets - status_->missing_packets, status.missing_packets));
+    history_.add_event(status.utime_us, EventLevel::kWarning,
+                       fmt::format("{} with ranges missing, {} in all",
+                                   counted(status.missing_packets - status_->missing_packets, "packet"),
+                                   status.missing_packets));
   if (status.missed_deadlines > status_->missed_deadlines)
-    history_.add_event(
-        status.utime_us, EventLevel::kWarning,
-        fmt::format("{} poses later than allowed, {} in all",
-                    status.missed_deadlines - status_->missed_deadlines, status.missed_deadlines));
+    history_.add_event(status.utime_us, EventLevel::kWarning,
+                       fmt::format("{} later than allowed, {} in all",
+                                   counted(status.missed_deadlines - status_->missed_deadlines, "pose"),
+                                   status.missed_deadlines));
 }
 
 void RunNarrator::see_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us) {

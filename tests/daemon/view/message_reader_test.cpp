@@ -110,6 +110,20 @@ TEST_F(MessageReaderTest, ChangesOfTheStateAreToldInWords) {
                                           HasSubstr("finished")));
 }
 
+TEST_F(MessageReaderTest, OnePacketIsNoPackets) {
+  status_t status{};
+  status.map_id = 5;
+  take("STATUS", status);
+  status.missing_packets = 1;
+  take("STATUS", status);
+  status.missing_packets = 3;
+  status.missed_deadlines = 1;
+  take("STATUS", status);
+  EXPECT_THAT(log(), testing::ElementsAre("1 packet with ranges missing, 1 in all",
+                                          "2 packets with ranges missing, 3 in all",
+                                          "1 pose later than allowed, 1 in all"));
+}
+
 TEST_F(MessageReaderTest, ALostVehicleIsTold) {
   pose_t pose = pose_message(pose_t::FRAME_MAP, 1);
   take("POSE", pose);
