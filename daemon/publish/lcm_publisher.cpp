@@ -20,6 +20,7 @@
 #include "swiftlet/map_tile_t.hpp"
 #include "swiftlet/pose2d_t.hpp"
 #include "swiftlet/pose_t.hpp"
+#include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
@@ -134,6 +135,18 @@ void fill_counters(const DaemonStatus& status, status_t& message) {
   message.version_sum = i64(status.map.version_sum);
 }
 
+std::int8_t status_code(RangeStatus status) {
+  switch (status) {
+    case RangeStatus::kHit:
+      return ranges_t::STATUS_HIT;
+    case RangeStatus::kNoReturn:
+      return ranges_t::STATUS_NO_RETURN;
+    case RangeStatus::kInvalid:
+      break;
+  }
+  return ranges_t::STATUS_INVALID;
+}
+
 std::int8_t tracking_code(Tracking tracking) {
   switch (tracking) {
     case Tracking::kTracking:
@@ -213,6 +226,7 @@ class LcmPublisher final : public Publisher {
         pose_odom_(prefix + "POSE_ODOM"),
         pose2d_map_(prefix + "POSE_2D"),
         pose2d_odom_(prefix + "POSE_ODOM_2D"),
+        ranges_(prefix + "RANGES"),
         map_info_(prefix + "MAP_INFO"),
         map_tile_(prefix + "MAP_TILE"),
         landmarks_(prefix + "LANDMARKS"),
@@ -239,13 +253,15 @@ class LcmPublisher final : public Publisher {
                     errno == ENOTCONN ? "; start its server, which is looked for until it answers" : "");
   }
   void send_pose(const std::string& channel, std::int8_t frame, const Pose2& pose, const PoseUpdate& update);
+  void send_ranges(const PoseUpdate& update);
 
   MessageSink sink_;
   std::int64_t map_id_;
   // Channels.
-  const std::string pose_map_, pose_local_, pose_odom_, pose2d_map_, pose2d_odom_, map_info_, map_tile_,
-      landmarks_, loop_closure_, status_;
+  const std::string pose_map_, pose_local_, pose_odom_, pose2d_map_, pose2d_odom_, ranges_, map_info_,
+      map_tile_, landmarks_, loop_closure_, status_;
   // Kept from message to message for their storage.
+  ranges_t ranges_message_;
   map_tile_t tile_message_;
   landmarks_t landmarks_message_;
   status_t status_message_;
@@ -274,10 +290,29 @@ void LcmPublisher::send_pose(const std::string& channel, std::int8_t frame, cons
   send(channel, message);
 }
 
+void LcmPublisher::send_ranges(const PoseUpdate& update) {
+  const BeamReadings& beams = update.beams;
+  ranges_t& message = ranges_message_;
+  message.utime = to_utime(update.stamp);
+  message.map_id = map_id_;
+  message.sequence = i32(update.sequence);
+  message.device_utime =
+      std::chrono::duration_cast<std::chrono::microseconds>(update.measured_at.time_since_epoch()).count();
+  message.max_range = beams.max_range_m;
+  message.count = beams.count;
+  message.bearing.assign(beams.bearing_rad.begin(), beams.bearing_rad.begin() + beams.count);
+  message.distance.assign(beams.distance_m.begin(), beams.distance_m.begin() + beams.count);
+  message.status.resize(beams.count);
+  std::transform(beams.status.begin(), beams.status.begin() + beams.count, message.status.begin(),
+                 status_code);
+  send(ranges_, message);
+}
+
 void LcmPublisher::publish_pose(const PoseUpdate& pose) {
   const std::int64_t utime = to_utime(pose.stamp);
   send_pose(pose_map_, pose_t::FRAME_MAP, pose.T_map_body, pose);
   send_pose(pose_local_, pose_t::FRAME_LOCAL, pose.T_local_body, pose);
+  send_ranges(pose);
   send_pose(pose_odom_, pose_t::FRAME_ODOM, pose.T_odom_body, pose);
   send(pose2d_map_, pose2d_message(utime, pose.T_map_body));
   send(pose2d_odom_, pose2d_message(utime, pose.T_odom_body));

@@ -129,6 +129,7 @@ std::array<FoxgloveChannel, kFoxgloveTopics> make_channels() {
           channel(FoxgloveTopic::kWalls, "/walls", kScene, scene_update()),
           channel(FoxgloveTopic::kClosures, "/closures", kScene, scene_update()),
           channel(FoxgloveTopic::kTrail, "/trail", kScene, scene_update()),
+          channel(FoxgloveTopic::kBeams, "/beams", kScene, scene_update()),
           channel(FoxgloveTopic::kLog, "/log", kLog, log()),
           channel(FoxgloveTopic::kStatus, "/status", kLog, log()),
           channel(FoxgloveTopic::kTrajectory, "/trajectory", kPose, pose_in_frame())};

@@ -19,11 +19,12 @@ enum class FoxgloveTopic : std::uint8_t {
   kWalls,
   kClosures,
   kTrail,
+  kBeams,
   kLog,
   kStatus,
   kTrajectory,  ///< of a whole run alone: not on the WebSocket
 };
-inline constexpr std::size_t kFoxgloveTopics = 10;
+inline constexpr std::size_t kFoxgloveTopics = 11;
 
 /// A topic, whose messages are JSON. The id is its number, counted from 1.
 struct FoxgloveChannel {

@@ -81,6 +81,7 @@ std::optional<FoxgloveMessage> FoxgloveFeed::next_of(FoxgloveTopic topic, const 
     case FoxgloveTopic::kTransforms:
     case FoxgloveTopic::kPose:
     case FoxgloveTopic::kPoseOdom:
+    case FoxgloveTopic::kBeams:
       return pose_message(topic, history);
     case FoxgloveTopic::kLog:
       return log_message(history);
@@ -126,6 +127,8 @@ const TrailPose* FoxgloveFeed::next_pose(const RunHistory& history, std::uint32_
 
 std::optional<FoxgloveMessage> FoxgloveFeed::pose_message(FoxgloveTopic topic, const RunHistory& history) {
   Stream& poses = stream(topic);
+  if (topic == FoxgloveTopic::kBeams && std::exchange(poses.must_clear, false))
+    return FoxgloveMessage{.topic = topic, .utime_us = now_us_, .json = clear_scene_json(now_us_)};
   const TrailPose* pose = next_pose(history, poses.serial);
   if (pose == nullptr) return std::nullopt;
   if (!at_us_ && history.poses_after(poses.serial).size() > pace_.max_waiting)
@@ -136,6 +139,8 @@ std::optional<FoxgloveMessage> FoxgloveFeed::pose_message(FoxgloveTopic topic, c
     message.json = pose_in_frame_json(pose->utime_us, "map", pose_of(pose->map));
   else if (topic == FoxgloveTopic::kPoseOdom)
     message.json = pose_in_frame_json(pose->utime_us, "odom", pose_of(pose->odom));
+  else if (topic == FoxgloveTopic::kBeams)
+    message.json = beams_json(pose->utime_us, history.bearings_rad(), pose->ranges_m);
   else
     message.json = transforms_json(pose->utime_us, transforms_of(history.poses_after(0).front(), *pose));
   return message;

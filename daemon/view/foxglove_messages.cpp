@@ -42,6 +42,7 @@ constexpr Color kWallColor{0.1, 0.1, 0.1, 1.0};
 constexpr Color kClosureColor{0.1, 0.6, 0.2, 0.6};
 constexpr Color kDroppedColor{0.8, 0.2, 0.2, 0.25};
 constexpr Color kCorrectedColor{0.0, 0.35, 0.8, 1.0};
+constexpr Color kBeamColor{0.88, 0.33, 0.12, 0.7};
 constexpr Color kOdometryColor{0.85, 0.45, 0.0, 0.8};
 
 // Foreign bytes need not be UTF-8.
@@ -194,6 +195,20 @@ std::string trail_json(std::int64_t utime_us, const TrailStretch& stretch) {
   };
   return scene_of(Json::array({entity(kMapFrame, "corrected", stretch.corrected, kCorrectedColor),
                                entity(kOdomFrame, "odometry", stretch.odometry, kOdometryColor)}));
+}
+
+std::string beams_json(std::int64_t utime_us, const std::vector<float>& bearings_rad,
+                       const std::vector<float>& ranges_m) {
+  Points points;
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    if (!(ranges_m[i] > 0.0F)) continue;
+    const auto range_m = static_cast<double>(ranges_m[i]);
+    const auto bearing_rad = static_cast<double>(bearings_rad[i]);
+    points.push_back({0.0, 0.0});
+    points.push_back({range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)});
+  }
+  Json lines = Json::array({lines_json(kLineList, points, kTrailAboveM, kBeamColor)});
+  return scene_of(Json::array({entity_json(utime_us, kBodyFrame, "beams", std::move(lines))}));
 }
 
 std::string clear_scene_json(std::int64_t utime_us) {

@@ -45,6 +45,10 @@ struct TrailStretch {
   std::vector<std::array<double, 2>> odometry{};   ///< in frame odom
 };
 [[nodiscard]] std::string trail_json(std::int64_t utime_us, const TrailStretch& stretch);
+/// From the body to the hits of that moment; `ranges_m` as TrailPose::ranges_m along each of `bearings_rad`,
+/// or empty.
+[[nodiscard]] std::string beams_json(std::int64_t utime_us, const std::vector<float>& bearings_rad,
+                                     const std::vector<float>& ranges_m);
 /// Removes what was drawn on the topic.
 [[nodiscard]] std::string clear_scene_json(std::int64_t utime_us);
 

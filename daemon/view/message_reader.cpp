@@ -9,11 +9,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <utility>
 
+#include "core/sensing/range_sample.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
 #include "swiftlet/pose_t.hpp"
+#include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
@@ -22,11 +25,13 @@ namespace {
 constexpr std::string_view kPose = "POSE";
 constexpr std::string_view kPoseLocal = "POSE_LOCAL";
 constexpr std::string_view kPoseOdom = "POSE_ODOM";
+constexpr std::string_view kRanges = "RANGES";
 constexpr std::string_view kMapTile = "MAP_TILE";
 constexpr std::string_view kLandmarks = "LANDMARKS";
 constexpr std::string_view kLoopClosure = "LOOP_CLOSURE";
 constexpr std::string_view kStatus = "STATUS";
-constexpr std::array kChannels{kPose, kPoseLocal, kPoseOdom, kMapTile, kLandmarks, kLoopClosure, kStatus};
+constexpr std::array kChannels{kPose,    kPoseLocal, kPoseOdom,    kRanges,
+                               kMapTile, kLandmarks, kLoopClosure, kStatus};
 
 constexpr std::size_t kMaxWalls = 100'000;
 constexpr std::int32_t kMaxTileIndex = 1 << 20;
@@ -39,6 +44,15 @@ bool is_place(const float (&point)[2]) {
 }
 
 bool is_sound(const pose_t& pose) { return is_place(pose.x, pose.y) && std::isfinite(pose.yaw); }
+bool is_sound(const ranges_t& ranges) {
+  const auto is_length = [](float length_m) {
+    return length_m >= 0.0F && length_m < static_cast<float>(kFarthestM);
+  };
+  return ranges.count > 0 && static_cast<std::size_t>(ranges.count) <= kMaxBeams &&
+         std::all_of(ranges.distance.begin(), ranges.distance.end(), is_length) &&
+         std::all_of(ranges.bearing.begin(), ranges.bearing.end(),
+                     [](float bearing_rad) { return std::isfinite(bearing_rad); });
+}
 bool is_sound(const map_tile_t& tile) {
   return std::abs(tile.tile_x) < kMaxTileIndex && std::abs(tile.tile_y) < kMaxTileIndex && tile.version > 0 &&
          tile.resolution > 1e-3 && tile.resolution < 10.0;
@@ -116,6 +130,17 @@ void MessageReader::add(const pose_t& message) {
 }
 
 template <>
+void MessageReader::add(const ranges_t& message) {
+  constexpr float kNoMeasurement = -1.0F;
+  std::vector<float> ranges_m = message.distance;
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    if (message.status[i] == ranges_t::STATUS_HIT) continue;
+    ranges_m[i] = message.status[i] == ranges_t::STATUS_NO_RETURN ? 0.0F : kNoMeasurement;
+  }
+  history_.add_ranges(message.sequence, message.bearing, std::move(ranges_m));
+}
+
+template <>
 void MessageReader::add(const map_tile_t& message) {
   MapTile tile{.index = {message.tile_x, message.tile_y},
                .version = static_cast<std::uint32_t>(message.version)};
@@ -164,6 +189,7 @@ void MessageReader::decode(std::span<const std::uint8_t> bytes, MonotonicTime no
 
 void MessageReader::take(std::string_view channel, std::span<const std::uint8_t> message, MonotonicTime now) {
   if (channel == kPose || channel == kPoseLocal || channel == kPoseOdom) return decode<pose_t>(message, now);
+  if (channel == kRanges) return decode<ranges_t>(message, now);
   if (channel == kMapTile) return decode<map_tile_t>(message, now);
   if (channel == kLandmarks) return decode<landmarks_t>(message, now);
   if (channel == kLoopClosure) return decode<loop_closure_t>(message, now);

@@ -49,7 +49,8 @@ WebMessage text_message(const json& content) {
   return {.is_text = true, .bytes = content.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
-void put_record(ByteWriter& out, const TrailPose& pose) {
+void put_record(ByteWriter& out, const TrailPose& pose, std::size_t beams) {
+  constexpr float kUnknown = -1.0F;
   out.put(static_cast<double>(pose.utime_us));
   out.put_pose(pose.map);
   out.put_pose(pose.local);
@@ -60,6 +61,7 @@ void put_record(ByteWriter& out, const TrailPose& pose) {
   out.put(std::int32_t{pose.tracking});
   for (const double entry : pose.covariance) out.put_f32(entry);
   out.put(pose.serial);
+  for (std::size_t i = 0; i < beams; ++i) out.put(i < pose.ranges_m.size() ? pose.ranges_m[i] : kUnknown);
 }
 
 }  // namespace
@@ -123,10 +125,12 @@ WebMessage synced_message(std::int64_t at_us) {
   return text_message({{"type", "synced"}, {"utime_us", at_us}});
 }
 
-WebMessage poses_message(std::span<const TrailPose> poses) {
+WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad) {
   constexpr std::size_t kRecordBytes = 88;
-  ByteWriter out(kPosesKind, poses.size(), 0.0, kRecordBytes);
-  for (const TrailPose& pose : poses) put_record(out, pose);
+  const std::size_t beams = bearings_rad.size();
+  ByteWriter out(kPosesKind, poses.size(), static_cast<double>(beams), kRecordBytes + beams * sizeof(float));
+  for (const float bearing : bearings_rad) out.put(bearing);
+  for (const TrailPose& pose : poses) put_record(out, pose, beams);
   return std::move(out).message();
 }
 

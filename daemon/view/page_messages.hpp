@@ -28,8 +28,10 @@ namespace swiftlet {
 //   newest
 // From the server, as bytes, little-endian: a header of 16 bytes (u32 kind, u32 count, f64 value), then
 // `count` records:
-//   1 poses, value 0: f64 utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment,
-//     correction_version, tracking; f32[6] covariance_map as in pose_t; u32 serial
+//   1 poses, value n, how many beams there are: before the records f32[n] bearings of the beams; then each
+//   f64
+//     utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment, correction_version,
+//     tracking; f32[6] covariance_map as in pose_t; u32 serial; f32[n] ranges as TrailPose::ranges_m
 //   2 walls, value utime_us: all of them: i32 id; f32[4] start x, y, end x, y
 //   3 tiles, value resolution_m: i32 x, y, version; i8[4096] occupancy as in map_tile_t. Version 0: gone
 // From the page, as text: {"at": utime_us} to look at the run as it was then, {"at": null} for the newest.
@@ -50,7 +52,8 @@ struct ShownSource {
 [[nodiscard]] WebMessage events_message(std::span<const RunEvent> events);
 [[nodiscard]] WebMessage closures_message(std::span<const SeenClosure> closures);
 [[nodiscard]] WebMessage synced_message(std::int64_t at_us);
-[[nodiscard]] WebMessage poses_message(std::span<const TrailPose> poses);
+/// `bearings_rad` as RunHistory::bearings_rad().
+[[nodiscard]] WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad);
 [[nodiscard]] WebMessage walls_message(std::int64_t utime_us, std::span<const SeenWall> walls);
 
 /// nullptr: a tile that was not there yet.

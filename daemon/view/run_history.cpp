@@ -67,7 +67,7 @@ void RunHistory::begin_run(std::int64_t map_id) {
 void RunHistory::add_pose(TrailPose pose) {
   pose.serial = ++pose_serial_;
   if (!poses_.empty()) pose.utime_us = std::max(pose.utime_us, poses_.back().utime_us);
-  poses_.push_back(pose);
+  poses_.push_back(std::move(pose));
   ++changes_;
   if (poses_.size() > limits_.poses) thin_poses();
 }
@@ -84,6 +84,17 @@ void RunHistory::add_odom(std::int32_t sequence, const std::array<double, 3>& od
   ++changes_;
 }
 
+void RunHistory::add_ranges(std::int32_t sequence, const std::vector<float>& bearings_rad,
+                            std::vector<float> ranges_m) {
+  if (poses_.empty() || poses_.back().sequence != sequence || !poses_.back().ranges_m.empty()) return;
+  if (bearings_rad_.empty()) bearings_rad_ = bearings_rad;
+  if (bearings_rad != bearings_rad_ || ranges_m.size() != bearings_rad_.size()) return;
+  ranges_ += ranges_m.size();
+  poses_.back().ranges_m = std::move(ranges_m);
+  ++changes_;
+  if (ranges_ > limits_.ranges) thin_ranges();
+}
+
 std::span<const TrailPose> RunHistory::poses_after(std::uint32_t serial) const {
   std::span<const TrailPose> found = after(poses_, serial);
   if (!found.empty() && !found.back().has_odom) found = found.first(found.size() - 1);
@@ -98,8 +109,22 @@ void RunHistory::thin_poses() {
   const std::size_t half = poses_.size() / 2;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < poses_.size(); ++i)
-    if (i >= half || i % 2 == 0) poses_[kept++] = poses_[i];
+    if (i >= half || i % 2 == 0) {
+      if (kept != i) std::swap(poses_[kept], poses_[i]);
+      ++kept;
+    }
+  for (std::size_t i = kept; i < poses_.size(); ++i) ranges_ -= poses_[i].ranges_m.size();
   poses_.resize(kept);
+}
+
+/// Of the older half of the poses that have any.
+void RunHistory::thin_ranges() {
+  const std::size_t goal = ranges_ / 2;
+  for (TrailPose& pose : poses_) {
+    if (ranges_ <= goal) return;
+    ranges_ -= pose.ranges_m.size();
+    pose.ranges_m = {};
+  }
 }
 
 void RunHistory::add_tile(std::int64_t utime_us, const MapTile& tile, double resolution_m) {

@@ -31,6 +31,9 @@ struct TrailPose {
   std::array<double, 3> local{};       ///< in frame local
   std::array<double, 3> odom{};        ///< in frame odom
   bool has_odom = false;
+  /// m, along each of RunHistory::bearings_rad(), from the body to what was hit; 0: no return, negative: no
+  /// measurement. Empty: unknown.
+  std::vector<float> ranges_m{};
 };
 
 struct SeenWall {
@@ -95,6 +98,7 @@ struct StoredTile {
 /// How much is kept. What would be more is thinned, the older half first.
 struct HistoryLimits {
   std::size_t poses = 60'000;
+  std::size_t ranges = 2'000'000;  ///< over all poses
   std::size_t statuses = 20'000;
   std::size_t wall_segments = 2'000'000;  ///< over all times
   std::size_t tile_bytes = 256'000'000;   ///< compressed, over all times
@@ -120,6 +124,8 @@ class RunHistory {
   /// Frames local and odom of the same sequence; ignored where that is not the newest pose.
   void add_local(std::int32_t sequence, const std::array<double, 3>& local);
   void add_odom(std::int32_t sequence, const std::array<double, 3>& odom);
+  /// Likewise, TrailPose::ranges_m. Ignored, too, where the bearings are not those of the run's first ranges.
+  void add_ranges(std::int32_t sequence, const std::vector<float>& bearings_rad, std::vector<float> ranges_m);
   /// Ignored unless the version is above the newest.
   void add_tile(std::int64_t utime_us, const MapTile& tile, double resolution_m);
   /// All walls.
@@ -134,6 +140,8 @@ class RunHistory {
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   /// Counts every change up, over all runs.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
+  /// Of the beams, in the body frame; empty while there are no ranges.
+  [[nodiscard]] const std::vector<float>& bearings_rad() const { return bearings_rad_; }
   /// nullptr before the first; valid until the next change.
   [[nodiscard]] const TrailPose* newest_pose() const { return poses_.empty() ? nullptr : &poses_.back(); }
   /// The newest pose has arrived in all its frames only when the next one is there, or odom is.
@@ -159,6 +167,8 @@ class RunHistory {
   double resolution_m_ = 0.0;
   std::uint64_t changes_ = 0;
   std::vector<TrailPose> poses_;
+  std::vector<float> bearings_rad_;
+  std::size_t ranges_ = 0;  // of all poses
   std::uint32_t pose_serial_ = 0;
   std::vector<RunEvent> events_;
   std::uint32_t event_serial_ = 0;
@@ -171,6 +181,7 @@ class RunHistory {
 
   void begin_run(std::int64_t map_id);
   void thin_poses();
+  void thin_ranges();
   void thin_tiles();
 };
 

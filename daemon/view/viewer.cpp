@@ -52,7 +52,7 @@ std::optional<WebMessage> Viewer::next_poses(const RunHistory& history) {
   if (poses.empty()) return std::nullopt;
   poses = poses.first(std::min(poses.size(), kPosesPerMessage));
   sent_.pose_serial = poses.back().serial;
-  return poses_message(poses);
+  return poses_message(poses, history.bearings_rad());
 }
 
 std::optional<WebMessage> Viewer::next_events(const RunHistory& history) {

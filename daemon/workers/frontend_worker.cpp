@@ -8,14 +8,16 @@ namespace swiftlet {
 
 FrontendWorker::FrontendWorker(Frontend& frontend, const Clock& clock, SampleQueue::Consumer samples,
                                StepQueue::Producer steps, CorrectionValue& correction,
-                               std::optional<FrontendOutlet> publisher, StageHistogram& times)
+                               std::optional<FrontendOutlet> publisher, const BeamReadings& beams,
+                               StageHistogram& times)
     : frontend_(frontend),
       clock_(clock),
       samples_(samples),
       steps_(steps),
       correction_(correction),
       publisher_(publisher),
-      times_(times) {}
+      times_(times),
+      beams_(beams) {}
 
 StepResult FrontendWorker::step() noexcept {
   if (!steps_.has_room()) return StepResult::kBlocked;
@@ -50,6 +52,8 @@ void FrontendWorker::report(const FrontendStep& step) noexcept {
   T_local_body_ = step.T_local_body;
   if (sample.starts_segment) ++segment_;
   static_cast<void>(publisher_->confidence.load_if_new(confidence_));
+  beams_.distance_m = sample.distance_m;
+  beams_.status = sample.status;
   // A refused pose is counted by the queue.
   static_cast<void>(publisher_->poses.try_push(
       {.stamp = sample.stamp,
@@ -64,6 +68,8 @@ void FrontendWorker::report(const FrontendStep& step) noexcept {
        .tracking = confidence_.figures.tracking,
        .from_start = carried_on(confidence_.from_start, confidence_, step.T_local_body),
        .from_surroundings = carried_on(confidence_.from_surroundings, confidence_, step.T_local_body),
+       .measured_at = sample.measured_at,
+       .beams = beams_,
        .arrived_at = received_.arrived_at}));
   publisher_->counters.store(frontend_.counters());
 }

@@ -17,10 +17,11 @@ namespace swiftlet {
 /// @note A step allocates nothing, takes no lock and logs nothing.
 class FrontendWorker {
  public:
-  /// References must outlive the worker. Without `publisher` poses go nowhere but to the backend.
+  /// References must outlive the worker, but that of `beams`, which says how the beams of this run lie.
+  /// Without `publisher` poses go nowhere but to the backend.
   FrontendWorker(Frontend& frontend, const Clock& clock, SampleQueue::Consumer samples,
                  StepQueue::Producer steps, CorrectionValue& correction,
-                 std::optional<FrontendOutlet> publisher, StageHistogram& times);
+                 std::optional<FrontendOutlet> publisher, const BeamReadings& beams, StageHistogram& times);
 
   StepResult step() noexcept;
   /// Sleeps until a sample waits or no more will come.
@@ -39,6 +40,7 @@ class FrontendWorker {
   double correction_m_ = 0.0;  // ... and by how far it moved the pose
   Pose2 T_local_body_;         // of the sample before
   PoseConfidence confidence_;  // likewise
+  BeamReadings beams_;         // of the newest sample
   std::uint32_t segment_ = 0;
 
   const FrontendStep& process() noexcept;

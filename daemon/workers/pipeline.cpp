@@ -32,7 +32,8 @@ struct Pipeline::State {
         pose_latency(from_seconds(config.realtime.pose_deadline_s)),
         radio_worker(source, clock, policy, queues.samples.producer(), input_outlet(), times.input),
         frontend_worker(frontend, clock, queues.samples.consumer(), queues.steps.producer(),
-                        queues.correction, frontend_outlet(), times.frontend),
+                        queues.correction, frontend_outlet(), BeamReadings::of(source.beams(), sensor),
+                        times.frontend),
         backend_worker(backend, map, clock, queues.steps.consumer(), queues.correction, backend_outlet(),
                        times) {}
 

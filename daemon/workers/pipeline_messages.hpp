@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -9,13 +10,32 @@
 #include "core/base/ids.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/sensing/sensor_model.hpp"
 #include "daemon/system/clock.hpp"
 #include "firmware_link/sample/input_counters.hpp"
 #include "firmware_link/session/live_status.hpp"
 
 namespace swiftlet {
 
-/// Where the vehicle is, in all three frames; one for each sample.
+/// The beams of one sample.
+struct BeamReadings {
+  /// Before the first sample: nothing is measured yet.
+  static BeamReadings of(const BeamLayout& beams, const SensorModel& sensor) {
+    BeamReadings out{.count = beams.count, .max_range_m = static_cast<float>(sensor.max_range_m)};
+    for (std::size_t i = 0; i < beams.count; ++i)
+      out.bearing_rad[i] = static_cast<float>(beams.bearing_rad[i]);
+    out.status.fill(RangeStatus::kInvalid);
+    return out;
+  }
+
+  std::uint8_t count = 0;
+  float max_range_m = 0.0F;                    ///< SensorModel::max_range_m
+  std::array<float, kMaxBeams> bearing_rad{};  ///< as in BeamLayout
+  std::array<float, kMaxBeams> distance_m{};   ///< as in RangeSample
+  std::array<RangeStatus, kMaxBeams> status{};
+};
+
+/// Where the vehicle is, in all three frames, and what it saw there; one for each sample.
 struct PoseUpdate {
   HostTime stamp{};
   std::uint32_t sequence = 0;  ///< RangeSample::sequence
@@ -29,7 +49,9 @@ struct PoseUpdate {
   Tracking tracking = Tracking::kTracking;
   Covariance3 from_start{};         ///< of T_map_body, as PoseConfidence's; zero before the first keyframe
   Covariance3 from_surroundings{};  ///< likewise
-  MonotonicTime arrived_at{};       ///< ReceivedSample::arrived_at; of a recording, when the sample was due
+  DeviceTime measured_at{};         ///< RangeSample::measured_at
+  BeamReadings beams{};
+  MonotonicTime arrived_at{};  ///< ReceivedSample::arrived_at; of a recording, when the sample was due
 };
 
 /// How the input stands.

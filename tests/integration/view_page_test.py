@@ -43,6 +43,12 @@ tile.cells.forEach((percent, i) => {
   const shade = page.context.getImageData(x, y, 1, 1).data[0];
   all.push(i); if (percent >= 90 ? shade < 100 : shade > 200) good.push(i);
 }); return [good.length, all.length];"""
+# Of the beams of the first poses, which no correction moves much: how many hit something, and how many of these where
+# the map has a wall, in that cell or beside it.
+BEAMS_AT_WALLS = """const page = swiftletPage, side = page.model.resolution_m, around = [-side, 0, side];
+const hits = page.model.poses.slice(0, 200).flatMap((pose) => page.model.hitsOf(pose));
+const atWall = ([x, y]) => around.some((dx) => around.some((dy) => page.tileMap.percentAt([x + dx, y + dy], side) >= 65));
+return [hits.length, hits.filter(atWall).length];"""
 programs = {}
 
 
@@ -232,6 +238,15 @@ class PageTest(unittest.TestCase):
             self.wait_until(f"swiftletPage.model.run.map_id !== '{run}' && swiftletPage.model.status?.state === 2 && "
                             "swiftletPage.isSynced")
             self.check_pgm(second)
+
+    def test_7_beams_end_at_walls(self):
+        self.open_finished()
+        hits, at_walls = self.browser.execute_script(BEAMS_AT_WALLS)
+        self.assertGreater(hits, 200)
+        self.assertGreater(at_walls, 0.95 * hits)
+        self.press("8")
+        self.assertFalse(self.js("swiftletPage.layers.beams"))
+        self.js("localStorage.clear()")
 
 
 def skip(why):

@@ -80,7 +80,7 @@ class Page {
     const handlers = {
       run: () => this.beginRun(message),
       status: () => this.model.status = message,
-      poses: () => this.model.addPoses(message.poses),
+      poses: () => this.model.addPoses(message.poses, message.bearings),
       walls: () => this.model.walls = message.walls,
       closures: () => this.model.addClosures(message.closures),
       events: () => this.model.events.push(...message.events),

@@ -7,7 +7,7 @@ const POSES_KIND = 1;
 const WALLS_KIND = 2;
 const TILES_KIND = 3;
 const HEADER_BYTES = 16;
-const POSE_BYTES = 88;
+const POSE_BYTES = 88;  // without the ranges
 const WALL_BYTES = 20;
 export const TILE_CELLS = 64;
 const CELLS_IN_TILE = TILE_CELLS * TILE_CELLS;
@@ -17,7 +17,7 @@ function floatsAt(view, offset, count) {
   return Array.from({length: count}, (_, i) => view.getFloat32(offset + 4 * i, true));
 }
 
-function poseAt(view, offset) {
+function poseAt(view, offset, beams) {
   return {
     utime_us: view.getFloat64(offset, true),
     map: floatsAt(view, offset + 8, 3),
@@ -28,6 +28,17 @@ function poseAt(view, offset) {
     correction: view.getInt32(offset + 52, true),
     tracking: view.getInt32(offset + 56, true),
     covariance: floatsAt(view, offset + 60, 6),
+    ranges: floatsAt(view, offset + POSE_BYTES, beams),
+  };
+}
+
+function posesOf(view, count, beams) {
+  const first = HEADER_BYTES + 4 * beams;
+  const bytes = POSE_BYTES + 4 * beams;
+  return {
+    type: "poses",
+    bearings: floatsAt(view, HEADER_BYTES, beams),
+    poses: Array.from({length: count}, (_, i) => poseAt(view, first + i * bytes, beams)),
   };
 }
 
@@ -55,7 +66,7 @@ export function decodeMessage(data) {
   const [kind, count, value] = [view.getUint32(0, true), view.getUint32(4, true), view.getFloat64(8, true)];
   switch (kind) {
     case POSES_KIND:
-      return {type: "poses", poses: records(view, count, POSE_BYTES, poseAt)};
+      return posesOf(view, count, value);
     case WALLS_KIND:
       return {type: "walls", utime_us: value, walls: records(view, count, WALL_BYTES, wallAt)};
     case TILES_KIND:

@@ -12,6 +12,7 @@ export class RunModel {
   begin(run) {
     this.run = run;
     this.poses = [];
+    this.bearings = [];     // of the beams, in the body frame
     this.posesVersion = 0;  // counts up when poses are thinned: what was derived of them is void
     this.walls = [];
     this.closures = new Map();
@@ -20,7 +21,8 @@ export class RunModel {
     this.resolution_m = 0;
   }
 
-  addPoses(poses) {
+  addPoses(poses, bearings) {
+    this.bearings = bearings;
     for (const pose of poses) {
       pose.travel_m = travelTo(this.poses[this.poses.length - 1], pose);
       this.poses.push(pose);
@@ -56,6 +58,14 @@ export class RunModel {
 
   poseAt(at_us) {
     return this.poses[this.indexAt(at_us)] ?? null;
+  }
+
+  /// Where the beams of a pose ended, in frame map.
+  hitsOf(pose) {
+    const [x, y, yaw] = pose.map;
+    return pose.ranges.map((range, i) => [range, yaw + this.bearings[i]])
+      .filter(([range]) => range > 0)
+      .map(([range, angle]) => [x + range * Math.cos(angle), y + range * Math.sin(angle)]);
   }
 
   addClosures(closures) {

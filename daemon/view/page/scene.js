@@ -33,6 +33,7 @@ export class Scene {
     if (this.layers.trail) this.drawTrail(frame);
     if (this.layers.walls) this.drawWalls(frame);
     if (this.layers.closures) this.drawClosures(frame);
+    if (this.layers.beams) this.drawBeams(frame);
     if (this.layers.drone) this.drawDrone(frame);
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     if (this.layers.grid) this.drawGridLabels(frame);
@@ -115,6 +116,26 @@ export class Scene {
       if (age < 1) ring(context, colours.closure, closure.to_map, (8 + 26 * age) / transform.scale_px, 2 / transform.scale_px);
     }
     context.globalAlpha = 1;
+  }
+
+  drawBeams({context, transform, colours, at_us}) {
+    const pose = this.model.poseAt(at_us);
+    if (pose === null) return;
+    const hits = this.model.hitsOf(pose);
+    context.strokeStyle = colours.beam;
+    context.lineWidth = 1.5 / transform.scale_px;
+    context.beginPath();
+    for (const [x, y] of hits) {
+      context.moveTo(pose.map[0], pose.map[1]);
+      context.lineTo(x, y);
+    }
+    context.stroke();
+    context.fillStyle = colours.drone;
+    for (const [x, y] of hits) {
+      context.beginPath();
+      context.arc(x, y, 3 / transform.scale_px, 0, 2 * Math.PI);
+      context.fill();
+    }
   }
 
   drawDrone({context, transform, colours, at_us}) {

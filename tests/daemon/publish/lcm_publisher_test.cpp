@@ -15,6 +15,7 @@
 #include "swiftlet/map_tile_t.hpp"
 #include "swiftlet/pose2d_t.hpp"
 #include "swiftlet/pose_t.hpp"
+#include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
@@ -93,6 +94,30 @@ TEST_F(LcmPublisherTest, SaysWhereTheVehicleIsInEveryFrame) {
   EXPECT_EQ(received<pose_t>("T_POSE_ODOM").at(0).frame, pose_t::FRAME_ODOM);
   EXPECT_EQ(received<pose2d_t>("T_POSE_2D").at(0).theta, 0.5F);
   EXPECT_EQ(received<pose2d_t>("T_POSE_ODOM_2D").at(0).x, -1.0F);
+}
+
+TEST_F(LcmPublisherTest, TheBeamsGoWithThePoseInWhichTheyWereMeasured) {
+  BeamReadings beams = BeamReadings::of({3, {0.0, 0.5, -0.5}}, SensorModel::crazyflie());
+  beams.distance_m = {1.5F, 0.0F, 0.0F};
+  beams.status = {RangeStatus::kHit, RangeStatus::kNoReturn, RangeStatus::kInvalid};
+  publish([&](Publisher& publisher) {
+    publisher.publish_pose({.stamp = kNow,
+                            .sequence = 7,
+                            .measured_at = DeviceTime(std::chrono::milliseconds(250)),
+                            .beams = beams});
+  });
+  const auto messages = received<ranges_t>("T_RANGES");
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_EQ(messages[0].utime, kNowUtime);
+  EXPECT_EQ(messages[0].map_id, kMapId);
+  EXPECT_EQ(messages[0].sequence, 7);
+  EXPECT_EQ(messages[0].device_utime, 250'000);
+  EXPECT_EQ(messages[0].max_range, 3.0F);
+  EXPECT_EQ(messages[0].count, 3);
+  EXPECT_THAT(messages[0].bearing, testing::ElementsAre(0.0F, 0.5F, -0.5F));
+  EXPECT_THAT(messages[0].distance, testing::ElementsAre(1.5F, 0.0F, 0.0F));
+  EXPECT_THAT(messages[0].status, testing::ElementsAre(ranges_t::STATUS_HIT, ranges_t::STATUS_NO_RETURN,
+                                                       ranges_t::STATUS_INVALID));
 }
 
 TEST_F(LcmPublisherTest, ATileArrivesAsItWasDrawn) {
@@ -262,6 +287,7 @@ std::uint64_t fingerprint() {
 TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<pose_t>(), 0xcb2bbf134a7182e6U);
   EXPECT_EQ(fingerprint<pose2d_t>(), 0x1f317af1246276acU);
+  EXPECT_EQ(fingerprint<ranges_t>(), 0x73529b4f4a288943U);
   EXPECT_EQ(fingerprint<map_info_t>(), 0xd4c16b4a90c4f334U);
   EXPECT_EQ(fingerprint<map_tile_t>(), 0xfdf7a3453106bfbaU);
   EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);

@@ -77,7 +77,7 @@ TEST_F(FoxgloveConversationTest, GreetsWithItsNameAndTheChannels) {
     EXPECT_EQ(json::parse(one["schema"].get<std::string>())["title"], one["schemaName"]);
   }
   EXPECT_THAT(topics, ElementsAre("/tf", "/pose", "/pose_odom", "/map", "/walls", "/closures", "/trail",
-                                  "/log", "/status"));
+                                  "/beams", "/log", "/status"));
   EXPECT_FALSE(conversation.next()) << "there is no run, and nobody has subscribed";
 }
 
@@ -97,6 +97,26 @@ TEST_F(FoxgloveConversationTest, SendsWhatIsSubscribedToAsBytes) {
   EXPECT_EQ(pose["frame_id"], "map");
   EXPECT_EQ(pose["pose"]["position"], (json{{"x", 1.0}, {"y", 2.0}, {"z", 0.0}}));
   EXPECT_FALSE(conversation.next()) << "each pose once";
+}
+
+TEST_F(FoxgloveConversationTest, BeamsLeadFromTheBodyToTheirHits) {
+  const auto greeted_one = greeted(live_);
+  FoxgloveConversation& conversation = *greeted_one;
+  conversation.take(subscription(3, FoxgloveTopic::kBeams));
+  ASSERT_TRUE(shared_.history.enter_run(7, 0.0));
+  shared_.history.add_pose({.utime_us = kSecondUs, .sequence = 1, .map = {1.0, 2.0, 0.5}});
+  shared_.history.add_ranges(1, {0.0F, 1.0F, 2.0F}, {1.5F, 0.0F, -1.0F});
+  shared_.history.add_odom(1, {});
+  const auto message = conversation.next();
+  ASSERT_TRUE(message);
+  const json entity = json::parse(message->bytes.substr(13))["entities"][0];
+  EXPECT_EQ(entity["frame_id"], "body");
+  EXPECT_EQ(entity["timestamp"], (json{{"sec", 1}, {"nsec", 0}}));
+  const json points = entity["lines"][0]["points"];
+  ASSERT_EQ(points.size(), 2U) << "one beam of three hit";
+  EXPECT_EQ(points[0]["x"], 0.0);
+  EXPECT_EQ(points[1]["x"], 1.5);
+  EXPECT_EQ(points[1]["y"], 0.0);
 }
 
 TEST_F(FoxgloveConversationTest, EndsASubscription) {

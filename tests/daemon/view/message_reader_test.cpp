@@ -11,6 +11,7 @@
 
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/pose_t.hpp"
+#include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
 #include "tests/daemon/view/view_samples.hpp"
 
@@ -43,6 +44,9 @@ class MessageReaderTest : public testing::Test {
   void take(std::string_view channel, const Message& message) {
     reader_.take(channel, encoded(message), MonotonicTime());
   }
+  TrailPose newest() const {
+    return history_.newest_pose() == nullptr ? TrailPose() : *history_.newest_pose();
+  }
   std::vector<std::string> log() const {
     std::vector<std::string> texts;
     for (const RunEvent& event : history_.events_after(0)) texts.push_back(event.text);
@@ -58,6 +62,40 @@ TEST_F(MessageReaderTest, JoinsTheFramesOfOnePose) {
   EXPECT_EQ(history_.poses_after(0)[0].map[0], 1.0);
   EXPECT_EQ(history_.poses_after(0)[0].local[0], 2.0);
   EXPECT_EQ(history_.poses_after(0)[0].odom[0], 3.0);
+}
+
+ranges_t ranges_message(std::int32_t sequence) {
+  ranges_t message{};
+  message.map_id = 5;
+  message.sequence = sequence;
+  message.count = 3;
+  message.bearing = {0.0F, 1.0F, 2.0F};
+  message.distance = {1.5F, 0.0F, 0.0F};
+  message.status = {ranges_t::STATUS_HIT, ranges_t::STATUS_NO_RETURN, ranges_t::STATUS_INVALID};
+  return message;
+}
+
+TEST_F(MessageReaderTest, RangesBelongToThePoseOfTheirSequence) {
+  take("POSE", pose_message(pose_t::FRAME_MAP, 3));
+  take("RANGES", ranges_message(2));
+  EXPECT_THAT(newest().ranges_m, testing::IsEmpty());
+  take("RANGES", ranges_message(3));
+  EXPECT_THAT(history_.bearings_rad(), testing::ElementsAre(0.0F, 1.0F, 2.0F));
+  EXPECT_THAT(newest().ranges_m, testing::ElementsAre(1.5F, 0.0F, -1.0F));
+}
+
+TEST_F(MessageReaderTest, RangesThatNoSensorHasAreRefused) {
+  take("POSE", pose_message(pose_t::FRAME_MAP, 3));
+  ranges_t unknown = ranges_message(3);
+  unknown.distance[0] = std::nanf("");
+  take("RANGES", unknown);
+  ranges_t many = ranges_message(3);
+  many.count = 65;
+  many.bearing.resize(65);
+  many.distance.resize(65);
+  many.status.resize(65);
+  take("RANGES", many);
+  EXPECT_THAT(history_.bearings_rad(), testing::IsEmpty());
 }
 
 TEST_F(MessageReaderTest, WhatIsNoMessageOfOursChangesNothing) {

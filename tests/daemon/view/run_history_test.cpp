@@ -53,6 +53,43 @@ TEST(RunHistory, AnOlderVersionOfATileChangesNothing) {
   EXPECT_EQ(history.changes(), changes);
 }
 
+TEST(RunHistory, OfAllTooManyRangesTheOldestAreForgotten) {
+  RunHistory history(HistoryLimits{.ranges = 40});
+  ASSERT_TRUE(history.enter_run(1, 0.0));
+  for (int i = 0; i < 11; ++i) {
+    history.add_pose({.utime_us = i, .sequence = i});
+    history.add_ranges(i, {0.0F, 1.0F, 2.0F, 3.0F}, {1.0F, 2.0F, 3.0F, 4.0F});
+    history.add_odom(i, {});
+  }
+  const auto poses = history.poses_after(0);
+  ASSERT_EQ(poses.size(), 11U);
+  EXPECT_TRUE(poses.front().ranges_m.empty());
+  EXPECT_THAT(poses.back().ranges_m, testing::SizeIs(4));
+}
+
+TEST(RunHistory, RangesOfPosesThatAreThinnedDoNotCount) {
+  RunHistory history(HistoryLimits{.poses = 10, .ranges = 20});
+  ASSERT_TRUE(history.enter_run(1, 0.0));
+  for (int i = 0; i < 1000; ++i) {
+    history.add_pose({.utime_us = i, .sequence = i});
+    history.add_ranges(i, {0.0F, 1.0F}, {1.0F, 2.0F});
+    history.add_odom(i, {});
+  }
+  for (const TrailPose& pose : history.poses_after(0)) EXPECT_THAT(pose.ranges_m, testing::SizeIs(2));
+}
+
+TEST(RunHistory, RangesAlongOtherBeamsThanTheRunsAreNotBelieved) {
+  RunHistory history;
+  ASSERT_TRUE(history.enter_run(1, 0.0));
+  history.add_pose({.sequence = 1});
+  history.add_ranges(1, {0.0F, 1.0F}, {1.0F, 2.0F});
+  history.add_pose({.sequence = 2});
+  history.add_ranges(2, {0.0F, 2.0F}, {1.0F, 2.0F});
+  history.add_ranges(2, {0.0F, 1.0F}, {1.0F});
+  history.add_odom(2, {});
+  EXPECT_TRUE(history.poses_after(1).front().ranges_m.empty());
+}
+
 TEST(RunHistory, WhatIsNoTileOfOursIsUnknown) { EXPECT_THAT(inflate_tile({}), testing::Each(-1)); }
 
 TEST(RunHistory, APoseIsShownWithItsDeadReckoning) {

@@ -83,6 +83,27 @@ TEST_F(ViewerTest, ALatePageIsToldEverythingAndThenNothing) {
   EXPECT_FALSE(viewer.next());
 }
 
+TEST_F(ViewerTest, APoseGoesWithItsBeams) {
+  begin_run();
+  history_.add_pose({.sequence = 1});
+  history_.add_ranges(1, {0.0F, 1.0F}, {1.5F, 2.5F});
+  history_.add_odom(1, {});
+  add_whole_pose(history_, 2, 2);
+  Viewer viewer(shared_, live_);
+  ASSERT_TRUE(viewer.next());
+  const auto message = viewer.next();
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->bytes.size(), 16U + 8 + 2 * (88 + 8));
+  const auto f32_at = [&](std::size_t offset) {
+    float number = 0.0F;
+    std::memcpy(&number, message->bytes.data() + offset, sizeof number);
+    return number;
+  };
+  EXPECT_EQ(f32_at(16 + 4), 1.0F) << "the second bearing";
+  EXPECT_EQ(f32_at(16 + 8 + 88 + 4), 2.5F);
+  EXPECT_EQ(f32_at(16 + 8 + 2 * 96 - 4), -1.0F) << "a pose without ranges";
+}
+
 TEST_F(ViewerTest, ASlowPageGetsTheNewestVersionAndNoneBetween) {
   begin_run();
   Viewer viewer(shared_, live_);

@@ -16,7 +16,8 @@ namespace {
 struct Bench {
   Bench()
       : worker(frontend, clock, queues->samples.consumer(), queues->steps.producer(), queues->correction,
-               queues->to_publisher.frontend_outlet(), times) {}
+               queues->to_publisher.frontend_outlet(),
+               BeamReadings::of(BeamLayout::multiranger(), SensorModel::crazyflie()), times) {}
 
   void push(const RangeSample& sample, MonotonicTime arrived_at = {}) {
     ASSERT_TRUE(queues->samples.producer().try_push({sample, arrived_at}));
@@ -73,6 +74,22 @@ TEST(FrontendWorker, ThePoseKnowsWhenItsSampleArrived) {
   bench.push(resting_samples(1).front(), MonotonicTime(std::chrono::seconds(7)));
   ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.pop_pose().arrived_at, MonotonicTime(std::chrono::seconds(7)));
+}
+
+TEST(FrontendWorker, ThePoseCarriesTheBeamsThatWereMeasuredThere) {
+  Bench bench;
+  RangeSample sample = flight_in_square_room(1, 3.0, 1.0).front();
+  sample.measured_at = DeviceTime(std::chrono::seconds(9));
+  sample.status[2] = RangeStatus::kNoReturn;
+  bench.push(sample);
+  ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
+  const PoseUpdate pose = bench.pop_pose();
+  EXPECT_EQ(pose.measured_at, sample.measured_at);
+  EXPECT_EQ(pose.beams.count, 4);
+  EXPECT_EQ(pose.beams.max_range_m, 3.0F);
+  EXPECT_EQ(pose.beams.bearing_rad[3], static_cast<float>(-kPi / 2.0));
+  EXPECT_EQ(pose.beams.distance_m, sample.distance_m);
+  EXPECT_EQ(pose.beams.status, sample.status);
 }
 
 TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {

@@ -24,7 +24,8 @@ TEST(WorkerAllocation, RadioAndFrontendTakeNothingFromTheHeapOverAWholeFlight) {
   RadioWorker radio(source, clock, {.rate = 1.0, .refuses_when_full = true}, queues->samples.producer(),
                     queues->to_publisher.input_outlet(), times.input);
   FrontendWorker worker(frontend, clock, queues->samples.consumer(), queues->steps.producer(),
-                        queues->correction, queues->to_publisher.frontend_outlet(), times.frontend);
+                        queues->correction, queues->to_publisher.frontend_outlet(),
+                        BeamReadings::of(source.beams(), source.sensor()), times.frontend);
   auto steps = queues->steps.consumer();
   FrontendStep taken;
   std::size_t allocations = 0;
