@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +32,7 @@
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/system/terminal.hpp"
 #include "daemon/version.hpp"
+#include "daemon/view/live_view.hpp"
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
@@ -42,6 +44,7 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr std::string_view kUdpScheme = "udp://";
 constexpr const char* kShareHere = "udp://127.0.0.1:19850";
+constexpr const char* kViewHere = "127.0.0.1:8440";
 
 struct Options {
   std::string config_path;
@@ -54,6 +57,7 @@ struct Options {
   std::string log_file;
   RecordingWish record;
   std::optional<std::string> share;
+  std::optional<std::string> view;
   bool print_reference = false;
   bool print_tuning = false;
   bool verbose = false;
@@ -86,6 +90,12 @@ void declare(CLI::App& app, Options& options) {
                  "let one other program use the vehicle too, and fly it; without ADDRESS on this machine "
                  "alone, on udp://127.0.0.1:19850")
       ->type_name("[ADDRESS]")
+      ->expected(0, 1);
+  app.add_option(
+         "--view", options.view,
+         "show the map while it grows, to browsers; without ADDRESS:PORT to those on this machine, on "
+         "http://127.0.0.1:8440")
+      ->type_name("[ADDRESS:PORT]")
       ->expected(0, 1);
   app.add_option("--log-file", options.log_file,
                  "log there, not to stderr; SIGHUP opens it anew, for whoever rotates logs, instead of "
@@ -182,6 +192,41 @@ Result<std::unique_ptr<SampleSource>> open_input(const Options& options, const C
   return opened;
 }
 
+/// The page of this run; nullptr: it is not asked for. Errors: as LiveView::open.
+Result<std::unique_ptr<LiveView>> open_view(const Options& options, const Configuration& config) {
+  const std::string text = options.view.value_or(config.view.address);
+  if (text.empty()) return std::unique_ptr<LiveView>();
+  const std::string asked_by = options.view ? "--view: " : "view.address: ";
+  const Result<ListenAddress> address = parse_listen_address(text);
+  if (!address) return Error{ErrorCode::kInvalidInput, asked_by + address.error().message};
+  Result<std::unique_ptr<LiveView>> view =
+      LiveView::open(*address, {.title = options.input_uri}, config.publish.channel_prefix);
+  if (!view) return Error{ErrorCode::kInvalidInput, asked_by + view.error().message};
+  const WebServer& server = (*view)->server();
+  spdlog::info("the live map: open {} in a browser", server.url());
+  if (server.is_beyond_this_machine())
+    spdlog::warn("shown beyond this machine: whoever reaches {} sees the map", server.url());
+  return view;
+}
+
+/// Names the run for consumers: the time it began, in microseconds since 1970.
+std::int64_t new_map_id() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+/// Also to the page, where there is one; `view` must outlive the publisher.
+Result<std::unique_ptr<Publisher>> open_publisher(const Options& options, const Configuration& config,
+                                                  LiveView* view) {
+  MessageSink also;
+  if (view != nullptr)
+    also = [view](const std::string& channel, std::span<const std::uint8_t> message) {
+      view->take(channel, message);
+      return true;
+    };
+  return open_lcm_publisher(options.lcm_url, config.publish.channel_prefix, new_map_id(), std::move(also));
+}
+
 /// nullptr: the log goes to stderr.
 Result<std::unique_ptr<LogFile>> open_log(const Options& options) {
   if (options.log_file.empty()) return std::unique_ptr<LogFile>();
@@ -209,12 +254,6 @@ InputPolicy input_policy(const Options& options, const SampleSource& source) {
 std::string input_text(const Options& options, const SampleSource& source) {
   if (source.is_live() || is_followed(options)) return options.input_uri + " (until stopped by a signal)";
   return fmt::format("{} at {} times its pace", options.input_uri, options.rate);
-}
-
-/// Names the run for consumers: the time it began, in microseconds since 1970.
-std::int64_t new_map_id() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
 }
 
 /// One line for each problem of the input, and for each note from `first_note` on; its exit code.
@@ -291,8 +330,9 @@ int run(const Options& options) {
   if (!source) return refuse(source.error().message);
   const Result<std::unique_ptr<Outputs>> outputs = prepare_outputs(options);
   if (!outputs) return refuse(outputs.error().message);
-  const Result<std::unique_ptr<Publisher>> publisher =
-      open_lcm_publisher(options.lcm_url, config->publish.channel_prefix, new_map_id());
+  const Result<std::unique_ptr<LiveView>> view = open_view(options, *config);
+  if (!view) return refuse(view.error().message);
+  const Result<std::unique_ptr<Publisher>> publisher = open_publisher(options, *config, view->get());
   if (!publisher) return refuse(publisher.error().message);
 
   SteadyClock clock;
@@ -327,6 +367,7 @@ int main_without_exceptions(int argc, char** argv) {
     app.parse(argc, argv);
     options.record.asked = app.count("--record") > 0;
     if (app.count("--share") > 0 && options.share.value_or("").empty()) options.share = kShareHere;
+    if (app.count("--view") > 0 && options.view.value_or("").empty()) options.view = kViewHere;
   } catch (const CLI::Success& question) {
     return answer(app, question);
   } catch (const CLI::ParseError& error) {
@@ -340,6 +381,8 @@ int main_without_exceptions(int argc, char** argv) {
     std::fputs(tuning_text({}).c_str(), stdout);
     return 0;
   }
+  if (options.input_uri.empty() && options.view && options.view->find("://") != std::string::npos)
+    return refuse(*options.view + " is taken for the address of --view; name INPUT before --view");
   if (options.input_uri.empty())
     return refuse("no INPUT is named; for example: swiftletd radio://0/80/2M/E7E7E7E7E7 -o out");
   const auto colours = wants_colours(STDERR_FILENO) ? spdlog::color_mode::always : spdlog::color_mode::never;

@@ -71,6 +71,20 @@ struct ShareConfig {
   [[nodiscard]] std::vector<std::string> validate() const { return setting_problems(*this); }
 };
 
+/// Whether the daemon shows its run in browsers.
+struct ViewConfig {
+  std::string address;
+
+  static constexpr SettingsSection kSection{"view", "The page of the run: [live map](view.md)."};
+  static constexpr Setting<ViewConfig> kSettings[] = {
+      {"address", &ViewConfig::address, "",
+       "where swiftletd serves the page, as 127.0.0.1:8440; empty: nowhere, unless --view is given"},
+  };
+
+  /// All that is wrong with it, one line each; empty when usable.
+  [[nodiscard]] std::vector<std::string> validate() const { return setting_problems(*this); }
+};
+
 /// What the daemon asks of the machine so that it keeps time; everything is off unless asked for.
 struct RealtimeConfig {
   double pose_deadline_s = 0.002;
@@ -113,6 +127,7 @@ struct Configuration {
   PublishConfig publish;
   RecordConfig record;
   ShareConfig share;
+  ViewConfig view;
   RealtimeConfig realtime;
 
   /// All that is wrong with it, one line each; empty when usable.
@@ -130,6 +145,7 @@ void for_each_section(AnyConfiguration&& config, Visitor visit) {
   visit(config.publish);
   visit(config.record);
   visit(config.share);
+  visit(config.view);
   visit(config.realtime);
 }
 

@@ -408,13 +408,18 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
 }  // namespace
 
 Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
-                                                      const std::string& channel_prefix,
-                                                      std::int64_t map_id) {
+                                                      const std::string& channel_prefix, std::int64_t map_id,
+                                                      MessageSink also) {
   Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
   if (!transport) return transport.error();
   const std::shared_ptr<LcmTransport> lcm = std::move(transport).value();
-  const auto sink = [lcm](const std::string& channel, std::span<const std::uint8_t> message) {
-    return lcm->publish(channel, message);
+  const auto sink = [lcm, also = std::move(also)](const std::string& channel,
+                                                  std::span<const std::uint8_t> message) {
+    const bool is_taken = lcm->publish(channel, message);
+    const int why = errno;
+    if (also) static_cast<void>(also(channel, message));
+    errno = why;
+    return is_taken;
   };
   return make_message_publisher(sink, channel_prefix, map_id);
 }

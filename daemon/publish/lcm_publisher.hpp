@@ -14,19 +14,22 @@
 
 namespace swiftlet {
 
+/// Takes an encoded message, which is valid during the call. False, with errno: it is lost.
+using MessageSink = std::function<bool(const std::string& channel, std::span<const std::uint8_t> message)>;
+
 /// The most that one datagram carries; LCM would cut larger messages into fragments.
 inline constexpr std::size_t kMaxLcmMessageBytes = 65'499;
 inline constexpr std::size_t kMaxWallsPerMessage = 1000;
 
 /// Publishes over LCM with the types in proto/; docs/lcm.md lists the channels. Every message fits one
 /// datagram. `map_id` names the run. kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or
-/// memq://). A message that LCM does not take is lost; the first one is logged.
+/// memq://). A message that LCM does not take is lost; the first one is logged. `also`, where it is set, is
+/// given each message after LCM, whether LCM took it or not.
 [[nodiscard]] Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
                                                                     const std::string& channel_prefix,
-                                                                    std::int64_t map_id);
+                                                                    std::int64_t map_id,
+                                                                    MessageSink also = {});
 
-/// Takes an encoded message, which is valid during the call. False, with errno: it is lost.
-using MessageSink = std::function<bool(const std::string& channel, std::span<const std::uint8_t> message)>;
 /// The same messages for `sink`, without LCM.
 [[nodiscard]] std::unique_ptr<Publisher> make_message_publisher(MessageSink sink,
                                                                 const std::string& channel_prefix,

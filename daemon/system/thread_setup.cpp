@@ -4,6 +4,8 @@
 
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -45,6 +47,12 @@ Status lock_memory() {
   // Whole stacks of threads to come would be read in without this.
   if (::mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) return refused("locked memory", errno);
   return {};
+}
+
+void yield_to_others() noexcept {
+  constexpr int kNiceness = 10;
+  static_cast<void>(
+      ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness));  // lowering is allowed
 }
 
 void prefault_stack() noexcept {

@@ -23,6 +23,10 @@ struct ThreadSetup {
 /// above.
 [[nodiscard]] Status lock_memory();
 
+/// The calling thread, scheduled like any other program, runs after those of the same kind: its share of a
+/// busy processor is a tenth of theirs.
+void yield_to_others() noexcept;
+
 /// Touches the next 256 kB of the calling thread's stack, several times what radio, frontend and publisher
 /// need, so that no page of it is missing later.
 void prefault_stack() noexcept;

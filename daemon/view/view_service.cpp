@@ -3,12 +3,15 @@
 #include "daemon/view/view_service.hpp"
 
 #include <pthread.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <exception>
 #include <span>
 #include <utility>
 
 #include "daemon/publish/lcm_transport.hpp"
+#include "daemon/system/thread_setup.hpp"
 #include "daemon/view/foxglove_conversation.hpp"
 #include "daemon/view/message_reader.hpp"
 #include "daemon/view/page_files.hpp"
@@ -39,12 +42,21 @@ Result<std::unique_ptr<ViewService>> ViewService::open(const ListenAddress& addr
       address, {.files = page_files(), .converse = converse, .foreign_origins = foreign_origins});
   if (!server) return server.error();
   service->server_ = std::move(server).value();
-  service->thread_ = std::jthread([self](const std::stop_token& stop) { self->server_->run(stop); });
+  service->thread_ = std::jthread([self](const std::stop_token& stop) { self->serve(stop); });
   pthread_setname_np(service->thread_.native_handle(), "view");
   return service;
 }
 
 ViewService::~ViewService() = default;
+
+void ViewService::serve(const std::stop_token& stop) {
+  yield_to_others();
+  try {
+    server_->run(stop);
+  } catch (const std::exception& error) {
+    spdlog::error("the page of the run is served no more: {}", error.what());
+  }
+}
 
 Status view_lcm(const std::string& url, const std::string& channel_prefix, SharedRunHistory& shared,
                 const std::stop_token& stop, const std::function<void()>& after_message) {

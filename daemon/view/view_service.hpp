@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 /// The page on which a run is watched, and the same for Foxglove: fills its history by what it is told, and
-/// serves it in a thread of its own.
+/// serves it in a thread of its own, which yields to others.
 class ViewService {
  public:
   /// Pages of `foreign_origins` may look, too. Error: kInvalidInput: it cannot listen there.
@@ -37,6 +37,8 @@ class ViewService {
   ShownSource source_;
   std::unique_ptr<WebServer> server_;
   std::jthread thread_;
+
+  void serve(const std::stop_token& stop);
 };
 
 /// Reads the messages of a swiftletd, until `stop` is requested, into the history; `after_message`, where it

@@ -267,7 +267,7 @@ struct WebServer::State {
     if (!error) return {};
     return Error{ErrorCode::kInvalidInput, "cannot listen on " + address.host + ":" +
                                                std::to_string(address.port) + ": " + error.message() +
-                                               "; name another with --listen 127.0.0.1:PORT"};
+                                               "; name another address or port"};
   }
   void accept() {
     acceptor.async_accept([this](error_code error, tcp::socket socket) {
