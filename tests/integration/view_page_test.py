@@ -248,6 +248,20 @@ class PageTest(unittest.TestCase):
         self.assertFalse(self.js("swiftletPage.layers.beams"))
         self.js("localStorage.clear()")
 
+    def test_8_a_phone_sees_a_flight_that_the_daemon_shows_itself(self):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        with subprocess.Popen(fly("--rate", 20, "--no-output", "--view", "127.0.0.1:0"), stderr=subprocess.PIPE, text=True) as daemon:
+            self.addCleanup(daemon.kill)
+            url = next(found[0] for line in daemon.stderr if (found := re.search(r"http://\S+", line)))
+            self.browser.get(url)
+            self.wait_until("document.querySelectorAll('#gauges > div').length >= 7")
+            self.assertEqual(self.js("document.documentElement.scrollWidth"), 390)
+            daemon.terminate()
+            daemon.communicate(timeout=PATIENCE_S)
+        self.wait_until("document.getElementById('notice').textContent.startsWith('swiftletd has ended')")
+
 
 def skip(why):
     print("skipped: " + why)

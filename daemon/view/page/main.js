@@ -234,10 +234,15 @@ class Page {
     byId("notice").textContent = text;
   }
 
+  hasEnded() {
+    return !this.model.run.is_recording && this.model.status?.state === 2;
+  }
+
   connectionState() {
+    if (!this.isConnected && this.hasEnded()) return ["lost", "swiftletd has ended: the map is final"];
     if (!this.isConnected) return ["lost", "Connection lost: trying again"];
     if (this.model.run.generation === 0) return ["waiting", "Waiting for swiftletd"];
-    const isOver = this.model.run.is_recording || this.model.status?.state === 2;
+    const isOver = this.model.run.is_recording || this.hasEnded();
     if (!isOver && performance.now() - this.lastMessage_ms > SILENT_AFTER_ms) return ["silent", "swiftletd is silent"];
     return ["there", ""];
   }
