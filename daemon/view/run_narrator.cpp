@@ -18,6 +18,8 @@ namespace {
 // One cell, at rest under load: below that a Crazyflie soon sinks.
 constexpr double kBatteryLowV = 3.2;
 constexpr double kBatteryRecoveredV = 3.5;
+// A poor link loses something each second: that must not hide what else happens.
+constexpr std::int64_t kLossesApartUs = 15'000'000;
 
 std::string link_text(std::int8_t condition) {
   if (condition < 0 || condition > static_cast<std::int8_t>(LinkCondition::kDeviceUnsuited))
@@ -37,6 +39,8 @@ void RunNarrator::begin_with_run() {
   status_.reset();
   pose_.reset();
   battery_is_low_ = false;
+  missing_ = {};
+  late_ = {};
 }
 
 void RunNarrator::see_pose(const TrailPose& pose) {
@@ -104,17 +108,17 @@ void RunNarrator::tell_battery(const RunStatus& status) {
 }
 
 void RunNarrator::tell_losses(const RunStatus& status) {
-  if (!status_) return;
-  if (status.missing_packets > status_->missing_packets)
-    history_.add_event(status.utime_us, EventLevel::kWarning,
-                       fmt::format("{} with ranges missing, {} in all",
-                                   counted(status.missing_packets - status_->missing_packets, "packet"),
-                                   status.missing_packets));
-  if (status.missed_deadlines > status_->missed_deadlines)
-    history_.add_event(status.utime_us, EventLevel::kWarning,
-                       fmt::format("{} later than allowed, {} in all",
-                                   counted(status.missed_deadlines - status_->missed_deadlines, "pose"),
-                                   status.missed_deadlines));
+  tell_more(missing_, status.missing_packets, status.utime_us, "packet", "with ranges missing");
+  tell_more(late_, status.missed_deadlines, status.utime_us, "pose", "later than allowed");
+}
+
+void RunNarrator::tell_more(Losses& told, std::int64_t count, std::int64_t utime_us, std::string_view thing,
+                            std::string_view fate) {
+  if (!status_) told.count = count;  // what was before is not news
+  if (count <= told.count || (told.at_us && utime_us - *told.at_us < kLossesApartUs)) return;
+  history_.add_event(utime_us, EventLevel::kWarning,
+                     fmt::format("{} {}, {} in all", counted(count - told.count, thing), fate, count));
+  told = {.count = count, .at_us = utime_us};
 }
 
 void RunNarrator::see_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us) {

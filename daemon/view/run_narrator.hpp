@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "daemon/view/run_history.hpp"
 
@@ -26,6 +27,13 @@ class RunNarrator {
   std::optional<RunStatus> status_;
   std::optional<TrailPose> pose_;
   bool battery_is_low_ = false;
+  /// What has been told of something that is counted.
+  struct Losses {
+    std::int64_t count = 0;
+    std::optional<std::int64_t> at_us{};  // unset: nothing yet
+  };
+  Losses missing_;
+  Losses late_;
 
   void begin_with_run();
   void tell_tracking(const TrailPose& pose);
@@ -33,6 +41,8 @@ class RunNarrator {
   void tell_link(const RunStatus& status);
   void tell_battery(const RunStatus& status);
   void tell_losses(const RunStatus& status);
+  void tell_more(Losses& told, std::int64_t count, std::int64_t utime_us, std::string_view thing,
+                 std::string_view fate);
 };
 
 }  // namespace swiftlet

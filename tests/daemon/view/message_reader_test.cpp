@@ -154,12 +154,25 @@ TEST_F(MessageReaderTest, OnePacketIsNoPackets) {
   take("STATUS", status);
   status.missing_packets = 1;
   take("STATUS", status);
+  status.utime = 60'000'000;
   status.missing_packets = 3;
   status.missed_deadlines = 1;
   take("STATUS", status);
   EXPECT_THAT(log(), testing::ElementsAre("1 packet with ranges missing, 1 in all",
                                           "2 packets with ranges missing, 3 in all",
                                           "1 pose later than allowed, 1 in all"));
+}
+
+TEST_F(MessageReaderTest, LossesEachSecondDoNotFillTheLog) {
+  status_t status{};
+  status.map_id = 5;
+  status.missing_packets = 100;  // before anybody looked
+  for (; status.utime <= 30'000'000; status.utime += 1'000'000) {
+    take("STATUS", status);
+    ++status.missing_packets;
+  }
+  EXPECT_THAT(log(), testing::ElementsAre("1 packet with ranges missing, 101 in all",
+                                          "15 packets with ranges missing, 116 in all"));
 }
 
 TEST_F(MessageReaderTest, ALostVehicleIsTold) {
