@@ -99,9 +99,27 @@ RunStatus run_status(const status_t& message) {
           .version_sum = message.version_sum};
 }
 
-/// LCM's own code makes room for as many elements as a message claims to hold.
+/// Where a message says how many elements its lists have; 0: nowhere.
+template <typename Message>
+constexpr std::size_t kCountAt = 0;
+template <>
+constexpr std::size_t kCountAt<ranges_t> = 40;
+template <>
+constexpr std::size_t kCountAt<landmarks_t> = 32;
+
+/// LCM's own code makes room for as many elements as a message claims to hold, before it looks for them.
+bool claims_what_it_holds(std::span<const std::uint8_t> bytes, std::size_t count_at) {
+  constexpr std::size_t kCountBytes = 4;
+  if (bytes.size() < count_at + kCountBytes) return false;
+  std::uint32_t count = 0;
+  for (const std::uint8_t byte : bytes.subspan(count_at, kCountBytes)) count = count << 8U | byte;
+  return count <= bytes.size();
+}
+
 template <typename Message>
 bool is_decoded(std::span<const std::uint8_t> bytes, Message& message) {
+  constexpr std::size_t kAt = kCountAt<Message>;
+  if (kAt > 0 && !claims_what_it_holds(bytes, kAt)) return false;
   try {
     return message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0;
   } catch (const std::exception&) {

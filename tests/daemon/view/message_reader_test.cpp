@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <string>
@@ -115,6 +116,21 @@ TEST_F(MessageReaderTest, AClaimOfMoreWallsThanThereAreIsRefused) {
   std::vector<std::uint8_t> bytes = encoded(walls);
   bytes[bytes.size() - 4] = 0xff;  // their count, big-endian
   reader_.take("LANDMARKS", bytes, MonotonicTime());
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, AClaimOfMoreBeamsThanThereAreCostsNoMemory) {
+  const auto peak_kb = [] {
+    rusage usage{};
+    EXPECT_EQ(::getrusage(RUSAGE_SELF, &usage), 0);
+    return usage.ru_maxrss;
+  };
+  std::vector<std::uint8_t> bytes = encoded(ranges_message(3));
+  const std::size_t count_at = bytes.size() - 3 * 9 - 4;
+  bytes[count_at] = 0x10;  // 268 million
+  const auto before_kb = peak_kb();
+  reader_.take("RANGES", bytes, MonotonicTime());
+  EXPECT_LT(peak_kb() - before_kb, 100'000);
   EXPECT_EQ(history_.generation(), 0U);
 }
 
