@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -15,32 +16,44 @@ namespace {
 
 double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.y_m; }
 
-struct Located {
-  CellIndex cell;
-  std::uint32_t index = 0;
-};
-
-/// The returns by cell; within a cell in their own order.
+/// The returns sorted by cell; within a cell in their own order.
 class ReturnsByCell {
  public:
-  ReturnsByCell(std::span<const DrawnReturn> returns, double cell_m) {
-    for (std::uint32_t i = 0; i < returns.size(); ++i)
-      located_.push_back({cell_of(returns[i].p_map, cell_m), i});
-    std::stable_sort(located_.begin(), located_.end(),
-                     [](const Located& a, const Located& b) { return a.cell < b.cell; });
+  ReturnsByCell(std::span<const DrawnReturn> returns, double cell_m) : cell_m_(cell_m) {
+    for (const DrawnReturn& r : returns) cells_.push_back(cell_of(r.p_map, cell_m));
+    index_.resize(returns.size());
+    std::iota(index_.begin(), index_.end(), 0U);
+    std::stable_sort(index_.begin(), index_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return cells_[a] < cells_[b]; });
+    std::sort(cells_.begin(), cells_.end());
+    for (const std::uint32_t i : index_) sorted_.push_back(returns[i]);
   }
-  /// Cells from `low` to `high` of a column of cells; they lie together.
-  [[nodiscard]] std::span<const Located> from_to(std::int32_t x, std::int32_t low, std::int32_t high) const {
-    const auto first = std::lower_bound(located_.begin(), located_.end(), CellIndex{x, low},
-                                        [](const Located& a, const CellIndex& c) { return a.cell < c; });
-    const auto last = std::upper_bound(first, located_.end(), CellIndex{x, high},
-                                       [](const CellIndex& c, const Located& a) { return c < a.cell; });
-    return {first, last};
+  [[nodiscard]] std::size_t size() const { return sorted_.size(); }
+  [[nodiscard]] const DrawnReturn& operator[](std::size_t position) const { return sorted_[position]; }
+  /// Before the sorting.
+  [[nodiscard]] std::uint32_t index_of(std::size_t position) const { return index_[position]; }
+  /// The position behind the returns that share the cell of this one.
+  [[nodiscard]] std::size_t cell_end(std::size_t position) const {
+    return position_of(std::upper_bound(cells_.begin(), cells_.end(), cells_[position]));
   }
-  [[nodiscard]] std::span<const Located> all() const { return located_; }
+  /// Those in cells from `low` to `high` of a column of cells, which lie together.
+  [[nodiscard]] std::span<const DrawnReturn> from_to(std::int32_t x, std::int32_t low,
+                                                     std::int32_t high) const {
+    const auto first = std::lower_bound(cells_.begin(), cells_.end(), CellIndex{x, low});
+    const auto last = std::upper_bound(first, cells_.end(), CellIndex{x, high});
+    return std::span(sorted_).subspan(position_of(first), static_cast<std::size_t>(last - first));
+  }
+  [[nodiscard]] CellIndex cell_at(const Point2& p_map) const { return cell_of(p_map, cell_m_); }
 
  private:
-  std::vector<Located> located_;
+  [[nodiscard]] std::size_t position_of(std::vector<CellIndex>::const_iterator at) const {
+    return static_cast<std::size_t>(at - cells_.begin());
+  }
+
+  double cell_m_;
+  std::vector<CellIndex> cells_;  // ascending
+  std::vector<std::uint32_t> index_;
+  std::vector<DrawnReturn> sorted_;
 };
 
 /// Unit normal of the line through points; nothing where they are no clear line.
@@ -53,19 +66,17 @@ std::optional<Point2> normal_of(const Moments2& moments, const WallPatchesTuning
 }
 
 /// Of the face around a return, towards the sensor.
-std::optional<Point2> normal_at(const DrawnReturn& at, std::span<const DrawnReturn> returns,
-                                const ReturnsByCell& cells, const WallPatchesTuning& tuning) {
-  const CellIndex low =
-      cell_of({at.p_map.x_m - tuning.neighbour_m, at.p_map.y_m - tuning.neighbour_m}, tuning.cell_m);
-  const CellIndex high =
-      cell_of({at.p_map.x_m + tuning.neighbour_m, at.p_map.y_m + tuning.neighbour_m}, tuning.cell_m);
+std::optional<Point2> normal_at(const DrawnReturn& at, const ReturnsByCell& returns,
+                                const WallPatchesTuning& tuning) {
+  const double reach_m = tuning.neighbour_m;
+  const CellIndex low = returns.cell_at({at.p_map.x_m - reach_m, at.p_map.y_m - reach_m});
+  const CellIndex high = returns.cell_at({at.p_map.x_m + reach_m, at.p_map.y_m + reach_m});
   Moments2 moments;
   for (std::int32_t x = low.x; x <= high.x; ++x) {
-    for (const Located& near : cells.from_to(x, low.y, high.y)) {
-      const DrawnReturn& other = returns[near.index];
+    for (const DrawnReturn& other : returns.from_to(x, low.y, high.y)) {
       const double dx = other.p_map.x_m - at.p_map.x_m;
       const double dy = other.p_map.y_m - at.p_map.y_m;
-      if (dx * dx + dy * dy > tuning.neighbour_m * tuning.neighbour_m) continue;
+      if (dx * dx + dy * dy > reach_m * reach_m) continue;
       if (dot(other.direction_map, at.direction_map) > 0.0) moments.add({dx, dy});
     }
   }
@@ -133,16 +144,12 @@ void split_cell(std::vector<OnWall> left, const WallPatchesTuning& tuning, WallP
 WallPatches find_wall_patches(std::span<const DrawnReturn> returns, const WallPatchesTuning& tuning) {
   WallPatches result;
   result.patch_of.assign(returns.size(), WallPatches::kNone);
-  const ReturnsByCell cells(returns, tuning.cell_m);
-  const std::span<const Located> all = cells.all();
-  for (std::size_t begin = 0; begin < all.size();) {
+  const ReturnsByCell by_cell(returns, tuning.cell_m);
+  for (std::size_t at = 0; at < by_cell.size();) {
     std::vector<OnWall> in_cell;
-    const CellIndex cell = all[begin].cell;
-    for (; begin < all.size() && all[begin].cell == cell; ++begin) {
-      const DrawnReturn& at = returns[all[begin].index];
-      if (const std::optional<Point2> normal = normal_at(at, returns, cells, tuning))
-        in_cell.push_back({all[begin].index, at.p_map, *normal});
-    }
+    for (const std::size_t end = by_cell.cell_end(at); at < end; ++at)
+      if (const std::optional<Point2> normal = normal_at(by_cell[at], by_cell, tuning))
+        in_cell.push_back({by_cell.index_of(at), by_cell[at].p_map, *normal});
     split_cell(std::move(in_cell), tuning, result);
   }
   return result;
