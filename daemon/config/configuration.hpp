@@ -184,8 +184,10 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
 }
 
 /// Reads a TOML file. Unknown and duplicate keys, wrong types and impossible values are refused with file and
-/// line; kNotFound when there is no such file.
-[[nodiscard]] Result<Configuration> load_configuration(const std::string& path);
+/// line; kNotFound when there is no such file. Without a path: the defaults. `settings`, TOML as well, stands
+/// above the file; what is wrong there is named without a line.
+[[nodiscard]] Result<Configuration> load_configuration(const std::string& path,
+                                                       const std::string& settings = {});
 
 /// docs/configuration.md, whole.
 [[nodiscard]] std::string configuration_reference();

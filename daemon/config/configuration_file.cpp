@@ -66,21 +66,26 @@ std::string tuning_problem(std::string_view part, std::string_view key, const Va
                      shortest_text(range.lowest), shortest_text(range.highest));
 }
 
-/// Reads one file into one configuration and remembers all that is wrong with it.
+/// Reads a file, and settings above it, into one configuration and remembers all that is wrong with them.
 class Loader {
  public:
-  explicit Loader(const std::string& path) : path_(path) {}
+  Status read_file(const std::string& path) {
+    if (std::filesystem::is_directory(path))
+      return Error{ErrorCode::kInvalidInput, path + ": is a directory; name the TOML file in it"};
+    if (!std::filesystem::is_regular_file(path))
+      return Error{ErrorCode::kNotFound, path + ": no such configuration file"};
+    source_ = path;
+    has_lines_ = true;
+    read([&] { return toml::parse_file(path); });
+    return {};
+  }
+  void read_settings(const std::string& toml_text) {
+    source_ = "settings";
+    has_lines_ = false;
+    read([&] { return toml::parse(toml_text); });
+  }
 
-  Result<Configuration> load() {
-    if (std::filesystem::is_directory(path_))
-      return Error{ErrorCode::kInvalidInput, path_ + ": is a directory; name the TOML file in it"};
-    if (!std::filesystem::is_regular_file(path_))
-      return Error{ErrorCode::kNotFound, path_ + ": no such configuration file"};
-    try {
-      read_sections(toml::parse_file(path_));
-    } catch (const toml::parse_error& error) {
-      note(error.source(), error.description());
-    }
+  Result<Configuration> result() {
     if (problems_.empty()) {
       for (const std::string& problem : config_.validate()) note_of_whole(problem);
     }
@@ -89,20 +94,36 @@ class Loader {
   }
 
  private:
-  std::string path_;
+  std::string source_ = "configuration";
+  bool has_lines_ = false;
   Configuration config_;
   std::vector<std::pair<toml::source_index, std::string>> problems_;  // with their lines
-  std::map<std::string, toml::source_region, std::less<>> regions_;   // of "section.key"
+  std::map<std::string, std::pair<toml::source_index, std::string>, std::less<>>
+      places_;  // line and prefix of "section.key"
 
+  template <typename Parse>
+  void read(const Parse& parse) {
+    try {
+      read_sections(parse());
+    } catch (const toml::parse_error& error) {
+      note(error.source(), error.description());
+    }
+  }
+
+  [[nodiscard]] std::pair<toml::source_index, std::string> place(const toml::source_region& where) const {
+    if (!has_lines_) return {0, source_ + ": "};
+    return {where.begin.line, fmt::format("{}:{}: ", source_, where.begin.line)};
+  }
   void note(const toml::source_region& where, std::string_view what) {
-    problems_.emplace_back(where.begin.line, fmt::format("{}:{}: {}", path_, where.begin.line, what));
+    auto [line, prefix] = place(where);
+    problems_.emplace_back(line, prefix.append(what));
   }
 
   /// Begins with "section.key"; with its line where the file has that key.
   void note_of_whole(std::string_view problem) {
-    const auto region = regions_.find(problem.substr(0, problem.find(' ')));
-    if (region != regions_.end()) return note(region->second, problem);
-    problems_.emplace_back(0, fmt::format("{}: {}", path_, problem));
+    const auto found = places_.find(problem.substr(0, problem.find(' ')));
+    auto [line, prefix] = found != places_.end() ? found->second : std::pair(0U, source_ + ": ");
+    problems_.emplace_back(line, prefix.append(problem));
   }
 
   void read_sections(const toml::table& file) {
@@ -171,7 +192,7 @@ class Loader {
     if (setting == std::end(Section::kSettings))
       return note(key.source(),
                   fmt::format("unknown key \"{}\"; docs/configuration.md lists them all", name));
-    regions_.emplace(name, key.source());
+    places_.insert_or_assign(name, place(key.source()));
     const auto read = [&](auto member) -> std::string {
       if (assign(node, section.*member)) return setting_problem(section, *setting);
       return fmt::format("{} must be {}", name, type_of(section.*member));
@@ -191,6 +212,12 @@ class Loader {
 
 }  // namespace
 
-Result<Configuration> load_configuration(const std::string& path) { return Loader(path).load(); }
+Result<Configuration> load_configuration(const std::string& path, const std::string& settings) {
+  Loader loader;
+  if (!path.empty())
+    if (Status read = loader.read_file(path); !read) return read.error();
+  if (!settings.empty()) loader.read_settings(settings);
+  return loader.result();
+}
 
 }  // namespace swiftlet

@@ -21,6 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 /// A file that lives as long as the test.
 class TemporaryFile {
@@ -261,6 +262,29 @@ TEST(LoadConfiguration, SaysWhenThereIsNoSuchFile) {
   ASSERT_FALSE(config);
   EXPECT_EQ(config.error().code, ErrorCode::kNotFound);
   EXPECT_THAT(config.error().message, HasSubstr("/nowhere/to/be/found.toml"));
+}
+
+TEST(LoadConfiguration, TakesSettingsAboveThoseOfTheFile) {
+  const TemporaryFile file("[map]\nresolution_m = 0.1\nclear_range_m = 2\n");
+  const Result<Configuration> both = load_configuration(file.path(), "map.resolution_m = 0.2");
+  ASSERT_TRUE(both) << both.error().message;
+  EXPECT_EQ(both->map.resolution_m, 0.2);
+  EXPECT_EQ(both->map.clear_range_m, 2.0);
+  const Result<Configuration> alone = load_configuration("", "map.resolution_m = 0.2");
+  ASSERT_TRUE(alone) << alone.error().message;
+  EXPECT_EQ(alone->map.resolution_m, 0.2);
+  EXPECT_EQ(alone->map.clear_range_m, MapConfig{}.clear_range_m);
+}
+
+TEST(LoadConfiguration, NamesAFaultOfTheFileOrOfTheSettingsAboveIt) {
+  const TemporaryFile file("[map]\nresolution_m = 99\n");
+  const Result<Configuration> settings = load_configuration("", "map.resolution_m = 99");
+  ASSERT_FALSE(settings);
+  EXPECT_THAT(settings.error().message, StartsWith("settings: map.resolution_m"));
+  const Result<Configuration> both = load_configuration(file.path(), "map.resolution = 1");
+  ASSERT_FALSE(both);
+  EXPECT_THAT(both.error().message, AllOf(HasSubstr(".toml:2: map.resolution_m"),
+                                          HasSubstr("settings: unknown key \"map.resolution\"")));
 }
 
 TEST(LoadConfiguration, RefusesUnknownKeysAndSectionsWithFileAndLine) {
