@@ -9,19 +9,21 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <stop_token>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/g2o_graph.hpp"
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/view/view_service.hpp"
-#include "daemon/workers/pipeline.hpp"
 #include "firmware_link/sample_table/sample_table.hpp"
 #include "swiftlet/status_t.hpp"
 #include "tools/convert/mcap_run.hpp"
 #include "tools/map_command.hpp"
+#include "tools/mapped_run.hpp"
 #include "tools/prepared_run.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/view/mapped_recording.hpp"
@@ -71,24 +73,24 @@ Status convert_to_csv(const ConvertCommand& command) {
   return damage_of(source.report());
 }
 
-Status convert_to_g2o(const ConvertCommand& command) {
-  const MapCommand mapping = mapping_of(command);
-  const Result<PreparedRun> run = prepare_run(mapping);
-  if (!run) return run.error();
-  Pipeline pipeline(run->config, *run->source);
-  const InputReport report = run_to_end(pipeline, *run->source, {});
-  const Backend& backend = pipeline.backend();
-  if (Status usable = check_usable(mapping, report, backend); !usable) return usable;
-  if (Status written = write_file(command.output, g2o_text(backend.pose_graph())); !written) return written;
-  const PoseGraph& graph = backend.pose_graph();
-  std::printf("%zu keyframes, %zu closures: %s\n", graph.T_map_keyframe.size(), backend.closures().size(),
-              command.output.c_str());
-  return damage_of(report);
-}
-
 fs::path folder_of(const std::string& output) {
   std::error_code failure;
   return fs::absolute(output, failure).parent_path();
+}
+
+Status convert_to_g2o(const ConvertCommand& command) {
+  const MapCommand mapping = mapping_of(command);
+  Result<PreparedRun> prepared = prepare_run(mapping);
+  if (!prepared) return prepared.error();
+  const Result<std::unique_ptr<MappedRun>> run =
+      map_with_progress_bar(mapping, std::move(prepared).value(), folder_of(command.output));
+  if (!run) return run.error();
+  const Backend& backend = (*run)->backend();
+  const PoseGraph& graph = backend.pose_graph();
+  if (Status written = write_file(command.output, g2o_text(graph)); !written) return written;
+  std::printf("%zu keyframes, %zu closures: %s\n", graph.T_map_keyframe.size(), backend.closures().size(),
+              command.output.c_str());
+  return damage_of((*run)->report());
 }
 
 void print_messages(const ConvertCommand& command, std::uint64_t messages) {

@@ -4,18 +4,13 @@
 
 #include <chrono>
 #include <cstdio>
-#include <optional>
-#include <span>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "daemon/outputs/output_directory.hpp"
-#include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
-#include "daemon/workers/pipeline.hpp"
-#include "daemon/workers/pruned_scans.hpp"
-#include "firmware_link/input/input_uri.hpp"
-#include "tools/calibration/input_calibration.hpp"
-#include "tools/evaluation/live_observer.hpp"
+#include "tools/mapped_run.hpp"
 #include "tools/prepared_run.hpp"
 
 namespace swiftlet {
@@ -47,27 +42,9 @@ void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs,
   std::printf("picture: %s\n", (output.path() / "map.png").c_str());
 }
 
-bool is_simulation(const std::string& input) {
-  const Result<InputUri> uri = parse_input_uri(input);
-  return uri && uri->is(InputNature::kSimulation);
-}
-
 Result<OutputDirectory> output_of(const MapCommand& command) {
   const HostTime now(std::chrono::system_clock::now().time_since_epoch());
   return OutputDirectory::of_run(command.output_directory, command.input, now);
-}
-
-/// What was published on the way, against the truth; nothing without an observer.
-struct LiveFigures {
-  std::optional<KnownPlaceError> known_places;
-  std::optional<RunConsistency> consistency;
-};
-LiveFigures figures_of(const std::optional<LiveObserver>& observer, const std::vector<StampedPose>& truth) {
-  if (!observer) return {};
-  const StampedPath T_world_body(truth);
-  const KnownPlaceError error = observer->error(T_world_body);
-  const std::span<const DoubtedPose> poses = observer->doubted_poses();
-  return {error, RunConsistency{consistency(poses, T_world_body), count_alarms(poses, error.errors)}};
 }
 
 }  // namespace
@@ -75,43 +52,16 @@ LiveFigures figures_of(const std::optional<LiveObserver>& observer, const std::v
 Status run_map_command(const MapCommand& command) {
   Result<PreparedRun> prepared = prepare_run(command);
   if (!prepared) return prepared.error();
-  SampleSource& source = *prepared->source;
-  const Configuration& config = prepared->config;
   const Result<OutputDirectory> output = output_of(command);
   if (!output) return output.error();
-
-  Result<PrunedScans> pruned = PrunedScans::open(output->path());
-  if (!pruned) return pruned.error();
-  Pipeline pipeline(config, source);
-  pipeline.keep_pruned(*pruned);
-  std::optional<LiveObserver> observer;
-  if (is_simulation(command.input)) observer.emplace(pipeline.backend());
-  InputReport report = run_to_end(pipeline, source, [&observer] {
-    if (observer) observer->look();
-  });
-  if (prepared->calibration) report.notes.push_back(calibration_note(*prepared->calibration));
-  if (Status usable = check_usable(command, report, pipeline.backend()); !usable) return usable;
-  const double peak_of_run_mb = peak_memory_mb();  // before the outputs take their room
-  std::vector<StampedPose> truth = source.ground_truth();
-  const LiveFigures live = figures_of(observer, truth);
-  const RunView run{.backend = pipeline.backend(),
-                    .map = pipeline.map(),
-                    .input = report,
-                    .frontend = pipeline.frontend().counters(),
-                    .timing = pipeline.timing(),
-                    .truth = std::move(truth),
-                    .input_uri = command.input,
-                    .sensor = config.sensor.applied_to(source.sensor()),
-                    .calibration = prepared->calibration,
-                    .mended = source.mended(),
-                    .pruned = &*pruned,
-                    .known_places = live.known_places,
-                    .consistency = live.consistency,
-                    .peak_memory_mb = peak_of_run_mb};
-  const Result<WrittenOutputs> written = write_run_outputs(output->path(), run);
+  const Result<std::unique_ptr<MappedRun>> run =
+      map_with_progress_bar(command, std::move(prepared).value(), output->path());
+  if (!run) return run.error();
+  const RunView view = (*run)->view();
+  const Result<WrittenOutputs> written = write_run_outputs(output->path(), view);
   if (!written) return written.error();
-  print_summary(*output, *written, run);
-  return damage_of(report);
+  print_summary(*output, *written, view);
+  return damage_of((*run)->report());
 }
 
 }  // namespace swiftlet

@@ -14,6 +14,7 @@ struct MapCommand {
   std::string input;                            ///< URI or plain path, see open_sample_source
   std::optional<std::string> output_directory;  ///< unset: a new folder in kFlightsDirectory
   std::string config_file;                      ///< empty: the defaults
+  std::string settings;                         ///< TOML, above those of the file
   std::optional<int> beams;                     ///< laser logs: how many beams to keep
   bool calibrate = true;       ///< estimate age of the ranges and scales of the odometry first
   bool odometry_only = false;  ///< baseline: dead reckoning, nothing corrected

@@ -2,15 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/prepared_run.hpp"
 
-#include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 #include "firmware_link/sample/sign_mending_source.hpp"
 #include "tools/calibration/input_calibration.hpp"
-#include "tools/progress_bar.hpp"
 
 namespace swiftlet {
 
@@ -25,22 +22,19 @@ Status check_has_an_end(const std::string& input) {
 }
 
 Result<Configuration> configuration_for(const MapCommand& command) {
-  Configuration config;
-  if (!command.config_file.empty()) {
-    Result<Configuration> loaded = load_configuration(command.config_file);
-    if (!loaded) return loaded;
-    config = std::move(loaded).value();
-  }
-  if (command.odometry_only) config.frontend.use_landmarks = false;
-  if (command.odometry_only || command.frontend_only) config.backend.close_loops = false;
+  Result<Configuration> config = load_configuration(command.config_file, command.settings);
+  if (!config) return config;
+  if (command.odometry_only) config->frontend.use_landmarks = false;
+  if (command.odometry_only || command.frontend_only) config->backend.close_loops = false;
   return config;
 }
 
 /// Estimates the systematic errors of the input from all of it first, and sets those that the configuration
 /// leaves out.
-std::optional<InputCalibration> calibrate_first(SampleSource& source, Configuration& config) {
+std::optional<InputCalibration> calibrate_first(SampleSource& source, Configuration& config,
+                                                const std::stop_token& stop) {
   const Result<InputCalibration> calibration =
-      calibrate_by_itself(source, config.sensor.applied_to(source.sensor()));
+      calibrate_by_itself(source, config.sensor.applied_to(source.sensor()), stop);
   if (!calibration) return std::nullopt;
   config.sensor.take_calibration(calibration->found);
   return *calibration;
@@ -59,7 +53,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
 }
 
-Result<PreparedRun> prepare_run(const MapCommand& command) {
+Result<PreparedRun> prepare_run(const MapCommand& command, const std::stop_token& stop) {
   if (Status finite = check_has_an_end(command.input); !finite) return finite.error();
   Result<Configuration> config = configuration_for(command);
   if (!config) return config.error();
@@ -67,7 +61,8 @@ Result<PreparedRun> prepare_run(const MapCommand& command) {
   if (!opened) return opened.error();
   PreparedRun run{std::move(config).value(), std::move(opened).value(), {}};
   if (!command.calibrate || command.odometry_only) return run;
-  run.calibration = calibrate_first(*run.source, run.config);
+  run.calibration = calibrate_first(*run.source, run.config, stop);
+  if (stop.stop_requested()) return stopped_error(command.input);
   opened = open_input(command, run.config);
   if (!opened) return opened.error();
   run.source = std::move(opened).value();
@@ -81,29 +76,15 @@ Status check_usable(const MapCommand& command, const InputReport& report, const 
   return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
 }
 
-InputReport run_to_end(Pipeline& pipeline, const SampleSource& source,
-                       const std::function<void()>& after_sample) {
-  ProgressBar bar(stderr, ProgressBar::Clock::now());
-  Result<bool> more = pipeline.step();
-  while (more && *more) {
-    if (after_sample) after_sample();
-    bar.update(source.progress(), ProgressBar::Clock::now());
-    more = pipeline.step();
-  }
-  InputReport report = source.report();
-  if (!more) {
-    const std::string& reason = more.error().message;
-    if (std::find(report.problems.begin(), report.problems.end(), reason) == report.problems.end())
-      report.problems.push_back(reason);
-  }
-  return report;
-}
-
 Status damage_of(const InputReport& report) {
   if (report.problems.empty()) return {};
   std::string message = report.problems.front();
   for (std::size_t i = 1; i < report.problems.size(); ++i) message += "; " + report.problems[i];
   return Error{ErrorCode::kDamaged, message};
+}
+
+Error stopped_error(const std::string& input) {
+  return {ErrorCode::kTimeout, input + ": mapping was stopped before its end"};
 }
 
 }  // namespace swiftlet

@@ -21,8 +21,9 @@ struct DoubtedPose {
   HostTime stamp{};
   double path_m = 0.0;  ///< travelled since the start of the run
   Pose2 T_map_body;
-  Covariance3 from_start;   ///< of (x, y, yaw) relative to the start, along the axes of frame map
-  bool is_tracked = false;  ///< the program held the pose for right
+  Covariance3 from_start;           ///< of (x, y, yaw) relative to the start, along the axes of frame map
+  bool is_tracked = false;          ///< the program held the pose for right
+  Covariance3 from_surroundings{};  ///< as from_start, relative to the part of the map around the vehicle
 };
 
 /// The error of one pose against its covariance.

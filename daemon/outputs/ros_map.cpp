@@ -11,29 +11,6 @@ namespace swiftlet {
 
 namespace {
 
-/// The rectangle around all tiles, both corners included.
-struct TileRange {
-  TileIndex low;
-  TileIndex high;
-
-  [[nodiscard]] std::size_t width_cells() const {
-    return static_cast<std::size_t>(high.x - low.x + 1) * kTileCells;
-  }
-  [[nodiscard]] std::size_t height_cells() const {
-    return static_cast<std::size_t>(high.y - low.y + 1) * kTileCells;
-  }
-};
-
-TileRange range_of(std::span<const TileIndex> tiles) {
-  if (tiles.empty()) return {};
-  TileRange range{tiles.front(), tiles.front()};
-  for (const TileIndex index : tiles) {
-    range.low = {std::min(range.low.x, index.x), std::min(range.low.y, index.y)};
-    range.high = {std::max(range.high.x, index.x), std::max(range.high.y, index.y)};
-  }
-  return range;
-}
-
 /// Into the pixels of its row of tiles, which come from the top as well.
 void copy_tile(const MapTile& tile, const TileRange& range, std::string& pixels) {
   const std::size_t left = static_cast<std::size_t>(tile.index.x - range.low.x) * kTileCells;
@@ -53,6 +30,16 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+TileRange range_of(std::span<const TileIndex> tiles) {
+  if (tiles.empty()) return {};
+  TileRange range{tiles.front(), tiles.front()};
+  for (const TileIndex index : tiles) {
+    range.low = {std::min(range.low.x, index.x), std::min(range.low.y, index.y)};
+    range.high = {std::max(range.high.x, index.x), std::max(range.high.y, index.y)};
+  }
+  return range;
+}
 
 void write_pgm(std::span<const TileIndex> tiles, const TileContent& content, const FileSink& write) {
   const TileRange range = range_of(tiles);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -27,6 +28,21 @@ inline constexpr std::uint8_t kPgmUnknown = 205;
   if (occupancy_percent >= 65) return kPgmOccupied;
   return occupancy_percent < 45 ? kPgmFree : kPgmUnknown;
 }
+
+/// The rectangle around tiles, both corners included.
+struct TileRange {
+  TileIndex low;
+  TileIndex high;
+
+  [[nodiscard]] std::size_t width_cells() const {
+    return static_cast<std::size_t>(high.x - low.x + 1) * kTileCells;
+  }
+  [[nodiscard]] std::size_t height_cells() const {
+    return static_cast<std::size_t>(high.y - low.y + 1) * kTileCells;
+  }
+};
+/// Around all of them; where there is none, the one at the origin.
+[[nodiscard]] TileRange range_of(std::span<const TileIndex> tiles);
 
 /// The content of one of the tiles.
 using TileContent = std::function<MapTile(TileIndex)>;

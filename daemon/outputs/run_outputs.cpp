@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -46,13 +45,6 @@ Status write_pictures(const std::filesystem::path& directory, const RunView& run
   const RgbImage picture = draw_map(make_map_scene(run.backend, run.map));
   if (Status written = write_picture(directory / "map.png", picture); !written) return written;
   return write_picture(directory / "thumbnail.png", thumbnail_of(picture, kThumbnailPx));
-}
-
-Status for_each_scan(const RunView& run, const std::function<void(const TrajectoryPoint&)>& visit) {
-  return for_each_scan(run.backend, run.pruned, [&](TrajectoryPoint at) {
-    at.T_odom_body = as_reported(run.mended, at.stamp, at.T_odom_body);
-    visit(at);
-  });
 }
 
 /// A line at a time: hours of a patrol need not fit into memory.
@@ -98,6 +90,13 @@ std::vector<std::string> files_of_earlier_run(const std::filesystem::path& direc
 }
 
 }  // namespace
+
+Status for_each_scan(const RunView& run, const std::function<void(const TrajectoryPoint&)>& visit) {
+  return for_each_scan(run.backend, run.pruned, [&](TrajectoryPoint at) {
+    at.T_odom_body = as_reported(run.mended, at.stamp, at.T_odom_body);
+    visit(at);
+  });
+}
 
 std::optional<RunError> run_error(const RunView& run) {
   std::vector<Point2> odometry;

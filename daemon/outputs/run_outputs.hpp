@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,11 @@ struct RunView {
   std::optional<RunConsistency> consistency{};    ///< likewise
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
+
+/// Visits every scan in order as the trajectory files have it: dead reckoning as reported. Errors: as
+/// PrunedScans::for_each_scan().
+[[nodiscard]] Status for_each_scan(const RunView& run,
+                                   const std::function<void(const TrajectoryPoint&)>& visit);
 
 /// Error of the path before correction, as published at the time, and after correction, over the scans whose
 /// stamp the truth knows.

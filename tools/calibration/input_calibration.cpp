@@ -10,9 +10,11 @@
 
 namespace swiftlet {
 
-Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorModel& expected) {
+Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorModel& expected,
+                                             const std::stop_token& stop) {
   std::vector<RangeSample> samples;
   for (;;) {
+    if (stop.stop_requested()) return Error{ErrorCode::kTimeout, "calibration was stopped before its end"};
     const Result<ReceivedSample> received = source.next();
     if (received) samples.push_back(received->sample);
     if (!received && received.error().code != ErrorCode::kTimeout)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 #include "core/base/result.hpp"
@@ -11,9 +12,10 @@
 namespace swiftlet {
 
 /// Reads a source to its end and estimates what its samples show of its sensors. `expected`: its sensor
-/// model, with what a configuration sets. Errors: kInvalidInput: fewer than two samples; kSolver. Allocates.
-/// Repeatable.
-[[nodiscard]] Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorModel& expected);
+/// model, with what a configuration sets. Errors: kInvalidInput: fewer than two samples; kSolver; kTimeout:
+/// `stop` was requested, which is looked at before each sample. Allocates. Repeatable.
+[[nodiscard]] Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorModel& expected,
+                                                           const std::stop_token& stop = {});
 
 /// One line.
 [[nodiscard]] std::string calibration_note(const InputCalibration& calibration);

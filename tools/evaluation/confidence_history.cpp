@@ -12,9 +12,13 @@ void ConfidenceHistory::look() {
   const bool is_keyframe = backend_->keyframes().all().values().back() == scans.last_id();
   const bool is_tracked = backend_->tracking().tracking == Tracking::kTracking;
   if (is_keyframe) newest_ = backend_->confidence();
-  poses_.push_back({scan.stamp, scan.path_m, scan.T_map_live,
-                    carried_on(newest_.from_start, newest_, newest_.T_local_keyframe * scan.T_keyframe_body),
-                    is_tracked});
+  const Pose2 T_local_body = newest_.T_local_keyframe * scan.T_keyframe_body;
+  poses_.push_back({.stamp = scan.stamp,
+                    .path_m = scan.path_m,
+                    .T_map_body = scan.T_map_live,
+                    .from_start = carried_on(newest_.from_start, newest_, T_local_body),
+                    .is_tracked = is_tracked,
+                    .from_surroundings = carried_on(newest_.from_surroundings, newest_, T_local_body)});
 }
 
 }  // namespace swiftlet

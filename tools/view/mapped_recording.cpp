@@ -13,6 +13,7 @@
 #include "daemon/publish/lcm_publisher.hpp"
 #include "daemon/publish/publisher_worker.hpp"
 #include "daemon/view/message_reader.hpp"
+#include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pipeline_queues.hpp"
 #include "daemon/workers/radio_worker.hpp"
 
