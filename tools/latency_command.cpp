@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/png_file.hpp"
+#include "daemon/publish/decoded_message.hpp"
 #include "daemon/publish/lcm_transport.hpp"
 #include "daemon/system/signal_watcher.hpp"
 #include "swiftlet/status_t.hpp"
@@ -56,11 +58,11 @@ Status listen(const LatencyCommand& command) {
   if (!lcm) return lcm.error();
   bool is_over = false;
   (*lcm)->listen(command.channel_prefix + "STATUS", [&is_over](std::span<const std::uint8_t> bytes) {
-    status_t status;
-    if (status.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) return;  // of another version
-    std::printf("%s\n", latency_table(report_of(status)).c_str());
+    const std::optional<status_t> status = decoded_message<status_t>(bytes);
+    if (!status) return;
+    std::printf("%s\n", latency_table(report_of(*status)).c_str());
     std::fflush(stdout);
-    is_over = status.state == status_t::STATE_FINISHED;
+    is_over = status->state == status_t::STATE_FINISHED;
   });
   while (!is_over && !signals.token().stop_requested()) (*lcm)->receive(std::chrono::milliseconds(100));
   return {};

@@ -64,6 +64,7 @@ struct LcmTransport::State {
   std::optional<LcmServer> server;
   std::list<Channel> channels;  // LCM keeps their addresses
   std::optional<lcm::LCM> lcm;
+  bool has_ended = false;
 };
 
 Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url) {
@@ -110,9 +111,13 @@ bool LcmTransport::receive(Duration timeout) {
     return false;
   }
   const auto timeout_ms = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
+  errno = 0;
   const int handled = lcm->handleTimeout(static_cast<int>(timeout_ms));
   if (handled < 0 && state_->server) state_->disconnect();
+  if (handled < 0 && errno != EINTR && state_->url.starts_with("file://")) state_->has_ended = true;
   return handled > 0;
 }
+
+bool LcmTransport::has_ended() const { return state_->has_ended; }
 
 }  // namespace swiftlet

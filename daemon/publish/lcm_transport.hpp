@@ -39,6 +39,8 @@ class LcmTransport {
   void listen(const std::string& channel, Listener listener);
   /// Waits for messages for so long at most. False when none came.
   bool receive(Duration timeout);
+  /// A log that is read (file://) was received to its end: no further message comes.
+  [[nodiscard]] bool has_ended() const;
 
  private:
   struct State;

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
+#include <optional>
 #include <utility>
 
 #include "core/sensing/range_sample.hpp"
+#include "daemon/publish/decoded_message.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
@@ -99,34 +100,6 @@ RunStatus run_status(const status_t& message) {
           .version_sum = message.version_sum};
 }
 
-/// Where a message says how many elements its lists have; 0: nowhere.
-template <typename Message>
-constexpr std::size_t kCountAt = 0;
-template <>
-constexpr std::size_t kCountAt<ranges_t> = 40;
-template <>
-constexpr std::size_t kCountAt<landmarks_t> = 32;
-
-/// LCM's own code makes room for as many elements as a message claims to hold, before it looks for them.
-bool claims_what_it_holds(std::span<const std::uint8_t> bytes, std::size_t count_at) {
-  constexpr std::size_t kCountBytes = 4;
-  if (bytes.size() < count_at + kCountBytes) return false;
-  std::uint32_t count = 0;
-  for (const std::uint8_t byte : bytes.subspan(count_at, kCountBytes)) count = count << 8U | byte;
-  return count <= bytes.size();
-}
-
-template <typename Message>
-bool is_decoded(std::span<const std::uint8_t> bytes, Message& message) {
-  constexpr std::size_t kAt = kCountAt<Message>;
-  if (kAt > 0 && !claims_what_it_holds(bytes, kAt)) return false;
-  try {
-    return message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 std::span<const std::string_view> viewed_channels() { return kChannels; }
@@ -197,12 +170,12 @@ void MessageReader::add(const status_t& message) {
 
 template <typename Message>
 void MessageReader::decode(std::span<const std::uint8_t> bytes, MonotonicTime now) {
-  Message message{};
-  if (!is_decoded(bytes, message) || !is_sound(message)) return;
+  const std::optional<Message> message = decoded_message<Message>(bytes);
+  if (!message || !is_sound(*message)) return;
   const double silence_s = std::chrono::duration<double>(now - last_accepted_).count();
-  if (!history_.enter_run(message.map_id, silence_s)) return;
+  if (!history_.enter_run(message->map_id, silence_s)) return;
   last_accepted_ = now;
-  add(message);
+  add(*message);
 }
 
 void MessageReader::take(std::string_view channel, std::span<const std::uint8_t> message, MonotonicTime now) {

@@ -7,6 +7,8 @@
 
 #include <cerrno>
 #include <chrono>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace swiftlet {
@@ -32,6 +34,22 @@ TEST(LcmTransport, ComesBackWhenNothingIsToBeHeard) {
   const auto lcm = LcmTransport::open("memq://");
   ASSERT_TRUE(lcm.ok());
   EXPECT_FALSE((*lcm)->receive(milliseconds(10)));
+  EXPECT_FALSE((*lcm)->has_ended());
+}
+
+TEST(LcmTransport, KnowsTheEndOfALogThatItReads) {
+  const std::string log = testing::TempDir() + "swiftlet_lcm_transport_test.lcm";
+  ASSERT_TRUE(
+      (*LcmTransport::open("file://" + log + "?mode=w"))->publish("HERE", std::vector<std::uint8_t>{7}));
+  const auto lcm = LcmTransport::open("file://" + log + "?mode=r&speed=0");
+  ASSERT_TRUE(lcm.ok());
+  std::vector<std::uint8_t> received;
+  (*lcm)->listen("HERE", [&received](auto bytes) { received.assign(bytes.begin(), bytes.end()); });
+  for (int i = 0; i < 100 && received.empty(); ++i) (*lcm)->receive(milliseconds(100));
+  EXPECT_THAT(received, ElementsAre(7));
+  for (int i = 0; i < 100 && !(*lcm)->has_ended(); ++i) EXPECT_FALSE((*lcm)->receive(milliseconds(100)));
+  EXPECT_TRUE((*lcm)->has_ended());
+  std::filesystem::remove(log);
 }
 
 TEST(LcmTransport, SaysNothingOfAnAbsentServerHoweverMuchIsPublished) {
