@@ -62,7 +62,8 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "daemon/outputs": CORE + FIRMWARE_LINK + STAGES,
     "daemon": CORE + FIRMWARE_LINK + DAEMON,
     "tools": CORE + FIRMWARE_LINK + DAEMON + ["proto"],
-    "tests": CORE + FIRMWARE_LINK + DAEMON + ["proto", "tools"],
+    "tools/python": CORE + FIRMWARE_LINK + DAEMON + ["proto", "tools"],
+    "tests": CORE + FIRMWARE_LINK + DAEMON + ["proto", "tools", "tools/python"],
 }
 ONE_FILE_ONLY = {
     "libusb": re.compile(r"^libusb(-1\.0/libusb)?\.h$"),
@@ -70,6 +71,7 @@ ONE_FILE_ONLY = {
     "LCM": re.compile(r"^lcm/lcm"),
     "libsystemd": re.compile(r"^systemd/"),
     "Boost.Beast": re.compile(r"^boost/(beast|asio)"),
+    "pybind11": re.compile(r"^pybind11/"),
 }
 NOT_IN_CORE = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "fstream", "iostream", "filesystem"}
 ASKS_FOR_THE_TIME = re.compile(r"\bnow\s*\(\s*\)")

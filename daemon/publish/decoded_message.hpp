@@ -33,7 +33,7 @@ inline constexpr std::size_t kCountAt<landmarks_t> = 32;
 /// A message of the LCM type; nullopt where the bytes are not one, or one of another version.
 template <typename Message>
 [[nodiscard]] std::optional<Message> decoded_message(std::span<const std::uint8_t> bytes) {
-  if (kCountAt<Message> > 0 && !can_hold_its_count(bytes, kCountAt<Message>)) return std::nullopt;
+  if (kCountAt < Message >> 0 && !can_hold_its_count(bytes, kCountAt<Message>)) return std::nullopt;
   std::optional<Message> message(std::in_place);
   try {
     if (message->decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) message.reset();

@@ -30,6 +30,16 @@ foreach(file
     message(SEND_ERROR "not installed: ${file}")
   endif()
 endforeach()
+file(GLOB modules ${BUILD}/python/swiftlet/_native.*.so)
+if(modules)  # the build found pybind11
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${PREFIX}/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1
+    /usr/bin/python3 -c "import swiftlet; swiftlet.listen('memq://').receive(0)" COMMAND_ERROR_IS_FATAL ANY)
+  foreach(file py.typed _native.pyi)
+    if(NOT EXISTS ${PREFIX}/lib/python3/dist-packages/swiftlet/${file})
+      message(SEND_ERROR "not installed: ${file}")
+    endif()
+  endforeach()
+endif()
 foreach(program swiftlet swiftletd)
   execute_process(COMMAND ${PREFIX}/bin/${program} --help OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The swiftlet authors
+from typing import Any, Callable, Dict, List, Optional, Tuple
+
+class Error(Exception): ...
+
+class Listener:
+    def __init__(self, url: str, channel_prefix: str, channels: List[str]) -> None: ...
+    def receive(self, timeout_s: Optional[float]) -> Optional[Tuple[str, Dict[str, Any]]]: ...
+    def has_ended(self) -> bool: ...
+
+def default_channel_prefix() -> str: ...
+def default_lcm_url() -> str: ...
+def map_input(
+    *,
+    input: str,
+    output: Optional[str],
+    config_file: str,
+    settings: str,
+    beams: Optional[int],
+    calibrate: bool,
+    odometry_only: bool,
+    frontend_only: bool,
+    on_progress: Optional[Callable[[float], object]],
+) -> Dict[str, Any]: ...
+def version() -> str: ...
