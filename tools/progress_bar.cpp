@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kBarWidth = 40;
 constexpr auto kRedrawPeriod = std::chrono::milliseconds(100);
-constexpr const char* kBackToEmptyLine = "\r\x1b[K";
 
 }  // namespace
 

@@ -9,6 +9,9 @@
 
 namespace swiftlet {
 
+/// Empties the line of a terminal.
+inline constexpr const char* kBackToEmptyLine = "\r\x1b[K";
+
 /// "[#####.....] 52 %, 0:07 left" with a bar of `width` characters; the time left is a guess from the pace so
 /// far and left out before 1 %.
 [[nodiscard]] std::string progress_text(double fraction, std::chrono::duration<double> elapsed, int width);

@@ -25,13 +25,13 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 #include "firmware_link/session/vehicle_event.hpp"
+#include "tools/progress_bar.hpp"
 
 namespace swiftlet {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-constexpr const char* kBackToEmptyLine = "\r\x1b[K";
 constexpr std::chrono::milliseconds kLook{100};
 constexpr int kLooksPerLine = 10;
 constexpr std::chrono::seconds kChangesEvery{1};

@@ -6,13 +6,9 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace swiftlet {
-namespace {
-
-constexpr double squared(double x) { return x * x; }
-
-}  // namespace
 
 double BuildingAxis::gate_rad(double variance_rad2) const {
   return std::min(tuning_.max_gate_rad,

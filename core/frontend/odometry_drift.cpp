@@ -2,12 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/frontend/odometry_drift.hpp"
 
+#include "core/geometry/squared.hpp"
+
 namespace swiftlet {
-namespace {
-
-constexpr double squared(double x) { return x * x; }
-
-}  // namespace
 
 OdometryDrift::OdometryDrift(const OdometryNoise& noise, const OdometryDriftTuning& tuning)
     : tuning_(tuning),

@@ -48,12 +48,12 @@ bool assign(const toml::node& node, std::size_t& value) {
   return true;
 }
 
-std::string_view type_of(const bool&) { return "true or false"; }
-std::string_view type_of(const int&) { return "a whole number"; }
-std::string_view type_of(const std::size_t&) { return "a whole number, not negative"; }
-std::string_view type_of(const double&) { return "a number"; }
-std::string_view type_of(const std::optional<double>&) { return "a number"; }
-std::string_view type_of(const std::string&) { return "a text in quotes"; }
+std::string_view expected_value(const bool&) { return "true or false"; }
+std::string_view expected_value(const int&) { return "a whole number"; }
+std::string_view expected_value(const std::size_t&) { return "a whole number, not negative"; }
+std::string_view expected_value(const double&) { return "a number"; }
+std::string_view expected_value(const std::optional<double>&) { return "a number"; }
+std::string_view expected_value(const std::string&) { return "a text in quotes"; }
 
 /// Empty, or what is wrong.
 template <typename Value>
@@ -179,7 +179,7 @@ class Loader {
     const auto read = [&](auto member) -> std::string {
       if (assign(node, tuning.*member))
         return tuning_problem(part, key.str(), tuning.*member, Tuning{}.*member);
-      return fmt::format("{} must be {}", name, type_of(tuning.*member));
+      return fmt::format("{} must be {}", name, expected_value(tuning.*member));
     };
     if (const std::string problem = std::visit(read, value->member); !problem.empty())
       note(key.source(), problem);
@@ -195,7 +195,7 @@ class Loader {
     places_.insert_or_assign(name, place(key.source()));
     const auto read = [&](auto member) -> std::string {
       if (assign(node, section.*member)) return setting_problem(section, *setting);
-      return fmt::format("{} must be {}", name, type_of(section.*member));
+      return fmt::format("{} must be {}", name, expected_value(section.*member));
     };
     if (const std::string problem = std::visit(read, setting->member); !problem.empty())
       note(key.source(), problem);

@@ -22,11 +22,11 @@ This page is written by `swiftletd --print-configuration-reference`; a test keep
 constexpr const char* kTableHead =
     "\n## [{}]\n\n{}\n\n| key | type | default | unit | range | meaning |\n|---|---|---|---|---|---|\n";
 
-std::string_view type_of(const bool&) { return "bool"; }
-std::string_view type_of(const int&) { return "int"; }
-std::string_view type_of(const double&) { return "real"; }
-std::string_view type_of(const std::optional<double>&) { return "real"; }
-std::string_view type_of(const std::string&) { return "text"; }
+std::string_view type_name(const bool&) { return "bool"; }
+std::string_view type_name(const int&) { return "int"; }
+std::string_view type_name(const double&) { return "real"; }
+std::string_view type_name(const std::optional<double>&) { return "real"; }
+std::string_view type_name(const std::string&) { return "text"; }
 
 std::string default_text(const bool& value) { return value ? "true" : "false"; }
 std::string default_text(const int& value) { return fmt::format("{}", value); }
@@ -55,7 +55,7 @@ std::string row(const Section& defaults, const Setting<Section>& setting) {
   return std::visit(
       [&](auto member) {
         const auto& value = defaults.*member;
-        return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", setting.key, type_of(value),
+        return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", setting.key, type_name(value),
                            default_text(value), setting.unit,
                            range_text(value, setting.lowest, setting.highest), setting.text);
       },

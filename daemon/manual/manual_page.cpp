@@ -44,7 +44,7 @@ std::string paragraph(const std::string& text) {
 
 std::string bold(std::string_view text) { return "\\fB" + escaped(text) + "\\fR"; }
 
-std::string joined(const std::vector<std::string>& words, std::string_view between) {
+std::string joined_in_bold(const std::vector<std::string>& words, std::string_view between) {
   std::string out;
   for (const std::string& word : words) {
     if (!out.empty()) out += between;
@@ -65,12 +65,12 @@ std::string notes_of(const OptionText& option) {
   const auto note = [&out](const std::string& text) { out.append(text).append(".\n"); };
   if (option.is_required) note("Required");
   if (!option.limits.empty()) note("Takes " + escaped(option.limits));
-  if (!option.choices.empty()) note("One of " + joined(option.choices, ", "));
+  if (!option.choices.empty()) note("One of " + joined_in_bold(option.choices, ", "));
   if (option.may_be_repeated) note("May be given several times");
   if (!option.default_value.empty()) note("Default: " + bold(option.default_value));
   if (!option.environment.empty()) note("Also set by the environment's " + bold(option.environment));
-  if (!option.needs.empty()) note("Only with " + joined(option.needs, ", "));
-  if (!option.excludes.empty()) note("Not with " + joined(option.excludes, ", "));
+  if (!option.needs.empty()) note("Only with " + joined_in_bold(option.needs, ", "));
+  if (!option.excludes.empty()) note("Not with " + joined_in_bold(option.excludes, ", "));
   return out;
 }
 
@@ -79,8 +79,8 @@ std::string entry(const OptionText& option, bool is_argument) {
   const std::string notes = notes_of(option);
   if (!notes.empty() && !description.empty() && description.ends_with("\n"))
     description.insert(description.size() - 1, ".");
-  return ".TP\n" + joined(option.names, ", ") + (is_argument ? "" : value_of(option)) + "\n" + description +
-         notes;
+  return ".TP\n" + joined_in_bold(option.names, ", ") + (is_argument ? "" : value_of(option)) + "\n" +
+         description + notes;
 }
 
 std::string entries(const CommandText& command) {

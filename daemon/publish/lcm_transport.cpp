@@ -27,19 +27,19 @@ bool has_known_provider(std::string_view url) {
                      [&](std::string_view provider) { return url.substr(0, provider.size()) == provider; });
 }
 
-struct Channel {
-  std::string name;
-  LcmTransport::Listener listener;
-
-  // No method: GCC 12's sanitizer takes LCM's calls of those for wild ones.
-  static void take(const lcm::ReceiveBuffer* message, const std::string& /*channel*/, Channel* self) {
-    self->listener({static_cast<const std::uint8_t*>(message->data), message->data_size});
-  }
-};
-
 }  // namespace
 
 struct LcmTransport::State {
+  struct Channel {
+    std::string name;
+    LcmTransport::Listener listener;
+
+    // No method: GCC 12's sanitizer takes LCM's calls of those for wild ones.
+    static void take(const lcm::ReceiveBuffer* message, const std::string& /*channel*/, Channel* self) {
+      self->listener({static_cast<const std::uint8_t*>(message->data), message->data_size});
+    }
+  };
+
   explicit State(const std::string& of_url) : url(of_url), server(LcmServer::of_url(of_url)) {}
 
   /// nullptr while the server of tcpq:// is absent, or LCM cannot use the URL.
@@ -100,7 +100,7 @@ bool LcmTransport::publish(const std::string& channel, std::span<const std::uint
 }
 
 void LcmTransport::listen(const std::string& channel, Listener listener) {
-  Channel& kept = state_->channels.emplace_back(Channel{channel, std::move(listener)});
+  State::Channel& kept = state_->channels.emplace_back(State::Channel{channel, std::move(listener)});
   if (state_->lcm) state_->subscribe(kept);
 }
 

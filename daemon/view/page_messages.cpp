@@ -45,7 +45,7 @@ class ByteWriter {
 };
 
 // Foreign bytes (a file's name in the title) need not be UTF-8.
-WebMessage text_message(const json& content) {
+WebMessage page_message(const json& content) {
   return {.is_text = true, .bytes = content.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
@@ -67,7 +67,7 @@ void put_record(ByteWriter& out, const TrailPose& pose, std::size_t beams) {
 }  // namespace
 
 WebMessage run_message(const RunHistory& history, const ShownSource& source) {
-  return text_message({{"type", "run"},
+  return page_message({{"type", "run"},
                        {"generation", history.generation()},
                        {"map_id", std::to_string(history.map_id())},
                        {"title", source.title},
@@ -76,7 +76,7 @@ WebMessage run_message(const RunHistory& history, const ShownSource& source) {
 }
 
 WebMessage status_message(const RunStatus& status) {
-  return text_message({{"type", "status"},
+  return page_message({{"type", "status"},
                        {"utime_us", status.utime_us},
                        {"state", status.state},
                        {"progress", status.progress},
@@ -104,7 +104,7 @@ WebMessage events_message(std::span<const RunEvent> events) {
   for (const RunEvent& event : events)
     list.push_back(
         {{"utime_us", event.utime_us}, {"level", static_cast<int>(event.level)}, {"text", event.text}});
-  return text_message({{"type", "events"}, {"events", std::move(list)}});
+  return page_message({{"type", "events"}, {"events", std::move(list)}});
 }
 
 WebMessage closures_message(std::span<const SeenClosure> closures) {
@@ -118,11 +118,11 @@ WebMessage closures_message(std::span<const SeenClosure> closures) {
                     {"from_map", closure.from_map},
                     {"to_map", closure.to_map},
                     {"score", closure.score}});
-  return text_message({{"type", "closures"}, {"closures", std::move(list)}});
+  return page_message({{"type", "closures"}, {"closures", std::move(list)}});
 }
 
 WebMessage synced_message(std::int64_t at_us) {
-  return text_message({{"type", "synced"}, {"utime_us", at_us}});
+  return page_message({{"type", "synced"}, {"utime_us", at_us}});
 }
 
 WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad) {

@@ -19,7 +19,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kMaxRecord = 65535;
+constexpr std::size_t kMaxPossibleRecord = 65535;
 constexpr std::size_t kMaxUnpackedBytes = 1'000'000'000;
 constexpr std::size_t kMaxKnownRecord = record_prefix(CaptureLinkKind::kUsb) + kMaxCrtpPacket;
 constexpr std::size_t kBuffer = 65536;
@@ -117,7 +117,7 @@ std::optional<Error> CaptureReader::read_header() {
   pending_.push_back(*header);
   offset_ += kPcapRecordHeader;
   const bool is_cut = header->length != header->original && header->length <= kMaxKnownRecord;
-  if (header->length > kMaxRecord || header->length > header->original || is_cut)
+  if (header->length > kMaxPossibleRecord || header->length > header->original || is_cut)
     return resynchronise("the length of a record is impossible");
   if (header->fraction_ns >= 1'000'000'000) return resynchronise("the time of a record is impossible");
   return std::nullopt;

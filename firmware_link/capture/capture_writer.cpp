@@ -20,7 +20,8 @@ namespace swiftlet {
 namespace {
 
 constexpr std::size_t kBufferSize = 65'536;
-constexpr std::size_t kMaxRecord = kPcapRecordHeader + record_prefix(CaptureLinkKind::kUsb) + kMaxCrtpPacket;
+constexpr std::size_t kMaxWrittenRecord =
+    kPcapRecordHeader + record_prefix(CaptureLinkKind::kUsb) + kMaxCrtpPacket;
 constexpr mode_t kEverybodyMayRead = 0644;
 
 std::string text_of_error(int error_number) { return std::generic_category().message(error_number); }
@@ -102,7 +103,7 @@ void CaptureWriter::put_file_header() {
 
 Status CaptureWriter::write(const LinkFrame& frame) {
   SWIFTLET_CHECK(frame.size <= kMaxCrtpPacket, "a frame holds one CRTP packet");
-  if (buffer_.size() + kMaxRecord > kBufferSize) {
+  if (buffer_.size() + kMaxWrittenRecord > kBufferSize) {
     if (Status flushed = flush(); !flushed) return flushed;
   }
   if (failure_) return *failure_;

@@ -11,8 +11,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 18;
-
 struct CloseGzip {
   void operator()(gzFile_s* file) const { static_cast<void>(gzclose_r(file)); }
 };
@@ -36,8 +34,8 @@ Result<UnpackedFile> unpack_gzip(const std::string& path, std::size_t max_bytes)
       return Error{
           ErrorCode::kInvalidInput,
           path + ": unpacks to more than " + std::to_string(max_bytes / 1'000'000) + " MB; unpack it first"};
-    unpacked.bytes.resize(size + kChunk);
-    got = gzread(file.get(), unpacked.bytes.data() + size, static_cast<unsigned>(kChunk));
+    unpacked.bytes.resize(size + kUnpackedChunk);
+    got = gzread(file.get(), unpacked.bytes.data() + size, static_cast<unsigned>(kUnpackedChunk));
   }
   unpacked.bytes.resize(size);
   int code = Z_OK;

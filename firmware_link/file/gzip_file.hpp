@@ -9,6 +9,9 @@
 
 namespace swiftlet {
 
+/// How much is unpacked at once.
+inline constexpr std::size_t kUnpackedChunk = std::size_t{1} << 18;
+
 /// By content: the magic number of gzip. False if the file cannot be read.
 [[nodiscard]] bool begins_like_gzip(const std::string& path);
 

@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "firmware_link/file/gzip_file.hpp"
 #include "firmware_link/file/input_file.hpp"
 
 namespace swiftlet {
 namespace {
-
-constexpr std::size_t kChunk = std::size_t{1} << 18;
 
 gzFile gzip_file(void* file) { return static_cast<gzFile>(file); }
 
@@ -27,7 +26,7 @@ Result<GzipLines> GzipLines::open(const std::string& path) {
   lines.path_ = path;
   lines.file_.reset(gzopen(path.c_str(), "rb"));
   if (!lines.file_) return Error{ErrorCode::kInvalidInput, path + ": cannot be read"};
-  lines.buffer_.resize(kChunk);
+  lines.buffer_.resize(kUnpackedChunk);
   return lines;
 }
 
@@ -57,8 +56,9 @@ bool GzipLines::fill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (buffer_.size() - end_ < kChunk) buffer_.resize(end_ + kChunk);
-  const int got = gzread(gzip_file(file_.get()), buffer_.data() + end_, static_cast<unsigned>(kChunk));
+  if (buffer_.size() - end_ < kUnpackedChunk) buffer_.resize(end_ + kUnpackedChunk);
+  const int got =
+      gzread(gzip_file(file_.get()), buffer_.data() + end_, static_cast<unsigned>(kUnpackedChunk));
   if (got > 0) end_ += static_cast<std::size_t>(got);
   if (got > 0) return true;
   int code = Z_OK;

@@ -11,7 +11,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kBufferSize = 65'536;
+constexpr std::size_t kStreamBufferSize = 65'536;
 
 /// The layout in the file, which only this process reads.
 struct Record {
@@ -32,8 +32,8 @@ Result<PoseFile> PoseFile::open() {
 }
 
 /// With its own buffer: else the first write would allocate one.
-PoseFile::PoseFile(std::FILE* file) : buffer_(std::make_unique<char[]>(kBufferSize)), file_(file) {
-  static_cast<void>(std::setvbuf(file, buffer_.get(), _IOFBF, kBufferSize));
+PoseFile::PoseFile(std::FILE* file) : buffer_(std::make_unique<char[]>(kStreamBufferSize)), file_(file) {
+  static_cast<void>(std::setvbuf(file, buffer_.get(), _IOFBF, kStreamBufferSize));
 }
 
 void PoseFile::push_back(const StampedPose& pose) {

@@ -20,7 +20,7 @@ constexpr Duration kTimeoutWhileAsking = RepeatTimer::kShortest;
 constexpr Duration kUnwatched = std::chrono::seconds(1);
 constexpr Duration kBatteryLasts = std::chrono::minutes(10);
 // Ten times as far as the firmware's estimator lets its position go.
-constexpr double kFarthestM = 1000.0;
+constexpr double kMaxFromBeginningM = 1000.0;
 // A vehicle that sends without end, but nothing that samples need, must not block the caller; who rests for a
 // millisecond after each call still reads 100 000 useless packets a second.
 constexpr int kMaxFramesAtOnce = 256;
@@ -31,7 +31,7 @@ AssemblyConfig assembly_config(const SensorModel& sensor) {
   config.beams = BeamLayout::multiranger();
   config.sensor = sensor;
   config.continuity.longest_silence = kBatteryLasts;
-  config.continuity.farthest_m = kFarthestM;
+  config.continuity.farthest_m = kMaxFromBeginningM;
   config.unwatched_after = kUnwatched;
   return config;
 }
@@ -186,7 +186,7 @@ void LinkSampleSource::note_breaks() {
   if (counters.too_far > 0)
     report_.problems.push_back(input_.name + ": the dead reckoning has run away, " +
                                std::to_string(counters.too_far) + " range packets lie more than " +
-                               std::to_string(static_cast<int>(kFarthestM)) +
+                               std::to_string(static_cast<int>(kMaxFromBeginningM)) +
                                " m from its beginning and were left out: check the Flow deck");
 }
 

@@ -11,7 +11,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kMaxTurnRad = radians(40.0);
-constexpr float kFarthestM = 20.0F;      // farther readings are no hits
+constexpr float kMaxHitM = 20.0F;        // farther readings are no hits
 constexpr float kMaxDifferenceM = 0.5F;  // larger differences count as this: another object was hit
 constexpr double kAgreesM = 0.2;         // on average
 constexpr std::size_t kMinReadings = 60;
@@ -31,7 +31,7 @@ double disagreement_m(std::span<const float> before, std::span<const float> now,
     const int same_direction = i + steps;
     const float a = before[static_cast<std::size_t>(same_direction)];
     const float b = now[static_cast<std::size_t>(i)];
-    if (!(a < kFarthestM && b < kFarthestM)) continue;
+    if (!(a < kMaxHitM && b < kMaxHitM)) continue;
     sum_m += std::min(std::abs(a - b), kMaxDifferenceM);
     ++count;
   }

@@ -15,8 +15,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::uint8_t kOut = 0x01;
-constexpr std::uint8_t kIn = 0x81;
+constexpr std::uint8_t kDongleOut = 0x01;
+constexpr std::uint8_t kDongleIn = 0x81;
 
 constexpr std::uint8_t kSetChannel = 0x01;
 constexpr std::uint8_t kSetAddress = 0x02;
@@ -35,8 +35,6 @@ constexpr std::uint16_t kFullPower = 3;
 constexpr std::uint16_t kDelayFor32Bytes = 0xA0;
 constexpr std::uint8_t kUsualRetries = 3;
 
-constexpr Duration kControlTimeout = std::chrono::seconds(1);
-constexpr Duration kOutTimeout = std::chrono::milliseconds(100);
 // Longer than the 200 ms after which a Crazyradio 2.0 gives a packet up by itself.
 constexpr Duration kInTimeout = std::chrono::milliseconds(250);
 constexpr Duration kQuiet = std::chrono::milliseconds(10);
@@ -143,7 +141,7 @@ UsbOutcome Crazyradio::leave_modes() {
 
 UsbOutcome Crazyradio::request(std::uint8_t request, std::uint16_t value,
                                std::span<const std::uint8_t> data) {
-  return device_->control_out(request, value, 0, data, kControlTimeout).outcome;
+  return device_->control_out(request, value, 0, data, kUsbControlTimeout).outcome;
 }
 
 UsbOutcome Crazyradio::set_rate(RadioRate rate) {
@@ -195,14 +193,14 @@ RadioAnswer Crazyradio::exchange(std::span<const std::uint8_t> packet) {
 
 RadioAnswer Crazyradio::exchange_once(std::span<const std::uint8_t> packet) {
   RadioAnswer failed;
-  const UsbTransfer out = device_->bulk_out(kOut, packet, kOutTimeout);
+  const UsbTransfer out = device_->bulk_out(kDongleOut, packet, kUsbOutTimeout);
   if (!out.done()) {
-    failed.outcome = recover(kOut, out.outcome);
+    failed.outcome = recover(kDongleOut, out.outcome);
     return failed;
   }
-  const UsbTransfer in = device_->bulk_in(kIn, buffer_, kInTimeout);
+  const UsbTransfer in = device_->bulk_in(kDongleIn, buffer_, kInTimeout);
   if (!in.done()) {
-    failed.outcome = recover(kIn, in.outcome);
+    failed.outcome = recover(kDongleIn, in.outcome);
     return failed;
   }
   return decode(in.size);
@@ -218,11 +216,11 @@ UsbOutcome Crazyradio::recover(std::uint8_t endpoint, UsbOutcome failure) {
 Crazyradio::Drained Crazyradio::drain(Duration quiet) {
   Drained drained;
   for (int i = 0; i < kMaxStaleAnswers; ++i) {
-    const UsbOutcome outcome = device_->bulk_in(kIn, buffer_, quiet).outcome;
+    const UsbOutcome outcome = device_->bulk_in(kDongleIn, buffer_, quiet).outcome;
     if (outcome == UsbOutcome::kTimeout) return drained;
     ++drained.answers;
     if (outcome == UsbOutcome::kDone) continue;
-    drained.outcome = recover(kIn, outcome);
+    drained.outcome = recover(kDongleIn, outcome);
     if (drained.outcome != UsbOutcome::kStall) return drained;
     drained.outcome = UsbOutcome::kDone;
   }

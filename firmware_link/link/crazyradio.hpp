@@ -23,6 +23,8 @@ inline constexpr std::uint16_t kCrazyradioProduct = 0x7777;
 /// As bcdDevice counts: 0.40, the first that knows the requests.
 inline constexpr std::uint16_t kOldestCrazyradioRelease = 0x0040;
 inline constexpr std::size_t kMaxRadioPayload = 32;
+/// A null packet: only fetches what the vehicle has to send.
+inline constexpr std::array<std::uint8_t, 1> kRadioPollPacket{0xFF};
 
 /// Of Crazyradio PA and 2.0 the latter: bcdDevice counts 0.40 to 0.99 for the PA (99.55 if self-built).
 [[nodiscard]] constexpr bool is_crazyradio_2(const UsbIdentity& dongle) {

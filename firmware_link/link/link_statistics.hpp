@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <type_traits>
 
@@ -9,11 +10,15 @@
 
 namespace swiftlet {
 
+/// A vehicle that was not received for that long is silent: it deletes its log blocks when it has received
+/// nothing for a second.
+inline constexpr Duration kLinkSilence = std::chrono::seconds(1);
+
 /// The condition of a live link. Those after kSilent concern the device: the link retries by itself each
 /// second.
 enum class LinkCondition : std::uint8_t {
   kNone,       ///< not a live link: a recording or a simulation
-  kConnected,  ///< the vehicle was received within the last second
+  kConnected,  ///< the vehicle was received within the last kLinkSilence
   kSilent,     ///< the device works, the vehicle does not answer: switched off, out of range, other address
   kDeviceMissing,    ///< no such dongle or cable plugged in
   kAccessDenied,     ///< it is plugged in, but this user may not open it
@@ -34,7 +39,7 @@ struct LinkStatistics {
   std::uint64_t radio_retries = 0;     ///< retransmissions by the dongle, if it reports them
   std::uint64_t packets_received = 0;  ///< with content: null packets left out
   std::uint64_t duplicates = 0;        ///< downlink packets received twice and dropped by safelink
-  std::uint64_t silences = 0;          ///< times the vehicle was not received for a second or more
+  std::uint64_t silences = 0;          ///< times the vehicle was not received for kLinkSilence
   std::uint64_t device_losses = 0;     ///< times the device had to be reopened
   std::uint64_t usb_timeouts = 0;      ///< answers that did not come in time and were drained
   bool safelink = false;               ///< in use at present

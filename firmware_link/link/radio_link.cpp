@@ -15,26 +15,21 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::array<std::uint8_t, 1> kPollPacket{0xFF};
-
 constexpr Duration kBusyPause = std::chrono::milliseconds(5);
 constexpr Duration kIdlePause = std::chrono::milliseconds(10);
 constexpr Duration kIdleAfter = std::chrono::seconds(1);
-// The vehicle deletes its log blocks when it has received nothing for a second.
-constexpr Duration kSilence = std::chrono::seconds(1);
 constexpr Duration kSilentPause = std::chrono::milliseconds(50);
-constexpr Duration kMaxPause = std::chrono::milliseconds(500);
+constexpr Duration kMaxPollPause = std::chrono::milliseconds(500);
 constexpr Duration kAskPeriodInSilence = std::chrono::seconds(1);
 constexpr int kMaxUnansweredAsks = 10;
 // With both counters in step there are no repeats. A vehicle that has rebooted meanwhile has no safelink, and
 // half of its packets look like repeats.
 constexpr int kMaxRepeats = 5;
 constexpr Duration kRepeatWindow = std::chrono::seconds(1);
-constexpr int kMaxFailuresInARow = 10;
 
 Duration pause_between(std::optional<int> rate_limit_hz) {
   if (!rate_limit_hz) return Duration::zero();
-  return std::min(kMaxPause, Duration(std::chrono::seconds(1)) / std::max(1, *rate_limit_hz));
+  return std::min(kMaxPollPause, Duration(std::chrono::seconds(1)) / std::max(1, *rate_limit_hz));
 }
 
 }  // namespace
@@ -52,7 +47,7 @@ Result<LinkFrame> RadioLink::receive(Duration timeout) {
     client_waits_ = uplink_.client_waits();
     if (to_deliver_.empty() && now - pause() >= acted_at_) {
       acted_at_ = now;
-      if (!silent_ && now - received_at_ >= kSilence) fall_silent();
+      if (!silent_ && now - received_at_ >= kLinkSilence) fall_silent();
       if (!radio_) open(now);
       if (radio_) exchange();
     }
@@ -122,7 +117,8 @@ void RadioLink::exchange() {
   has_more_ = false;
   failures_in_a_row_ = answer.outcome == UsbOutcome::kDone ? 0 : failures_in_a_row_ + 1;
   last_outcome_ = answer.outcome;
-  if (!answer.may_go_on() || failures_in_a_row_ >= kMaxFailuresInARow) return lose_dongle(answer.outcome);
+  if (!answer.may_go_on() || failures_in_a_row_ >= ReopenSchedule::kMaxFailuresInARow)
+    return lose_dongle(answer.outcome);
   ++statistics_.packets_sent;
   if (answer.outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
   if (sent_ == Sent::kRequest) {
@@ -160,7 +156,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
     const bool asks = silent_ ? now - kAskPeriodInSilence >= asked_at_ : sent_ != Sent::kAsk;
     sent_ = asks ? Sent::kAsk : Sent::kPoll;
     if (asks) asked_at_ = now;
-    return asks ? packet_of(safelink_request(address_.safelink)) : packet_of(kPollPacket);
+    return asks ? packet_of(safelink_request(address_.safelink)) : packet_of(kRadioPollPacket);
   }
   if (unacknowledged_) {
     sent_ = Sent::kPoll;  // a request among them was delivered already
@@ -171,7 +167,7 @@ CrtpPacket RadioLink::next_packet(HostTime now) {
   sent_ = waiting ? Sent::kRequest : Sent::kPoll;
   if (waiting) active_at_ = now;
   sent_is_ours_ = !waiting || waiting->is_ours;
-  CrtpPacket packet = waiting ? waiting->bytes : packet_of(kPollPacket);
+  CrtpPacket packet = waiting ? waiting->bytes : packet_of(kRadioPollPacket);
   if (mode_ == Mode::kSafelink) {
     packet[0] = safelink_.header(packet[0]);
     unacknowledged_ = packet;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::array kRates{RadioRate::k250Kbps, RadioRate::k1Mbps, RadioRate::k2Mbps};
 constexpr std::uint8_t kRetries = 1;
-constexpr std::array<std::uint8_t, 1> kPollPacket{0xFF};
 
 }  // namespace
 
@@ -33,7 +32,7 @@ std::variant<std::vector<RadioAddress>, UsbOutcome> scan_radio(UsbBus& bus, cons
     for (address.channel = 0; address.channel <= radio.range().last_channel; ++address.channel) {
       if (const UsbOutcome outcome = radio.set_channel(address.channel); outcome != UsbOutcome::kDone)
         return outcome;
-      const RadioAnswer answer = radio.exchange(kPollPacket);
+      const RadioAnswer answer = radio.exchange(kRadioPollPacket);
       if (!answer.may_go_on()) return answer.outcome;
       if (answer.acknowledged) found.push_back(address);
     }

@@ -16,6 +16,8 @@ class ReopenSchedule {
   /// How often a link without a device checks.
   static constexpr Duration kCheckPeriod = std::chrono::milliseconds(100);
   static constexpr Duration kRetryPeriod = std::chrono::seconds(1);
+  /// After so many failed transfers a device counts as lost.
+  static constexpr int kMaxFailuresInARow = 10;
 
   /// Whether to try now; true counts as an attempt.
   [[nodiscard]] bool is_due(UsbBus& bus, HostTime now) {

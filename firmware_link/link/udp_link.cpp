@@ -17,9 +17,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr Duration kSilence = std::chrono::seconds(1);
 constexpr Duration kRegistrationPeriod = std::chrono::milliseconds(200);
-constexpr Duration kMaxPause = std::chrono::milliseconds(100);
+constexpr Duration kMaxSendPause = std::chrono::milliseconds(100);
 // Datagrams read without checking the time: a flood of useless ones must not block receive().
 constexpr int kMaxAtOnce = 64;
 constexpr std::array<std::uint8_t, 1> kRegistration{0xF3};
@@ -123,14 +122,14 @@ Result<LinkFrame> UdpLink::receive(Duration timeout) {
     // A text this short needs no memory.
     if (now >= deadline) return Error{ErrorCode::kTimeout, "no packet"};
     const HostTime alive_at =
-        received_at_ ? std::min(sent_at_ + kMaxPause, *received_at_ + kSilence) : registers_at_;
+        received_at_ ? std::min(sent_at_ + kMaxSendPause, *received_at_ + kLinkSilence) : registers_at_;
     wait_until(std::min(deadline, alive_at), now);
     now = clock_.now();
   }
 }
 
 void UdpLink::note_silence(HostTime now) {
-  if (!received_at_ || now - *received_at_ < kSilence) return;
+  if (!received_at_ || now - *received_at_ < kLinkSilence) return;
   received_at_.reset();
   registers_at_ = now;
   statistics_.condition = LinkCondition::kSilent;
@@ -144,7 +143,7 @@ void UdpLink::note_received(HostTime now) {
 
 void UdpLink::keep_alive(HostTime now) {
   if (received_at_) {
-    if (now - sent_at_ >= kMaxPause) transmit(kNullPacket, now);
+    if (now - sent_at_ >= kMaxSendPause) transmit(kNullPacket, now);
   } else if (now >= registers_at_) {
     transmit(kRegistration, now);
     transmit(kNullPacket, now);

@@ -19,22 +19,18 @@ constexpr std::uint16_t kVendor = 0x0483;
 constexpr std::uint16_t kProduct = 0x5740;
 constexpr const char* kManufacturer = "Bitcraze AB";
 
-constexpr std::uint8_t kOut = 0x01;
-constexpr std::uint8_t kIn = 0x81;
+constexpr std::uint8_t kCableOut = 0x01;
+constexpr std::uint8_t kCableIn = 0x81;
 // Index 2 would start the vehicle's boot loader.
 constexpr std::uint8_t kSwitchRequest = 0x01;
 constexpr std::uint16_t kSwitchValue = 0x01;
 constexpr std::uint16_t kToUsb = 1;
 constexpr std::uint16_t kToRadio = 0;
 
-constexpr Duration kControlTimeout = std::chrono::seconds(1);
-constexpr Duration kOutTimeout = std::chrono::milliseconds(100);
 constexpr Duration kMaxRead = std::chrono::milliseconds(100);
 // A client that shares the link does not wait longer for its packets to be sent.
 constexpr Duration kShortestRead = std::chrono::milliseconds(1);
 constexpr Duration kMaxSharedRead = std::chrono::milliseconds(2);
-constexpr Duration kSilence = std::chrono::seconds(1);
-constexpr int kMaxFailuresInARow = 10;
 
 }  // namespace
 
@@ -53,7 +49,7 @@ UsbCableLink::UsbCableLink(UsbBus& bus, LinkClock& clock, int index)
 
 UsbCableLink::~UsbCableLink() {
   if (vehicle_)
-    static_cast<void>(vehicle_->control_out(kSwitchRequest, kSwitchValue, kToRadio, {}, kControlTimeout));
+    static_cast<void>(vehicle_->control_out(kSwitchRequest, kSwitchValue, kToRadio, {}, kUsbControlTimeout));
 }
 
 Result<LinkFrame> UsbCableLink::receive(Duration timeout) {
@@ -95,7 +91,7 @@ UsbOutcome UsbCableLink::open_vehicle() {
   if (const UsbOutcome* failure = std::get_if<UsbOutcome>(&opened)) return *failure;
   std::unique_ptr<UsbDevice> vehicle = std::get<0>(std::move(opened));
   const UsbOutcome outcome =
-      vehicle->control_out(kSwitchRequest, kSwitchValue, kToUsb, {}, kControlTimeout).outcome;
+      vehicle->control_out(kSwitchRequest, kSwitchValue, kToUsb, {}, kUsbControlTimeout).outcome;
   if (outcome == UsbOutcome::kDone) vehicle_ = std::move(vehicle);
   return outcome;
 }
@@ -107,7 +103,7 @@ void UsbCableLink::lose_vehicle(UsbOutcome failure) {
 }
 
 void UsbCableLink::watch_silence(HostTime now) {
-  if (silent_ || now - received_at_ < kSilence) return;
+  if (silent_ || now - received_at_ < kLinkSilence) return;
   silent_ = true;
   ++statistics_.silences;
   if (vehicle_)
@@ -119,7 +115,8 @@ void UsbCableLink::watch_silence(HostTime now) {
 std::optional<LinkFrame> UsbCableLink::send_next(HostTime now) {
   const std::optional<UplinkQueue::Packet> packet = uplink_.next();
   if (!packet) return std::nullopt;
-  if (!check(vehicle_->bulk_out(kOut, bytes_of(packet->bytes), kOutTimeout), kOut)) return std::nullopt;
+  if (!check(vehicle_->bulk_out(kCableOut, bytes_of(packet->bytes), kUsbOutTimeout), kCableOut))
+    return std::nullopt;
   ++statistics_.packets_sent;
   ++statistics_.packets_acked;
   LinkFrame sent = frame_of(LinkDirection::kToVehicle, now, bytes_of(packet->bytes));
@@ -129,10 +126,10 @@ std::optional<LinkFrame> UsbCableLink::send_next(HostTime now) {
 }
 
 std::optional<LinkFrame> UsbCableLink::listen(Duration timeout) {
-  const UsbTransfer transfer =
-      vehicle_->bulk_in(kIn, buffer_, std::min(timeout, uplink_.is_shared() ? kMaxSharedRead : kMaxRead));
+  const UsbTransfer transfer = vehicle_->bulk_in(
+      kCableIn, buffer_, std::min(timeout, uplink_.is_shared() ? kMaxSharedRead : kMaxRead));
   if (transfer.outcome == UsbOutcome::kTimeout) return std::nullopt;  // it has nothing to send
-  if (!check(transfer, kIn)) return std::nullopt;
+  if (!check(transfer, kCableIn)) return std::nullopt;
   received_at_ = clock_.now();
   silent_ = false;
   statistics_.condition = LinkCondition::kConnected;
@@ -151,7 +148,7 @@ bool UsbCableLink::check(UsbTransfer transfer, std::uint8_t endpoint) {
   if (outcome == UsbOutcome::kTimeout) ++statistics_.usb_timeouts;
   if (outcome == UsbOutcome::kStall) outcome = vehicle_->clear_halt(endpoint);
   const bool goes_on = outcome == UsbOutcome::kDone || outcome == UsbOutcome::kTimeout;
-  if (!goes_on || ++failures_in_a_row_ >= kMaxFailuresInARow)
+  if (!goes_on || ++failures_in_a_row_ >= ReopenSchedule::kMaxFailuresInARow)
     lose_vehicle(outcome == UsbOutcome::kDone ? transfer.outcome : outcome);
   return false;
 }

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -26,6 +27,10 @@ enum class UsbOutcome : std::uint8_t {
   kFault,         ///< LIBUSB_ERROR_IO and all others
   kUnsuited,      ///< it works, but lacks what was asked for
 };
+
+/// How long a device may take for a request, and to accept bytes.
+inline constexpr Duration kUsbControlTimeout = std::chrono::seconds(1);
+inline constexpr Duration kUsbOutTimeout = std::chrono::milliseconds(100);
 
 struct UsbTransfer {
   UsbOutcome outcome = UsbOutcome::kDone;

@@ -5,13 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "firmware_link/session/vehicle_monitor.hpp"
+
 namespace swiftlet {
-namespace {
-
-/// More than the drift of an estimate at rest.
-constexpr double kCarriedM = 0.5;
-
-}  // namespace
 
 Reading LandedOdometryFreeze::hold(const Reading& reading) {
   if (!reading.position_odom || !reading.yaw_odom_rad) return reading;

@@ -20,7 +20,7 @@ constexpr std::string_view kWheels = "wheels";
 constexpr std::string_view kFlow = "flow";
 constexpr std::string_view kNoReturn = "inf";
 constexpr std::string_view kInvalid = "nan";
-constexpr double kFarthestM = 1e6;
+constexpr double kMaxCoordinateM = 1e6;
 constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;  // the year 2096
 
 /// With the fewest digits that give the same number back.
@@ -67,9 +67,9 @@ Result<SensorModel> parse_sensor(std::string_view line) {
   const std::string_view odometry = next_field(line, ' ');
   if (odometry != kWheels && odometry != kFlow) return cannot_be("the dead reckoning", odometry);
   SensorModel sensor = odometry == kWheels ? SensorModel::carmen_laser() : SensorModel::crazyflie();
-  const Result<double> min_m = named_value(next_field(line, ' '), "min_range_m", 0.0, kFarthestM);
+  const Result<double> min_m = named_value(next_field(line, ' '), "min_range_m", 0.0, kMaxCoordinateM);
   if (!min_m) return min_m.error();
-  const Result<double> max_m = named_value(next_field(line, ' '), "max_range_m", *min_m, kFarthestM);
+  const Result<double> max_m = named_value(next_field(line, ' '), "max_range_m", *min_m, kMaxCoordinateM);
   if (!max_m) return max_m.error();
   const Result<double> age_s =
       named_value(next_field(line, ' '), "range_age_s", 0.0, to_seconds(kMaxRangeAge));
@@ -108,7 +108,7 @@ Result<Pose2> parse_pose(std::string_view& rest) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string_view field = next_field(rest, ',');
     const std::optional<double> part = parse_number<double>(field);
-    if (!part || !(std::abs(*part) < kFarthestM)) return cannot_be(kColumns[i], field);
+    if (!part || !(std::abs(*part) < kMaxCoordinateM)) return cannot_be(kColumns[i], field);
     parts[i] = *part;
   }
   return Pose2(parts[0], parts[1], parts[2]);

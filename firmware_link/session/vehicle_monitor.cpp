@@ -23,8 +23,6 @@ constexpr std::array<std::string_view, 10> kNames{
     "pm.state",  "range.front", "range.left", "range.back",      "range.right"};
 
 constexpr int kLowPower = 3;  // of pm.state
-// More than the drift of an estimate at rest.
-constexpr double kCarriedM = 0.5;
 constexpr double kTurnedRad = 0.5;
 // Twenty measurements; neither a vehicle in flight nor a sensor is that still.
 constexpr Duration kFrozen = std::chrono::seconds(2);

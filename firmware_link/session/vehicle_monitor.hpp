@@ -16,6 +16,9 @@
 
 namespace swiftlet {
 
+/// More than the drift of an estimate at rest: farther from where it stood, the vehicle was carried.
+inline constexpr double kCarriedM = 0.5;
+
 /// Reads the vehicle's health from the log records as they pass, and watches for the yaw trap: while the
 /// supervisor reports "not flying" the firmware pulls the yaw estimate towards kalman.initialYaw with a time
 /// constant of ten seconds, so a vehicle that is carried turns the map. Also for ranges that freeze: the

@@ -14,7 +14,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::array kKinds{
+constexpr std::array kBuildingKinds{
     BuildingKind{"offices", true, false, draw_offices},
     BuildingKind{"wings", false, true, draw_wings},
     BuildingKind{"curved corridors", false, true, draw_curved_corridors},
@@ -33,10 +33,11 @@ constexpr double kOneDirectionShare = 0.46;
 
 const BuildingKind& draw_kind(WallDirections directions, NoiseSource& noise) {
   while (true) {
-    const auto i = static_cast<std::size_t>(whole_between(noise, 0, static_cast<int>(kKinds.size()) - 1));
-    const bool fits =
-        directions == WallDirections::kOne ? kKinds[i].can_have_one_direction : kKinds[i].can_have_several;
-    if (fits) return kKinds[i];
+    const auto i =
+        static_cast<std::size_t>(whole_between(noise, 0, static_cast<int>(kBuildingKinds.size()) - 1));
+    const bool fits = directions == WallDirections::kOne ? kBuildingKinds[i].can_have_one_direction
+                                                         : kBuildingKinds[i].can_have_several;
+    if (fits) return kBuildingKinds[i];
   }
 }
 
@@ -66,7 +67,7 @@ std::vector<FloorPatch> draw_floor(const std::vector<Waypoint>& flight, NoiseSou
 
 }  // namespace
 
-std::span<const BuildingKind> building_kinds() { return kKinds; }
+std::span<const BuildingKind> building_kinds() { return kBuildingKinds; }
 
 double side_m(const BuildingWish& wish, NoiseSource& noise, double min_share, double max_share) {
   const double whole_m = std::sqrt(wish.way_m) * noise.uniform(0.8, 1.6);

@@ -11,13 +11,10 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
 constexpr int kTakeOffSteps = 200;
 constexpr double kLookAheadM = 0.35;  // how far ahead of the vehicle the pilot aims
 constexpr double kArrivedM = 0.1;     // near enough to a place with an action
 constexpr double kYawGain = 2.0;      // 1/s
-
-double limited(double value, double magnitude) { return std::clamp(value, -magnitude, magnitude); }
 
 }  // namespace
 
@@ -40,7 +37,7 @@ Waypoint RepeatedScript::operator[](std::size_t i) const {
 }
 
 SimulatedFlight::Wander::Wander(double sigma, double time_constant_s)
-    : keep_(std::exp(-kStepS / time_constant_s)), kick_(sigma * std::sqrt(1.0 - keep_ * keep_)) {}
+    : keep_(std::exp(-kFlightStepS / time_constant_s)), kick_(sigma * std::sqrt(1.0 - keep_ * keep_)) {}
 
 SimulatedFlight::SimulatedFlight(const SimulatedWorld& world, const PilotModel& model, std::uint64_t seed)
     : script_(world.flight, model.laps),
@@ -69,7 +66,7 @@ void SimulatedFlight::follow_script() {
   if (spin_left_rad_ != 0.0) {
     look_around();
   } else {
-    hover_left_s_ = std::max(0.0, hover_left_s_ - kStepS);
+    hover_left_s_ = std::max(0.0, hover_left_s_ - kFlightStepS);
     steer(wander_yaw_.step(noise_));
   }
 }
@@ -106,7 +103,7 @@ void SimulatedFlight::move_aim() {
 void SimulatedFlight::look_around() {
   const double rate = std::copysign(model_.turn_rate_rad_s, spin_left_rad_);
   motion_.step(0.0, 0.0, rate);
-  const double turned = motion_.state().yaw_rate_rad_s * kStepS;
+  const double turned = motion_.state().yaw_rate_rad_s * kFlightStepS;
   spin_left_rad_ = std::abs(turned) >= std::abs(spin_left_rad_) ? 0.0 : spin_left_rad_ - turned;
   nose_rad_ = motion_.state().T_world_body.yaw_rad();
 }

@@ -12,11 +12,11 @@
 #include "core/geometry/angle.hpp"
 #include "firmware_link/simulation/members.hpp"
 #include "firmware_link/simulation/platform.hpp"
+#include "firmware_link/simulation/vehicle_motion.hpp"
 
 namespace swiftlet {
 namespace {
 
-constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kGyroCounts = 16.4;  // per degree per second
 constexpr double kGroundAboveSeaM = 50.0;
 constexpr double kVelocityVar = 2e-3;  // (m/s)^2, the filter's own estimate
@@ -278,7 +278,7 @@ constexpr LogFamily kConstant[] = {
     {"posEstAlt", kFloat, "estVZ velocityZ"},
 };
 
-std::vector<LogVariable> make_table() {
+std::vector<LogVariable> make_log_table() {
   std::vector<LogVariable> table(std::begin(kLive), std::end(kLive));
   for (const LogFamily& family : kConstant)
     for_each_member(family.members, [&](std::string_view name, double shown) {
@@ -307,7 +307,7 @@ std::size_t log_type_size(LogType type) {
 }
 
 std::span<const LogVariable> simulated_log_table() {
-  static const std::vector<LogVariable> kTable = make_table();
+  static const std::vector<LogVariable> kTable = make_log_table();
   return kTable;
 }
 

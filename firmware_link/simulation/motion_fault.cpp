@@ -19,7 +19,7 @@ struct Kind {
 };
 
 constexpr double kMaxS = 3600.0;
-constexpr std::array kKinds{
+constexpr std::array kFaultKinds{
     Kind{"silence", MotionFaultKind::kSilence, kMaxS},   Kind{"reset", MotionFaultKind::kReset, 0.0},
     Kind{"restart", MotionFaultKind::kRestart, kMaxS},   Kind{"carried", MotionFaultKind::kCarried, kMaxS},
     Kind{"teleport", MotionFaultKind::kTeleport, kMaxS}, Kind{"slip", MotionFaultKind::kSlip, kMaxS},
@@ -37,8 +37,8 @@ Result<MotionFault> parse_fault(std::string_view text) {
   const std::string whole = in_quotes(text);
   const std::string_view name = cut_off(text, '@');
   const std::string_view seconds = cut_off(text, ':');
-  const auto kind = std::ranges::find(kKinds, name, &Kind::name);
-  if (kind == kKinds.end())
+  const auto kind = std::ranges::find(kFaultKinds, name, &Kind::name);
+  if (kind == kFaultKinds.end())
     return bad_address("the fault " + whole +
                        " must be silence, reset, restart, carried, teleport, slip or jump, as in reset@60");
   const std::optional<double> after_s = number(seconds, 0.0, kMaxS);

@@ -7,7 +7,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
 constexpr double kYawPull = 0.001;  // of the way, each step
 
 }  // namespace
@@ -25,9 +24,9 @@ FlowOdometry::FlowOdometry(const FlowOdometryModel& model, std::uint64_t seed)
 
 /// The share of the motion that the flow sensor measures now.
 double FlowOdometry::seen_share() {
-  slip_left_s_ -= kStepS;
+  slip_left_s_ -= kFlightStepS;
   if (slip_left_s_ > 0.0) return slip_share_;
-  if (!slip_noise_.chance(model_.slips_per_s * kStepS)) return 1.0;
+  if (!slip_noise_.chance(model_.slips_per_s * kFlightStepS)) return 1.0;
   slip_left_s_ = slip_noise_.uniform(model_.slip_min_s, model_.slip_max_s);
   slip_share_ = slip_noise_.uniform(model_.slip_seen_min_share, model_.slip_seen_max_share);
   return slip_share_;
@@ -41,7 +40,7 @@ double FlowOdometry::floor_share(const Point2& at) const {
 }
 
 double FlowOdometry::yaw_jump_rad() {
-  if (model_.yaw_jumps_per_s == 0.0 || !jump_noise_.chance(model_.yaw_jumps_per_s * kStepS)) return 0.0;
+  if (model_.yaw_jumps_per_s == 0.0 || !jump_noise_.chance(model_.yaw_jumps_per_s * kFlightStepS)) return 0.0;
   return jump_noise_.either_sign(jump_noise_.uniform(model_.yaw_jump_min_rad, model_.yaw_jump_max_rad));
 }
 
@@ -50,7 +49,7 @@ void FlowOdometry::step(const FlightState& truth, bool has_flow) {
     vx_body_m_s_ = vy_body_m_s_ = yaw_rate_rad_s_ = 0.0;
     return;
   }
-  const double keep = std::exp(-kStepS / model_.scale_wander_time_s);
+  const double keep = std::exp(-kFlightStepS / model_.scale_wander_time_s);
   scale_error_ =
       keep * scale_error_ + flow_noise_.gaussian(model_.scale_wander * std::sqrt(1.0 - keep * keep));
   const double share = seen_share() * (scale_ + scale_error_) * floor_share(truth.T_world_body.position());
@@ -59,13 +58,13 @@ void FlowOdometry::step(const FlightState& truth, bool has_flow) {
   vy_body_m_s_ = share * truth.vy_body_m_s + flow_noise_.gaussian(model_.velocity_noise_m_s);
   if (!has_flow) vx_body_m_s_ = vy_body_m_s_ = 0.0;
   yaw_rate_rad_s_ = turn_scale_ * truth.yaw_rate_rad_s + yaw_bias_rad_s_;
-  const double turned_rad = yaw_rate_rad_s_ * kStepS +
-                            gyro_noise_.gaussian(model_.yaw_walk_rad_sqrt_s * std::sqrt(kStepS)) +
+  const double turned_rad = yaw_rate_rad_s_ * kFlightStepS +
+                            gyro_noise_.gaussian(model_.yaw_walk_rad_sqrt_s * std::sqrt(kFlightStepS)) +
                             yaw_jump_rad();
-  T_odom_body_ = T_odom_body_ * Pose2(vx_body_m_s_ * kStepS, vy_body_m_s_ * kStepS, turned_rad);
-  const double step_sigma_m = model_.velocity_noise_m_s * kStepS;
+  T_odom_body_ = T_odom_body_ * Pose2(vx_body_m_s_ * kFlightStepS, vy_body_m_s_ * kFlightStepS, turned_rad);
+  const double step_sigma_m = model_.velocity_noise_m_s * kFlightStepS;
   position_variance_m2_ += step_sigma_m * step_sigma_m;
-  yaw_variance_rad2_ += model_.yaw_walk_rad_sqrt_s * model_.yaw_walk_rad_sqrt_s * kStepS;
+  yaw_variance_rad2_ += model_.yaw_walk_rad_sqrt_s * model_.yaw_walk_rad_sqrt_s * kFlightStepS;
 }
 
 void FlowOdometry::pull_yaw(double initial_yaw_rad) {

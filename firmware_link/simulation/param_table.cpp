@@ -130,7 +130,7 @@ constexpr ParamFamily kFamilies[] = {
     {"estimator", kFloat, 0, "baroZRef"},
 };
 
-std::vector<ParamDescription> make_table() {
+std::vector<ParamDescription> make_param_table() {
   std::vector<ParamDescription> table;
   for (const ParamFamily& family : kFamilies)
     for_each_member(family.members, [&](std::string_view name, double default_value) {
@@ -163,7 +163,7 @@ std::size_t param_type_size(ParamType type) {
 }
 
 std::span<const ParamDescription> simulated_param_table() {
-  static const std::vector<ParamDescription> kTable = make_table();
+  static const std::vector<ParamDescription> kTable = make_param_table();
   return kTable;
 }
 

@@ -16,9 +16,8 @@ constexpr CrtpTopic kGenericSetpointTopic{7, 0};
 enum SetpointType : std::uint8_t { kStop = 0, kHoverLegacy = 5, kHover = 10 };
 constexpr std::size_t kHoverBytes = 2 + 4 * sizeof(float);
 
-constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
-constexpr double kClimbM = 0.25 * kStepS;  // in a step
-constexpr double kSinkM = 0.5 * kStepS;
+constexpr double kClimbM = 0.25 * kFlightStepS;  // in a step
+constexpr double kSinkM = 0.5 * kFlightStepS;
 
 double float_at(std::span<const std::uint8_t> packet, std::size_t index) {
   const std::uint64_t bits = load_little_endian(packet, 2 + 4 * index, 4);

@@ -11,7 +11,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
 constexpr double kShakeTimeS = 0.3;  // correlation
 constexpr double kGustS = 0.8;       // mean duration
 constexpr double kOnsetS = 0.2;
@@ -26,9 +25,9 @@ SimulatedTilt::SimulatedTilt(const TiltModel& model, std::uint64_t seed)
 void SimulatedTilt::step(const Tilt& by_motion) {
   if (is_level()) return;
   const double onset_s = kGustS * (1.0 - model_.gust_share) / model_.gust_share;
-  if (noise_.chance(kStepS / (is_gust_ ? kGustS : onset_s))) is_gust_ = !is_gust_;
-  sigma_rad_ += ((is_gust_ ? model_.gust_rad : model_.calm_rad) - sigma_rad_) * kStepS / kOnsetS;
-  const double keep = std::exp(-kStepS / kShakeTimeS);
+  if (noise_.chance(kFlightStepS / (is_gust_ ? kGustS : onset_s))) is_gust_ = !is_gust_;
+  sigma_rad_ += ((is_gust_ ? model_.gust_rad : model_.calm_rad) - sigma_rad_) * kFlightStepS / kOnsetS;
+  const double keep = std::exp(-kFlightStepS / kShakeTimeS);
   const double kick = std::sqrt(1.0 - keep * keep);
   shaken_.roll_rad = keep * shaken_.roll_rad + noise_.gaussian(kick);
   shaken_.pitch_rad = keep * shaken_.pitch_rad + noise_.gaussian(kick);

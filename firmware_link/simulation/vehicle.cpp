@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "firmware_link/simulation/platform.hpp"
+#include "firmware_link/simulation/vehicle_motion.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{1};
-constexpr double kGravity = 9.81;  // m/s^2
 
 constexpr double kCeilingM = 2.6;
 constexpr double kRangeDownSigmaM = 0.003;

@@ -8,12 +8,9 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kStepS = std::chrono::duration<double>(kFlightStep).count();
 constexpr double kVelocityResponseS = 0.3;   // velocity follows the command with this time constant
 constexpr double kMaxAcceleration = 1.2;     // m/s^2
 constexpr double kMaxYawAcceleration = 4.0;  // rad/s^2
-
-double limited(double value, double magnitude) { return std::clamp(value, -magnitude, magnitude); }
 
 }  // namespace
 
@@ -25,12 +22,13 @@ void VehicleMotion::step(double vx_m_s, double vy_m_s, double yaw_rate_rad_s) {
     ax /= excess;
     ay /= excess;
   }
-  vx_m_s_ += ax * kStepS;
-  vy_m_s_ += ay * kStepS;
-  state_.yaw_rate_rad_s += limited(yaw_rate_rad_s - state_.yaw_rate_rad_s, kMaxYawAcceleration * kStepS);
+  vx_m_s_ += ax * kFlightStepS;
+  vy_m_s_ += ay * kFlightStepS;
+  state_.yaw_rate_rad_s +=
+      limited(yaw_rate_rad_s - state_.yaw_rate_rad_s, kMaxYawAcceleration * kFlightStepS);
   const Pose2& was = state_.T_world_body;
-  state_.T_world_body = Pose2(was.x_m() + vx_m_s_ * kStepS, was.y_m() + vy_m_s_ * kStepS,
-                              was.yaw_rad() + state_.yaw_rate_rad_s * kStepS);
+  state_.T_world_body = Pose2(was.x_m() + vx_m_s_ * kFlightStepS, was.y_m() + vy_m_s_ * kFlightStepS,
+                              was.yaw_rad() + state_.yaw_rate_rad_s * kFlightStepS);
   const double c = state_.T_world_body.cos_yaw();
   const double s = state_.T_world_body.sin_yaw();
   state_.vx_body_m_s = c * vx_m_s_ + s * vy_m_s_;

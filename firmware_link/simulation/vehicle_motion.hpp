@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/base/time.hpp"
@@ -22,6 +23,11 @@ struct FlightState {
 
 /// Between two states of a flight.
 inline constexpr Duration kFlightStep = std::chrono::milliseconds(10);
+inline constexpr double kFlightStepS = to_seconds(kFlightStep);
+inline constexpr double kGravity = 9.81;  ///< m/s^2
+
+/// The value nearest to `value` in [-magnitude, magnitude].
+inline double limited(double value, double magnitude) { return std::clamp(value, -magnitude, magnitude); }
 
 /// How a vehicle follows its setpoints: velocities with a lag, accelerations within limits.
 class VehicleMotion {

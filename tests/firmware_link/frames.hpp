@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,12 @@ inline Bytes hex(std::string_view text) {
   for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
     bytes.push_back(static_cast<std::uint8_t>(std::stoi(digits.substr(i, 2), nullptr, 16)));
   return bytes;
+}
+
+inline std::string as_text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+/// None of no packet.
+inline Bytes packet_bytes(const std::optional<CrtpPacket>& packet) {
+  return packet ? Bytes(packet->begin(), packet->end()) : Bytes{};
 }
 
 inline LinkFrame sent(const Bytes& packet, HostTime at = {}) {

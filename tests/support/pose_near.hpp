@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/geometry/pose2.hpp"
 
@@ -18,6 +22,14 @@ inline testing::AssertionResult poses_near(const Pose2& actual, const Pose2& exp
   if (off_m <= tolerance_m && off_rad <= tolerance_rad) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "(" << actual.vector().transpose() << ") lies " << off_m << " m and "
                                      << off_rad << " rad from (" << expected.vector().transpose() << ")";
+}
+
+inline bool same_bits(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (std::bit_cast<std::uint64_t>(a[i].vector()[k]) != std::bit_cast<std::uint64_t>(b[i].vector()[k]))
+        return false;
+  return a.size() == b.size();
 }
 
 }  // namespace swiftlet

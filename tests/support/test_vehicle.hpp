@@ -53,4 +53,12 @@ class TestVehicle {
   std::vector<Pose2> T_world_body_;
 };
 
+/// Truth, with the first pose as origin as in dead reckoning.
+inline std::vector<Pose2> true_poses(const TestVehicle& vehicle) {
+  std::vector<Pose2> T_map_body;
+  for (const Pose2& T_world_body : vehicle.T_world_body())
+    T_map_body.push_back(between(vehicle.T_world_body()[0], T_world_body));
+  return T_map_body;
+}
+
 }  // namespace swiftlet

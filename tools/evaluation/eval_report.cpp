@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kNamedStamps = 3;
 
 /// Stamps are exact to the microsecond: so they come out with no digits of the binary number.
-double seconds_of(HostTime stamp) {
+double rounded_seconds_of(HostTime stamp) {
   const auto us = std::chrono::round<std::chrono::microseconds>(stamp.time_since_epoch());
   return static_cast<double>(us.count()) / 1e6;
 }
@@ -27,7 +27,7 @@ std::size_t relations_in(const RelationError& error) { return error.all.count + 
 std::string named(const std::vector<HostTime>& stamps) {
   std::string text;
   for (std::size_t i = 0; i < std::min(stamps.size(), kNamedStamps); ++i)
-    text += fmt::format("{}{:.6f}", i == 0 ? "" : " ", seconds_of(stamps[i]));
+    text += fmt::format("{}{:.6f}", i == 0 ? "" : " ", rounded_seconds_of(stamps[i]));
   if (stamps.size() > kNamedStamps) text += fmt::format(" and {} more", stamps.size() - kNamedStamps);
   return text;
 }
@@ -111,7 +111,7 @@ std::string warning_of(const ReferenceResult& reference) {
 
 Json json_of(const std::vector<HostTime>& stamps) {
   Json json = Json::array();
-  for (const HostTime stamp : stamps) json.push_back(seconds_of(stamp));
+  for (const HostTime stamp : stamps) json.push_back(rounded_seconds_of(stamp));
   return json;
 }
 
@@ -190,8 +190,8 @@ std::string evaluation_json(const Evaluation& evaluation) {
   Json json{{"trajectory",
              {{"file", evaluation.trajectory_file},
               {"poses", evaluation.poses},
-              {"first_stamp_s", seconds_of(evaluation.first_stamp)},
-              {"last_stamp_s", seconds_of(evaluation.last_stamp)}}},
+              {"first_stamp_s", rounded_seconds_of(evaluation.first_stamp)},
+              {"last_stamp_s", rounded_seconds_of(evaluation.last_stamp)}}},
             {"references", Json::array()}};
   for (const ReferenceResult& reference : evaluation.references) {
     Json entry{{"file", reference.file}};

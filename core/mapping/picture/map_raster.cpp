@@ -77,14 +77,15 @@ void draw_mark(RgbImage& image, const PixelPoint& centre, double radius_px, cons
 
 /// Named to either side, the end on a smaller disc: both can be read where a run ends at its start.
 void draw_marks(RgbImage& image, const PixelPoint& start, const PixelPoint& end) {
-  constexpr double kTextPx = 14.0;
+  constexpr double kPlaceTextPx = 14.0;
   constexpr double kToText = 1.5 * map_style::kStartRadiusPx;
   draw_mark(image, start, map_style::kStartRadiusPx, map_style::time_colour(0.0));
   draw_mark(image, end, map_style::kEndRadiusPx, map_style::time_colour(1.0));
-  draw_text_with_halo(image, {start.x + kToText, start.y + kTextPx / 2.0}, kTextPx, "start", map_style::kInk,
-                      map_style::kPaper);
-  draw_text_with_halo(image, {end.x - kToText - text_width_px(kTextPx, "end"), end.y + kTextPx / 2.0},
-                      kTextPx, "end", map_style::kInk, map_style::kPaper);
+  draw_text_with_halo(image, {start.x + kToText, start.y + kPlaceTextPx / 2.0}, kPlaceTextPx, "start",
+                      map_style::kInk, map_style::kPaper);
+  draw_text_with_halo(image,
+                      {end.x - kToText - text_width_px(kPlaceTextPx, "end"), end.y + kPlaceTextPx / 2.0},
+                      kPlaceTextPx, "end", map_style::kInk, map_style::kPaper);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 
-HostTime at_s(double seconds) { return HostTime(from_seconds(seconds)); }
+HostTime at_s(double since_epoch_s) { return HostTime(from_seconds(since_epoch_s)); }
 
 /// Straight on, a metre a second, with a start that is turned against the map.
 std::vector<StampedPose> true_path(int metres) {
@@ -61,18 +61,18 @@ TEST(Consistency, HasNoRowBeyondTheEndOfTheRun) {
 }
 
 /// A pose each second; `doubted`: in these seconds the program doubts it.
-std::vector<DoubtedPose> poses_with_doubt(int seconds, int from, int to) {
+std::vector<DoubtedPose> poses_with_doubt(int duration_s, int from, int to) {
   std::vector<DoubtedPose> poses;
-  for (int i = 0; i <= seconds; ++i) {
+  for (int i = 0; i <= duration_s; ++i) {
     poses.push_back(pose_at(i, Eigen::Vector3d::Zero(), {}));
     poses.back().is_tracked = i < from || i >= to;
   }
   return poses;
 }
 
-std::vector<StampedError> errors_with_fault(int seconds, int from, int to, double error_m) {
+std::vector<StampedError> errors_with_fault(int duration_s, int from, int to, double error_m) {
   std::vector<StampedError> errors;
-  for (int i = 0; i <= seconds; ++i) errors.push_back({at_s(i), i >= from && i < to ? error_m : 0.1});
+  for (int i = 0; i <= duration_s; ++i) errors.push_back({at_s(i), i >= from && i < to ? error_m : 0.1});
   return errors;
 }
 

@@ -9,7 +9,7 @@
 namespace swiftlet {
 namespace {
 
-HostTime at(int second) { return HostTime(std::chrono::seconds(second)); }
+HostTime at_second(int second) { return HostTime(std::chrono::seconds(second)); }
 
 /// Out along x at 1 m/s to 30 m, and back, a keyframe a metre. The map is moved and turned; on the way back
 /// the pose is off by `off_m` to the left of the way out.
@@ -19,8 +19,9 @@ struct OutAndBack {
       const double x_m = second <= 30 ? second : 60 - second;
       const Pose2 T_world_body(x_m, 0.0, second <= 30 ? 0.0 : kPi);
       const Pose2 T_map_body = T_map_world * Pose2(x_m, second <= 30 ? 0.0 : off_m, T_world_body.yaw_rad());
-      moments.push_back({at(second), double(second), T_map_body, T_map_body, T_world_body, Point2{0.0, 1.0}});
-      keyframes.push_back({double(second), {{at(second), T_map_body}}, {}, T_world_body});
+      moments.push_back(
+          {at_second(second), double(second), T_map_body, T_map_body, T_world_body, Point2{0.0, 1.0}});
+      keyframes.push_back({double(second), {{at_second(second), T_map_body}}, {}, T_world_body});
     }
   }
   [[nodiscard]] KnownPlaceError error() const { return known_place_error(moments, keyframes); }
@@ -57,7 +58,7 @@ TEST(KnownPlaceError, HoldsThePoseAgainstTheMapOfThatMoment) {
   for (PublishedKeyframe& keyframe : run.keyframes)  // at 50 s the older map is moved to the pose
     if (keyframe.path_m <= 30.0)
       keyframe.T_map_body.push_back(
-          {at(50), run.T_map_world * Pose2(keyframe.path_m, 0.5, keyframe.T_world_body.yaw_rad())});
+          {at_second(50), run.T_map_world * Pose2(keyframe.path_m, 0.5, keyframe.T_world_body.yaw_rad())});
   const KnownPlaceError error = run.error();
   EXPECT_NEAR(error.max_m, 0.5, 1e-9);
   EXPECT_NEAR(error.share_off, 12.0 / 22.0, 1e-9) << "what is published at 50 s holds from then on";
@@ -66,7 +67,7 @@ TEST(KnownPlaceError, HoldsThePoseAgainstTheMapOfThatMoment) {
 
 TEST(KnownPlaceError, LeavesOutWhatTheMapHasLost) {
   OutAndBack run(0.5);
-  for (PublishedKeyframe& keyframe : run.keyframes) keyframe.erased = at(45);
+  for (PublishedKeyframe& keyframe : run.keyframes) keyframe.erased = at_second(45);
   EXPECT_EQ(run.error().moments, 7U) << "39 to 45 s";
 }
 

@@ -14,12 +14,12 @@ namespace {
 using std::chrono::milliseconds;
 using testing::ElementsAre;
 
-HostTime at(int ms) { return HostTime(milliseconds(ms)); }
+HostTime at_ms(int ms) { return HostTime(milliseconds(ms)); }
 
 /// Front, left, back, right; all hits.
 RangeSample sample(int ms, const std::array<float, 4>& distance_m) {
   RangeSample made;
-  made.stamp = at(ms);
+  made.stamp = at_ms(ms);
   made.beam_count = 4;
   for (std::size_t i = 0; i < 4; ++i) {
     made.distance_m[i] = distance_m[i];
@@ -52,7 +52,7 @@ TEST(MapSharpness, LeavesOutWhatIsNoReturnOrTooCloseOrTooFar) {
 
 TEST(FlightSharpness, DrawsEachSampleFromThePathAtItsStamp) {
   // A path of 1 m/s along x: front returns of a wall at x = 2.05.
-  const StampedPath path({{at(0), Pose2(0.55, 0.05, 0.0)}, {at(1000), Pose2(1.55, 0.05, 0.0)}});
+  const StampedPath path({{at_ms(0), Pose2(0.55, 0.05, 0.0)}, {at_ms(1000), Pose2(1.55, 0.05, 0.0)}});
   const std::vector<RangeSample> samples{sample(0, {1.5F, 0.0F, 0.0F, 0.0F}),
                                          sample(500, {1.0F, 0.0F, 0.0F, 0.0F}),
                                          sample(1000, {0.5F, 0.0F, 0.0F, 0.0F})};
@@ -64,13 +64,13 @@ TEST(FlightSharpness, DrawsEachSampleFromThePathAtItsStamp) {
 }
 
 TEST(FlightSharpness, NamesTheSamplesThatLieOutsideThePath) {
-  const StampedPath path({{at(100), Pose2()}, {at(200), Pose2()}});
+  const StampedPath path({{at_ms(100), Pose2()}, {at_ms(200), Pose2()}});
   std::vector<RangeSample> samples;
   for (const int ms : {39, 40, 100, 260, 261}) samples.push_back(sample(ms, {1.0F, 1.0F, 1.0F, 1.0F}));
   const FlightSharpness flight = flight_sharpness(samples, path, BeamLayout::multiranger());
   EXPECT_EQ(flight.drawn, 3U);
   EXPECT_EQ(flight.map.returns, 12U);
-  EXPECT_THAT(flight.outside, ElementsAre(at(39), at(261)));
+  EXPECT_THAT(flight.outside, ElementsAre(at_ms(39), at_ms(261)));
   EXPECT_EQ(flight_sharpness(samples, StampedPath({}), BeamLayout::multiranger()).outside.size(), 5U);
 }
 

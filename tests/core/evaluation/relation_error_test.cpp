@@ -16,23 +16,22 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::ElementsAre;
 
-HostTime at(Duration since_epoch) { return HostTime(since_epoch); }
-
 /// One pose a second, one metre further along x each.
 StampedPath straight_path(int last_second) {
   std::vector<StampedPose> poses;
-  for (int i = 0; i <= last_second; ++i) poses.push_back({at(seconds(i)), Pose2(i, 0.0, 0.0)});
+  for (int i = 0; i <= last_second; ++i) poses.push_back({HostTime(seconds(i)), Pose2(i, 0.0, 0.0)});
   return StampedPath(std::move(poses));
 }
 
 /// True motion along the straight path, wrong by so much.
 Relation relation(int first, int second, double wrong_m, double wrong_deg) {
-  return {at(seconds(first)), at(seconds(second)), Pose2(second - first, wrong_m, radians(wrong_deg))};
+  return {HostTime(seconds(first)), HostTime(seconds(second)),
+          Pose2(second - first, wrong_m, radians(wrong_deg))};
 }
 
 TEST(RelationError, IsMeanDeviationAndMaximumWhateverTheMapsFrame) {
   // Estimated: 1 m ahead, a quarter turn, 1 m ahead. True: each of the steps differs but the last.
-  const std::vector<HostTime> stamps{at(seconds(1)), at(seconds(2)), at(seconds(3))};
+  const std::vector<HostTime> stamps{HostTime(seconds(1)), HostTime(seconds(2)), HostTime(seconds(3))};
   const std::vector<Relation> relations{{stamps[0], stamps[1], Pose2(1.3, 0.4, kPi / 2.0)},
                                         {stamps[1], stamps[2], Pose2(1.0, 0.0, radians(-3.0))},
                                         {stamps[2], stamps[0], Pose2(-1.0, 1.0, -kPi / 2.0)}};
@@ -78,19 +77,19 @@ TEST(RelationError, NamesEachStampWithoutPoseOnceAndLeavesItsRelationsOut) {
   EXPECT_NEAR(error.all.translation_m.max, 0.1, 1e-9);
   EXPECT_EQ(error.missed, 3U);
   EXPECT_EQ(error.stamps.exact, 3U);
-  EXPECT_THAT(error.stamps.unmatched, ElementsAre(at(seconds(7)), at(seconds(9))));
+  EXPECT_THAT(error.stamps.unmatched, ElementsAre(HostTime(seconds(7)), HostTime(seconds(9))));
 }
 
 TEST(RelationError, TakesThePoseStampedNearest) {
-  const StampedPath path({{at(seconds(1)), Pose2()},
-                          {at(seconds(1) + milliseconds(2)), Pose2(1.0, 0.0, 0.0)},
-                          {at(seconds(2)), Pose2(2.0, 0.0, 0.0)}});
+  const StampedPath path({{HostTime(seconds(1)), Pose2()},
+                          {HostTime(seconds(1) + milliseconds(2)), Pose2(1.0, 0.0, 0.0)},
+                          {HostTime(seconds(2)), Pose2(2.0, 0.0, 0.0)}});
   const auto mean_from = [&](HostTime first) {
-    const std::vector<Relation> one{{first, at(seconds(2)), Pose2(1.0, 0.0, 0.0)}};
+    const std::vector<Relation> one{{first, HostTime(seconds(2)), Pose2(1.0, 0.0, 0.0)}};
     return relation_error(one, path).all.translation_m.mean;
   };
-  EXPECT_EQ(mean_from(at(seconds(1) + microseconds(1'400))), 0.0);
-  EXPECT_EQ(mean_from(at(seconds(1) + microseconds(600))), 1.0);
+  EXPECT_EQ(mean_from(HostTime(seconds(1) + microseconds(1'400))), 0.0);
+  EXPECT_EQ(mean_from(HostTime(seconds(1) + microseconds(600))), 1.0);
 }
 
 TEST(RelationError, OfAPathWithoutPosesMissesAll) {

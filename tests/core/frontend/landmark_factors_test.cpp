@@ -15,7 +15,7 @@ namespace {
 using test::numeric_jacobian;
 using test::pose_of;
 
-constexpr int kDraws = 1000;
+constexpr int kFactorDraws = 1000;
 
 Pose2 nearly(const Pose2& pose, test::RandomGeometry& random) {
   return pose * Pose2(random.normal(0.1), random.normal(0.1), random.normal(0.1));
@@ -23,7 +23,7 @@ Pose2 nearly(const Pose2& pose, test::RandomGeometry& random) {
 
 TEST(MotionResidual, IsNoneWhenThePosesAreWhereTheMotionLeads) {
   test::RandomGeometry random(1);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kFactorDraws; ++i) {
     const Pose2 from = random.pose();
     const Pose2 motion = random.pose();
     EXPECT_LT(motion_residual(motion, from, from * motion).error.norm(), 1e-12);
@@ -32,7 +32,7 @@ TEST(MotionResidual, IsNoneWhenThePosesAreWhereTheMotionLeads) {
 
 TEST(MotionResidual, JacobiansAgreeWithCentralDifferences) {
   test::RandomGeometry random(2);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kFactorDraws; ++i) {
     const Pose2 from = random.pose();
     const Pose2 motion = random.pose();
     const Pose2 to = nearly(from * motion, random);
@@ -60,7 +60,7 @@ TEST(MotionInformation, WeighsAnErrorAsTheCovarianceOfTheMotionDoes) {
 
 TEST(LineError, IsNoneForTheLineAsSeenFromThePose) {
   test::RandomGeometry random(3);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kFactorDraws; ++i) {
     const Pose2 pose = random.pose();
     const Line2 line = random.line();
     EXPECT_LT(line_error(transform_line(pose.inverse(), line).line_b, pose, line).error.norm(), 1e-11);
@@ -69,7 +69,7 @@ TEST(LineError, IsNoneForTheLineAsSeenFromThePose) {
 
 TEST(LineError, JacobiansAgreeWithCentralDifferences) {
   test::RandomGeometry random(4);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kFactorDraws; ++i) {
     const Pose2 pose = random.pose();
     const Line2 line{random.uniform(-5.0, 5.0), random.uniform(-kPi, kPi)};
     const Line2 seen = transform_line(nearly(pose, random).inverse(), line).line_b;

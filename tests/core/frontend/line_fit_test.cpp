@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kDraws = 200;
+constexpr int kFitDraws = 200;
 
 std::vector<Point2> noisy_points(const Line2& line, double sigma_m, test::RandomGeometry& random) {
   std::vector<Point2> points;
@@ -31,7 +31,7 @@ LineFit fit_of(const std::vector<Point2>& points) {
 
 TEST(LineFit, GoesThroughPointsThatLieOnALine) {
   test::RandomGeometry random(1);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kFitDraws; ++i) {
     const Line2 line = random.line();
     const LineFit fit = fit_of(noisy_points(line, 0.0, random));
     EXPECT_NEAR(fit.line().rho_m, line.rho_m, 1e-9);
@@ -42,7 +42,7 @@ TEST(LineFit, GoesThroughPointsThatLieOnALine) {
 
 TEST(LineFit, MinimisesTheSquaredDistances) {
   test::RandomGeometry random(2);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kFitDraws; ++i) {
     const std::vector<Point2> points = noisy_points(random.line(), 0.05, random);
     const auto sum_of_squares = [&](const Line2& line) {
       double sum = 0.0;
@@ -72,7 +72,7 @@ TEST(LineFit, OfTwoSetsIsTheFitOfTheirUnion) {
 TEST(LineFit, JacobianAgreesWithCentralDifferences) {
   test::RandomGeometry random(4);
   int checked = 0;
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < kFitDraws; ++draw) {
     std::vector<Point2> points = noisy_points(random.line(), 0.05, random);
     const Line2 line = fit_of(points).line();
     if (std::abs(line.alpha_rad) > 3.1 || line.rho_m < 0.01) continue;  // seams
@@ -88,7 +88,7 @@ TEST(LineFit, JacobianAgreesWithCentralDifferences) {
     points[k] = at;
     EXPECT_TRUE(fit_of(points).jacobian(line, at).isApprox(expected, 1e-6));
   }
-  EXPECT_GT(checked, kDraws / 2);
+  EXPECT_GT(checked, kFitDraws / 2);
 }
 
 }  // namespace

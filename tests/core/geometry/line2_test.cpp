@@ -13,7 +13,7 @@ namespace {
 using test::numeric_jacobian;
 using test::pose_of;
 
-constexpr int kDraws = 1000;
+constexpr int kLineDraws = 1000;
 
 TEST(Line2, FootIsThePointNearestToTheOrigin) {
   const Line2 line{2.0, kPi / 2.0};
@@ -23,7 +23,7 @@ TEST(Line2, FootIsThePointNearestToTheOrigin) {
 
 TEST(Line2, PlacesPointsAlongItselfAsItMeasuresThem) {
   test::RandomGeometry random(1);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kLineDraws; ++i) {
     const Line2 line = random.line();
     const double t_m = random.uniform(-5.0, 5.0);
     const Point2 p = line.point_at(t_m);
@@ -34,7 +34,7 @@ TEST(Line2, PlacesPointsAlongItselfAsItMeasuresThem) {
 
 TEST(Line2, NormalizingKeepsTheLine) {
   test::RandomGeometry random(2);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kLineDraws; ++i) {
     const Line2 line{random.uniform(-5.0, 5.0), random.uniform(-10.0, 10.0)};
     const Line2 normal = line.normalized();
     EXPECT_GE(normal.rho_m, 0.0);
@@ -45,7 +45,7 @@ TEST(Line2, NormalizingKeepsTheLine) {
 
 TEST(TransformLine, MovesTheLineWithItsPoints) {
   test::RandomGeometry random(3);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kLineDraws; ++i) {
     const Pose2 T_b_a = random.pose();
     const Line2 line_a = random.line();
     const TransformedLine moved = transform_line(T_b_a, line_a);
@@ -58,7 +58,7 @@ TEST(TransformLine, MovesTheLineWithItsPoints) {
 TEST(TransformLine, JacobiansAgreeWithCentralDifferencesOnBothSidesOfTheFlip) {
   test::RandomGeometry random(4);
   int flipped = 0;
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kLineDraws; ++i) {
     const Pose2 T_b_a = random.pose();
     const Line2 line_a = random.line();
     const TransformedLine moved = transform_line(T_b_a, line_a);
@@ -74,7 +74,7 @@ TEST(TransformLine, JacobiansAgreeWithCentralDifferencesOnBothSidesOfTheFlip) {
     EXPECT_TRUE(moved.J_pose.isApprox(numeric_jacobian<2, 3>(of_pose, T_b_a.vector()), 1e-7));
     EXPECT_TRUE(moved.J_line.isApprox(numeric_jacobian<2, 2>(of_line, vector_of(line_a)), 1e-7));
   }
-  EXPECT_GT(flipped, kDraws / 10);
+  EXPECT_GT(flipped, kLineDraws / 10);
 }
 
 }  // namespace

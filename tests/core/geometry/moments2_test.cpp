@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kDraws = 200;
+constexpr int kMomentsDraws = 200;
 
 struct Weighted {
   Point2 p;
@@ -34,7 +34,7 @@ Moments2 moments_of(const std::vector<Weighted>& points) {
 
 TEST(Moments2, ScatterAgreesWithTheWeightedCovariance) {
   std::mt19937 random(1);
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < kMomentsDraws; ++draw) {
     const std::vector<Weighted> points = drawn(random);
     double weight = 0.0;
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();

@@ -13,7 +13,7 @@ namespace {
 using test::numeric_jacobian;
 using test::pose_of;
 
-constexpr int kDraws = 1000;
+constexpr int kPoseDraws = 1000;
 
 void expect_near(const Pose2& a, const Pose2& b) {
   EXPECT_NEAR(a.x_m(), b.x_m(), 1e-12);
@@ -29,7 +29,7 @@ TEST(Pose2, TurnsCounterClockwiseThenMoves) {
 
 TEST(Pose2, IsAGroup) {
   test::RandomGeometry random(1);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kPoseDraws; ++i) {
     const Pose2 a = random.pose();
     const Pose2 b = random.pose();
     const Pose2 c = random.pose();
@@ -43,7 +43,7 @@ TEST(Pose2, IsAGroup) {
 
 TEST(Pose2, ActsOnPointsAsTheGroupComposes) {
   test::RandomGeometry random(2);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kPoseDraws; ++i) {
     const Pose2 a = random.pose();
     const Pose2 b = random.pose();
     const Point2 p = random.point();
@@ -56,7 +56,7 @@ TEST(Pose2, ActsOnPointsAsTheGroupComposes) {
 
 TEST(Pose2, BetweenLeadsFromTheFirstToTheSecond) {
   test::RandomGeometry random(3);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kPoseDraws; ++i) {
     const Pose2 a = random.pose();
     const Pose2 b = random.pose();
     expect_near(a * between(a, b), b);
@@ -65,7 +65,7 @@ TEST(Pose2, BetweenLeadsFromTheFirstToTheSecond) {
 
 TEST(Pose2, JacobiansAgreeWithCentralDifferences) {
   test::RandomGeometry random(4);
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kPoseDraws; ++i) {
     const Pose2 a = random.pose();
     Pose2 b = random.pose();
     // Away from the seam of the angle, where differences of wrapped values mean nothing.

@@ -13,8 +13,8 @@ namespace swiftlet {
 namespace {
 
 /// A backend worker behind a queue that the test fills from a frontend.
-struct Bench {
-  Bench()
+struct BackendBench {
+  BackendBench()
       : worker(backend, map, clock, queues->steps.consumer(), queues->correction,
                queues->to_publisher.backend_outlet(), times) {}
 
@@ -38,12 +38,12 @@ struct Bench {
 };
 
 TEST(BackendWorker, IsIdleWhileNothingComes) {
-  Bench bench;
+  BackendBench bench;
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
 }
 
 TEST(BackendWorker, DrawsAtKeyframesAndHandsOnTheTiles) {
-  Bench bench;
+  BackendBench bench;
   for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) {
     bench.push(sample);
     ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
@@ -55,7 +55,7 @@ TEST(BackendWorker, DrawsAtKeyframesAndHandsOnTheTiles) {
 }
 
 TEST(BackendWorker, RunsTheFinalPassOnceAndFinishesWhenAllIsHandedOn) {
-  Bench bench;
+  BackendBench bench;
   for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) bench.push(sample);
   bench.queues->steps.producer().close();
   StepResult result = StepResult::kProgress;
@@ -73,8 +73,8 @@ TEST(BackendWorker, RunsTheFinalPassOnceAndFinishesWhenAllIsHandedOn) {
 }
 
 TEST(BackendWorker, WithoutAPublisherDrawsTheSameMapOnceAtTheEnd) {
-  Bench published;
-  Bench unpublished;
+  BackendBench published;
+  BackendBench unpublished;
   BackendWorker alone(unpublished.backend, unpublished.map, unpublished.clock,
                       unpublished.queues->steps.consumer(), unpublished.queues->correction, std::nullopt,
                       unpublished.times);

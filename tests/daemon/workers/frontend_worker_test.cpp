@@ -13,8 +13,8 @@ namespace swiftlet {
 namespace {
 
 /// A frontend worker between queues that the test fills and empties.
-struct Bench {
-  Bench()
+struct FrontendBench {
+  FrontendBench()
       : worker(frontend, clock, queues->samples.consumer(), queues->steps.producer(), queues->correction,
                queues->to_publisher.frontend_outlet(),
                BeamReadings::of(BeamLayout::multiranger(), SensorModel::crazyflie()), times) {}
@@ -36,7 +36,7 @@ struct Bench {
 };
 
 TEST(FrontendWorker, IsIdleUntilASampleComesAndFinishedAfterTheLast) {
-  Bench bench;
+  FrontendBench bench;
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   bench.push(resting_samples(1).front());
   bench.queues->samples.producer().close();
@@ -47,7 +47,7 @@ TEST(FrontendWorker, IsIdleUntilASampleComesAndFinishedAfterTheLast) {
 }
 
 TEST(FrontendWorker, HandsItsAnswerToTheBackend) {
-  Bench bench;
+  FrontendBench bench;
   bench.push(flight_in_square_room(1, 3.0, 1.0).front());
   ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
   FrontendStep step;
@@ -57,7 +57,7 @@ TEST(FrontendWorker, HandsItsAnswerToTheBackend) {
 }
 
 TEST(FrontendWorker, WaitsForRoomSoThatNoKeyframeIsEverMissing) {
-  Bench bench;
+  FrontendBench bench;
   const auto filler = std::make_unique<FrontendStep>();
   while (bench.queues->steps.producer().has_room())
     ASSERT_TRUE(bench.queues->steps.producer().try_push(*filler));
@@ -70,7 +70,7 @@ TEST(FrontendWorker, WaitsForRoomSoThatNoKeyframeIsEverMissing) {
 }
 
 TEST(FrontendWorker, ThePoseKnowsWhenItsSampleArrived) {
-  Bench bench;
+  FrontendBench bench;
   bench.push(resting_samples(1).front(), MonotonicTime(std::chrono::seconds(7)));
   ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.pop_pose().arrived_at, MonotonicTime(std::chrono::seconds(7)));
@@ -93,7 +93,7 @@ TEST(FrontendWorker, ThePoseCarriesTheBeamsThatWereMeasuredThere) {
 }
 
 TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {
-  Bench bench;
+  FrontendBench bench;
   const std::vector<RangeSample> flight = flight_in_square_room(2, 3.0, 1.0);
   bench.push(flight[0]);
   static_cast<void>(bench.worker.step());
@@ -119,7 +119,7 @@ TEST(FrontendWorker, AppliesTheNewestCorrectionToThePoseItPublishes) {
 }
 
 TEST(FrontendWorker, CarriesTheNewestConfidenceOnToThePoseItPublishes) {
-  Bench bench;
+  FrontendBench bench;
   const std::vector<RangeSample> flight = flight_in_square_room(2, 3.0, 1.0);
   bench.push(flight[0]);
   static_cast<void>(bench.worker.step());
@@ -138,7 +138,7 @@ TEST(FrontendWorker, CarriesTheNewestConfidenceOnToThePoseItPublishes) {
 }
 
 TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {
-  Bench bench;
+  FrontendBench bench;
   std::vector<RangeSample> samples = resting_samples(3);
   samples[2].starts_segment = true;
   for (const RangeSample& sample : samples) {
@@ -151,7 +151,7 @@ TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {
 }
 
 TEST(FrontendWorker, GoesOnWhenThePublisherTakesNoPoses) {
-  Bench bench;
+  FrontendBench bench;
   const std::vector<RangeSample> samples = resting_samples(PoseQueue::capacity() + 1);
   const auto handed_on = std::make_unique<FrontendStep>();
   for (const RangeSample& sample : samples) {

@@ -18,8 +18,8 @@ namespace {
 constexpr std::uint32_t kSamples = 600;
 
 /// A backend and a map that know a flight around a square room, and the publisher's queues.
-struct Bench {
-  explicit Bench(double resolution_m)
+struct MapFeedBench {
+  explicit MapFeedBench(double resolution_m)
       : map(
             [resolution_m] {
               MapConfig config;
@@ -55,7 +55,7 @@ struct Bench {
 };
 
 TEST(MapFeed, HandsOverEveryChangedTileOnce) {
-  Bench bench(0.1);
+  MapFeedBench bench(0.1);
   EXPECT_FALSE(bench.feed.is_empty());
   bench.feed.flush(bench.backend, bench.map);
   EXPECT_TRUE(bench.feed.is_empty());
@@ -65,7 +65,7 @@ TEST(MapFeed, HandsOverEveryChangedTileOnce) {
 }
 
 TEST(MapFeed, HandsOverTheConfidenceOfEachKeyframe) {
-  Bench bench(0.1);
+  MapFeedBench bench(0.1);
   bench.feed.hand_on_confidence(bench.backend, true);
   PoseConfidence confidence;
   ASSERT_TRUE(bench.queues->confidence.load_if_new(confidence));
@@ -80,7 +80,7 @@ TEST(MapFeed, HandsOverTheConfidenceOfEachKeyframe) {
 }
 
 TEST(MapFeed, KeepsTheTilesThatTheQueueHasNoRoomForAndOffersThemAgain) {
-  Bench bench(0.01);
+  MapFeedBench bench(0.01);
   const std::vector<TileIndex> all = bench.map.tiles();
   ASSERT_GT(all.size(), TileQueue::capacity());
   bench.feed.flush(bench.backend, bench.map);
@@ -98,7 +98,7 @@ TEST(MapFeed, KeepsTheTilesThatTheQueueHasNoRoomForAndOffersThemAgain) {
 }
 
 TEST(MapFeed, SendsEachWallAtItsPlaceInTheMapAndAgainOnlyWhenItMoved) {
-  Bench bench(0.1);
+  MapFeedBench bench(0.1);
   bench.feed.flush(bench.backend, bench.map);
   const std::vector<WallInMap> walls = bench.take_walls();
   ASSERT_EQ(walls.size(), bench.backend.walls().size());
@@ -148,7 +148,7 @@ TEST(MapFeed, TakesBackTheWallsThatGoWithWhatIsPrunedAndSendsNoClosureTwice) {
 }
 
 TEST(MapFeed, HandsOverTheCountersWithEachFlush) {
-  Bench bench(0.1);
+  MapFeedBench bench(0.1);
   bench.feed.flush(bench.backend, bench.map);
   BackendCounters counters;
   ASSERT_TRUE(bench.queues->backend.load_if_new(counters));
@@ -156,7 +156,7 @@ TEST(MapFeed, HandsOverTheCountersWithEachFlush) {
 }
 
 TEST(MapFeed, SaysWhenNothingMoreWillCome) {
-  Bench bench(0.1);
+  MapFeedBench bench(0.1);
   EXPECT_FALSE(bench.queues->tiles.consumer().closed());
   bench.feed.close();
   EXPECT_TRUE(bench.queues->tiles.consumer().closed());

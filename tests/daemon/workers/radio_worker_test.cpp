@@ -15,9 +15,9 @@ namespace {
 using std::chrono::milliseconds;
 
 /// A radio worker in front of a queue that the test empties.
-struct Bench {
-  explicit Bench(std::vector<RangeSample> samples, const InputPolicy& policy = {},
-                 Error end = {ErrorCode::kEndOfRecording, ""})
+struct RadioBench {
+  explicit RadioBench(std::vector<RangeSample> samples, const InputPolicy& policy = {},
+                      Error end = {ErrorCode::kEndOfRecording, ""})
       : source(std::move(samples), std::move(end)),
         worker(source, clock, policy, queue->producer(), InputOutlet{status, events->producer()}, times) {}
 
@@ -44,7 +44,7 @@ struct Bench {
 };
 
 TEST(RadioWorker, HandsOnEachSampleAndClosesTheQueueAtTheEnd) {
-  Bench bench(resting_samples(2));
+  RadioBench bench(resting_samples(2));
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_FALSE(bench.queue->consumer().closed());
@@ -59,7 +59,7 @@ TEST(RadioWorker, HandsOnEachSampleAndClosesTheQueueAtTheEnd) {
 }
 
 TEST(RadioWorker, HoldsASampleBackUntilItIsDue) {
-  Bench bench(resting_samples(2), {.rate = 10.0});
+  RadioBench bench(resting_samples(2), {.rate = 10.0});
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   EXPECT_EQ(bench.worker.due(), bench.clock.now() + milliseconds(10));
@@ -70,7 +70,7 @@ TEST(RadioWorker, HoldsASampleBackUntilItIsDue) {
 }
 
 TEST(RadioWorker, ARecordedSampleArrivesWhenItIsDue) {
-  Bench bench(resting_samples(2), {.rate = 10.0});
+  RadioBench bench(resting_samples(2), {.rate = 10.0});
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   bench.clock.advance(milliseconds(10));
@@ -82,7 +82,7 @@ TEST(RadioWorker, ARecordedSampleArrivesWhenItIsDue) {
 }
 
 TEST(RadioWorker, ALiveSampleArrivesWithItsFrame) {
-  Bench bench(resting_samples(1));
+  RadioBench bench(resting_samples(1));
   bench.source.arrived_at = MonotonicTime(milliseconds(47));
   bench.clock.advance(milliseconds(50));
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
@@ -91,7 +91,7 @@ TEST(RadioWorker, ALiveSampleArrivesWithItsFrame) {
 }
 
 TEST(RadioWorker, ARecordingWaitsWhileTheQueueIsFull) {
-  Bench bench(resting_samples(SampleQueue::capacity() + 1));
+  RadioBench bench(resting_samples(SampleQueue::capacity() + 1));
   for (std::size_t i = 0; i < SampleQueue::capacity(); ++i)
     ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.worker.step(), StepResult::kBlocked);
@@ -101,7 +101,7 @@ TEST(RadioWorker, ARecordingWaitsWhileTheQueueIsFull) {
 }
 
 TEST(RadioWorker, ALiveLinkRefusesTheNewestWhileTheQueueIsFull) {
-  Bench bench(resting_samples(SampleQueue::capacity() + 3), {.refuses_when_full = true});
+  RadioBench bench(resting_samples(SampleQueue::capacity() + 3), {.refuses_when_full = true});
   for (std::size_t i = 0; i < SampleQueue::capacity() + 2; ++i)
     ASSERT_EQ(bench.worker.step(), StepResult::kProgress);
   EXPECT_EQ(bench.queue->rejected_count(), 2U);
@@ -113,7 +113,7 @@ TEST(RadioWorker, ALiveLinkRefusesTheNewestWhileTheQueueIsFull) {
 TEST(RadioWorker, ABreakInTheDeadReckoningOutlivesTheRefusedSampleThatBeganIt) {
   std::vector<RangeSample> samples = resting_samples(SampleQueue::capacity() + 4);
   samples[SampleQueue::capacity()].starts_segment = true;  // will be refused, as the one after it
-  Bench bench(std::move(samples), {.refuses_when_full = true});
+  RadioBench bench(std::move(samples), {.refuses_when_full = true});
   for (std::size_t i = 0; i < SampleQueue::capacity() + 2; ++i) static_cast<void>(bench.worker.step());
   while (bench.pop()) {
   }
@@ -124,7 +124,7 @@ TEST(RadioWorker, ABreakInTheDeadReckoningOutlivesTheRefusedSampleThatBeganIt) {
 }
 
 TEST(RadioWorker, KeepsWhatEndedTheInputBeforeItsTime) {
-  Bench bench(resting_samples(1), {}, {ErrorCode::kDeviceLost, "the dongle is gone"});
+  RadioBench bench(resting_samples(1), {}, {ErrorCode::kDeviceLost, "the dongle is gone"});
   static_cast<void>(bench.worker.step());
   EXPECT_EQ(bench.worker.step(), StepResult::kFinished);
   ASSERT_FALSE(bench.worker.outcome());
@@ -133,7 +133,7 @@ TEST(RadioWorker, KeepsWhatEndedTheInputBeforeItsTime) {
 }
 
 TEST(RadioWorker, GoesOnListeningToASilentLink) {
-  Bench bench(resting_samples(1), {}, {ErrorCode::kTimeout, ""});
+  RadioBench bench(resting_samples(1), {}, {ErrorCode::kTimeout, ""});
   static_cast<void>(bench.worker.step());
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
@@ -141,7 +141,7 @@ TEST(RadioWorker, GoesOnListeningToASilentLink) {
 }
 
 TEST(RadioWorker, SaysHowTheLinkStandsAlsoWhileNothingIsHeard) {
-  Bench bench({}, {}, {ErrorCode::kTimeout, ""});
+  RadioBench bench({}, {}, {ErrorCode::kTimeout, ""});
   bench.source.live.link.condition = LinkCondition::kSilent;
   bench.source.event = VehicleEvent{VehicleEvent::Kind::kDataStopped, 0};
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
@@ -153,7 +153,7 @@ TEST(RadioWorker, SaysHowTheLinkStandsAlsoWhileNothingIsHeard) {
 }
 
 TEST(RadioWorker, EndsTheInputWhenTold) {
-  Bench bench(resting_samples(5));
+  RadioBench bench(resting_samples(5));
   static_cast<void>(bench.worker.step());
   bench.worker.end_input();
   EXPECT_EQ(bench.worker.step(), StepResult::kFinished);

@@ -22,8 +22,6 @@ using testing::ElementsAreArray;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-std::string as_text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
-
 struct WholeRead {
   std::vector<CaptureRecord> records;
   Error end;

@@ -19,8 +19,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string as_text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
-
 TEST(CaptureWriter, WritesTheMeasuredLayoutOfARadioRecord) {
   const TemporaryFile file("radio.pcap");
   Result<CaptureWriter> writer = CaptureWriter::create(file.path(), radio_vehicle(0xE7));

@@ -14,10 +14,6 @@
 namespace swiftlet {
 namespace {
 
-Bytes bytes(const std::optional<CrtpPacket>& packet) {
-  return packet ? Bytes(packet->begin(), packet->end()) : Bytes{};
-}
-
 class ClientTrafficTest : public testing::Test {
  protected:
   ClientTrafficTest() { reset_log(); }
@@ -32,11 +28,11 @@ class ClientTrafficTest : public testing::Test {
   /// What the client gets; is_ours_: the owner gets it, too.
   Bytes from_vehicle(const Bytes& packet) {
     LinkFrame frame = frame_of(LinkDirection::kFromVehicle, now_, packet);
-    const Bytes clients = bytes(traffic_.on_frame(frame));
+    const Bytes clients = packet_bytes(traffic_.on_frame(frame));
     is_ours_ = frame.is_ours;
     return clients;
   }
-  Bytes next(bool owner_waits = false) { return bytes(traffic_.next_packet(owner_waits, now_)); }
+  Bytes next(bool owner_waits = false) { return packet_bytes(traffic_.next_packet(owner_waits, now_)); }
 
   ClientTraffic traffic_;
   HostTime now_{std::chrono::seconds(100)};
@@ -153,7 +149,7 @@ TEST_F(ClientTrafficTest, AResetWithoutBlocksIsAnsweredAtOnceAndSendsNothing) {
   traffic_.take(Bytes{0x5D, 5});
   traffic_.take(Bytes{0x2D, 1, 0});
   EXPECT_EQ(next(), Bytes{});
-  EXPECT_EQ(bytes(traffic_.take_answer()), (Bytes{0x5D, 5, 0, 0}));
+  EXPECT_EQ(packet_bytes(traffic_.take_answer()), (Bytes{0x5D, 5, 0, 0}));
   EXPECT_EQ(next(), (Bytes{0x2D, 1, 0}));
 }
 

@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-BuildingPlan ring() {
+BuildingPlan ring_with_bridge() {
   BuildingPlan plan;
   plan.add_corridor({{0.0, 0.0}, {12.0, 0.0}, {12.0, 8.0}, {0.0, 8.0}}, 2.0, true);
   plan.add_corridor({{6.0, 0.0}, {6.0, 8.0}}, 2.0);
@@ -20,7 +20,7 @@ BuildingPlan ring() {
 }
 
 std::vector<Waypoint> flight(std::uint64_t seed, double duration_s) {
-  FreeSpaceGrid grid(ring());
+  FreeSpaceGrid grid(ring_with_bridge());
   NoiseSource noise(seed, "flight");
   return draw_flight(grid, drawn_pilot(seed), duration_s, noise);
 }
@@ -35,7 +35,7 @@ TEST(BuildingFlight, TakesAboutTheTimeAskedFor) {
 }
 
 TEST(BuildingFlight, StaysClearOfTheWalls) {
-  const std::vector<WallSegment> walls = ring().walls();
+  const std::vector<WallSegment> walls = ring_with_bridge().walls();
   for (std::uint64_t seed = 0; seed < 10; ++seed)
     for (const FlightState& state : fly({walls, flight(seed, 120.0)}, drawn_pilot(seed), seed))
       for (const WallSegment& wall : walls)

@@ -107,14 +107,14 @@ TEST(DrawnBuildings, AreFlownThroughFreeSpaceFor60To400Seconds) {
       for (const WallSegment& wall : world.walls) ASSERT_GT(distance_m(wall, leg), 0.2) << seed;
     }
     SimulatedFlight flight(world, drawn_pilot(seed), seed);
-    double seconds = 0.0;
+    double flown_s = 0.0;
     double nearest_m = INFINITY;
-    for (int step = 0; !flight.is_over(); ++step, flight.step(), seconds += 0.01)
+    for (int step = 0; !flight.is_over(); ++step, flight.step(), flown_s += 0.01)
       if (step % 25 == 0)
         nearest_m = std::min(nearest_m, clearance_m(world.walls, flight.state().T_world_body.position()));
     EXPECT_GT(nearest_m, 0.25) << seed;
-    EXPECT_GT(seconds, 45.0) << seed;
-    EXPECT_LT(seconds, 440.0) << seed;
+    EXPECT_GT(flown_s, 45.0) << seed;
+    EXPECT_LT(flown_s, 440.0) << seed;
   }
 }
 

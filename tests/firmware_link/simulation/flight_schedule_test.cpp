@@ -19,10 +19,10 @@ const SimulatedWorld kHop{{}, {{{0.0, 0.0}}, {{2.0, 1.0}}, {{3.0, 3.0}}}};
 
 std::vector<FlightState> states_of_hop() { return fly(kHop, PilotModel{}, 1); }
 Duration duration_of_hop() { return (states_of_hop().size() - 1) * kFlightStep; }
-FlightSchedule hop() { return FlightSchedule(SimulatedFlight(kHop, PilotModel{}, 1)); }
+FlightSchedule hop_schedule() { return FlightSchedule(SimulatedFlight(kHop, PilotModel{}, 1)); }
 
 TEST(FlightSchedule, StandsUntilItGoes) {
-  FlightSchedule flight = hop();
+  FlightSchedule flight = hop_schedule();
   EXPECT_FALSE(flight.is_going());
   EXPECT_EQ(flight.progress(seconds(100)), 0.0);
   EXPECT_EQ(flight.state(seconds(100)).height_m, 0.0) << "on the ground";
@@ -31,7 +31,7 @@ TEST(FlightSchedule, StandsUntilItGoes) {
 
 TEST(FlightSchedule, FollowsItsStatesAndBetweenThem) {
   const std::vector<FlightState> states = states_of_hop();
-  FlightSchedule flight = hop();
+  FlightSchedule flight = hop_schedule();
   flight.go(seconds(10));
   EXPECT_TRUE(flight.is_at_step(milliseconds(14'250)));
   EXPECT_FALSE(flight.is_at_step(milliseconds(14'255)));
@@ -43,7 +43,7 @@ TEST(FlightSchedule, FollowsItsStatesAndBetweenThem) {
 }
 
 TEST(FlightSchedule, IsOverAtTheLastState) {
-  FlightSchedule flight = hop();
+  FlightSchedule flight = hop_schedule();
   flight.go(seconds(10));
   EXPECT_FALSE(flight.is_over(seconds(10) + duration_of_hop() - milliseconds(1)));
   EXPECT_TRUE(flight.is_over(seconds(10) + duration_of_hop()));
@@ -53,7 +53,7 @@ TEST(FlightSchedule, IsOverAtTheLastState) {
 
 TEST(FlightSchedule, HoldsTheVehicleWhileInterruptedAndContinuesFromThere) {
   const std::vector<FlightState> states = states_of_hop();
-  FlightSchedule flight = hop();
+  FlightSchedule flight = hop_schedule();
   flight.go(seconds(0));
   flight.halt(milliseconds(4000));
   EXPECT_FALSE(flight.is_going());
@@ -68,7 +68,7 @@ TEST(FlightSchedule, HoldsTheVehicleWhileInterruptedAndContinuesFromThere) {
 }
 
 TEST(FlightSchedule, StaysInItsLastStateWhenOver) {
-  FlightSchedule flight = hop();
+  FlightSchedule flight = hop_schedule();
   flight.go(seconds(0));
   flight.halt(seconds(60));
   flight.go(seconds(70));

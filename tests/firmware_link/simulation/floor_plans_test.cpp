@@ -96,9 +96,9 @@ TEST_P(FloorPlans, KeepWallsWithinReachOfTheSensors) {
 }
 
 TEST_P(Buildings, AreFlownForSeveralMinutes) {
-  const std::size_t seconds = track(world_, 1).size();
-  EXPECT_GT(seconds, 240U);
-  EXPECT_LT(seconds, 480U);
+  const std::size_t duration_s = track(world_, 1).size();
+  EXPECT_GT(duration_s, 240U);
+  EXPECT_LT(duration_s, 480U);
 }
 
 TEST_P(Buildings, AreRevisitedInTheSameAndInTheOtherDirection) {

@@ -11,18 +11,13 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "tests/firmware_link/simulated_log_id.hpp"
+
 namespace swiftlet {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-std::uint8_t id_of(std::string_view group, std::string_view name) {
-  const auto table = simulated_log_table();
-  for (std::size_t i = 0; i < table.size(); ++i)
-    if (table[i].group == group && table[i].name == name) return static_cast<std::uint8_t>(i);
-  ADD_FAILURE() << "no variable " << group << "." << name;
-  return 0;
-}
 
 /// x and y of the estimate as floats and the left range, every 100 ms.
 void start_logging(SimulatedLink& link) {
@@ -30,13 +25,13 @@ void start_logging(SimulatedLink& link) {
                      0x06,
                      0x01,
                      0x07,
-                     id_of("stateEstimate", "x"),
+                     low_byte(simulated_log_id("stateEstimate", "x")),
                      0x00,
                      0x07,
-                     id_of("stateEstimate", "y"),
+                     low_byte(simulated_log_id("stateEstimate", "y")),
                      0x00,
                      0x02,
-                     id_of("range", "left"),
+                     low_byte(simulated_log_id("range", "left")),
                      0x00};
   ASSERT_TRUE(link.send(create).ok());
   ASSERT_TRUE(link.send(Bytes{0x5D, 0x03, 0x01, 0x0A}).ok());

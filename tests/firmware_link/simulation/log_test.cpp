@@ -9,8 +9,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
-#include <string_view>
 #include <vector>
+
+#include "tests/firmware_link/simulated_log_id.hpp"
 
 namespace swiftlet {
 namespace {
@@ -20,14 +21,6 @@ using Milliseconds = std::chrono::milliseconds;
 
 Bytes bytes_of(const std::optional<PacketBytes>& packet) {
   return packet ? Bytes(packet->begin(), packet->end()) : Bytes{};
-}
-
-std::uint16_t id_of(std::string_view group, std::string_view name) {
-  const auto table = simulated_log_table();
-  for (std::size_t i = 0; i < table.size(); ++i)
-    if (table[i].group == group && table[i].name == name) return static_cast<std::uint16_t>(i);
-  ADD_FAILURE() << "no variable " << group << "." << name;
-  return 0;
 }
 
 class LogService : public testing::Test {
@@ -85,7 +78,7 @@ TEST_F(LogService, ReturnsSizeKeyAndLimitsOfItsTable) {
 }
 
 TEST_F(LogService, ReturnsAnItemOfItsTable) {
-  const std::uint16_t id = id_of("range", "front");
+  const std::uint16_t id = simulated_log_id("range", "front");
   const Bytes expected{
       0x50, 0x02, static_cast<std::uint8_t>(id), 0x00, 0x02, 'r', 'a', 'n', 'g', 'e', 0, 'f', 'r', 'o', 'n',
       't',  0};
@@ -139,7 +132,7 @@ TEST_F(LogService, RefusesUnknownVariablesAndTypes) {
 }
 
 TEST_F(LogService, AcceptsAtMost26BytesABlockAndKeepsWhatFitted) {
-  const std::uint16_t x = id_of("stateEstimate", "x");
+  const std::uint16_t x = simulated_log_id("stateEstimate", "x");
   EXPECT_EQ(add(6, 1, 7, x, 7), 7) << "28 bytes";
   EXPECT_EQ(add(7, 1, 2, x), 0) << "24 bytes are in, 26 go";
   EXPECT_EQ(add(7, 1, 1, x), 7);
@@ -200,7 +193,7 @@ TEST_F(LogService, StopsAndRestartsABlock) {
 }
 
 TEST_F(LogService, StampsPacketsWithTheLow24BitsOfItsClock) {
-  ASSERT_EQ(add(6, 1, 2, id_of("range", "front")), 0);
+  ASSERT_EQ(add(6, 1, 2, simulated_log_id("range", "front")), 0);
   ASSERT_EQ(ask({0x5D, 0x03, 1, 0}).back(), 0);
   VehicleState state;
   state.front_mm = 0x1234;
@@ -213,20 +206,20 @@ TEST_F(LogService, StampsPacketsWithTheLow24BitsOfItsClock) {
 TEST_F(LogService, PacksEachValueInItsRequestedType) {
   VehicleState state;
   state.x_m = -1.75;
-  const std::uint16_t x = id_of("stateEstimate", "x");
+  const std::uint16_t x = simulated_log_id("stateEstimate", "x");
   EXPECT_EQ(values_of(7, x, state), (Bytes{0x00, 0x00, 0xE0, 0xBF}));
   EXPECT_EQ(values_of(8, x, state), (Bytes{0x00, 0xBF}));
   EXPECT_EQ(values_of(5, x, state), (Bytes{0xFF, 0xFF})) << "cut off towards zero";
   EXPECT_EQ(values_of(4, x, state), (Bytes{0xFF}));
   state.front_mm = 32766.0;
-  const std::uint16_t front = id_of("range", "front");
+  const std::uint16_t front = simulated_log_id("range", "front");
   EXPECT_EQ(values_of(2, front, state), (Bytes{0xFE, 0x7F}));
   EXPECT_EQ(values_of(3, front, state), (Bytes{0xFE, 0x7F, 0x00, 0x00}));
   EXPECT_EQ(values_of(0x72, front, state), (Bytes{0xFE, 0x7F})) << "the high nibble is ignored";
 }
 
 TEST_F(LogService, RoundsToHalfPrecision) {
-  const std::uint16_t x = id_of("stateEstimate", "x");
+  const std::uint16_t x = simulated_log_id("stateEstimate", "x");
   const auto half = [&](double value) -> unsigned {
     VehicleState state;
     state.x_m = value;

@@ -28,11 +28,11 @@ FlowOdometryModel perfect() {
 }
 
 /// Straight ahead at 0.5 m/s.
-std::vector<FlightState> straight_flight(double seconds) {
+std::vector<FlightState> straight_flight(double duration_s) {
   FlightState cruising;
   cruising.vx_body_m_s = 0.5;
   cruising.height_m = 0.5;
-  return std::vector<FlightState>(static_cast<std::size_t>(seconds * 100.0), cruising);
+  return std::vector<FlightState>(static_cast<std::size_t>(duration_s * 100.0), cruising);
 }
 
 Pose2 estimate_after(const std::vector<FlightState>& flight, const FlowOdometryModel& model,

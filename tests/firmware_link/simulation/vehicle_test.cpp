@@ -10,6 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_link/crtp/crtp_packet.hpp"
+#include "tests/firmware_link/simulated_log_id.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -37,14 +40,6 @@ VehicleModel exact() {
   return model;
 }
 
-std::uint8_t id_of(std::string_view group, std::string_view name) {
-  const auto table = simulated_log_table();
-  for (std::size_t i = 0; i < table.size(); ++i)
-    if (table[i].group == group && table[i].name == name) return static_cast<std::uint8_t>(i);
-  ADD_FAILURE() << "no variable " << group << "." << name;
-  return 0;
-}
-
 std::vector<Bytes> ask(SimulatedVehicle& vehicle, const Bytes& packet) {
   std::vector<Bytes> answers;
   for (const PacketBytes& answer : vehicle.handle(packet)) answers.emplace_back(answer.begin(), answer.end());
@@ -53,7 +48,8 @@ std::vector<Bytes> ask(SimulatedVehicle& vehicle, const Bytes& packet) {
 
 /// Logs one variable as int16 every 100 ms under block 1.
 void log_as_int16(SimulatedVehicle& vehicle, std::string_view group, std::string_view name) {
-  const Bytes created = ask(vehicle, {0x5D, 0x06, 0x01, 0x05, id_of(group, name), 0x00}).at(0);
+  const Bytes created =
+      ask(vehicle, {0x5D, 0x06, 0x01, 0x05, low_byte(simulated_log_id(group, name)), 0x00}).at(0);
   ASSERT_EQ(created.back(), 0);
   const Bytes started = ask(vehicle, {0x5D, 0x03, 0x01, 0x0A}).at(0);
   ASSERT_EQ(started.back(), 0);
@@ -62,8 +58,8 @@ double value_of(const SentPacket& sent) {
   return static_cast<std::int16_t>(sent.bytes[5] | sent.bytes[6] << 8U);
 }
 
-DeviceTime after(const SimulatedVehicle& vehicle, double seconds) {
-  return vehicle.now() + from_seconds(seconds);
+DeviceTime after(const SimulatedVehicle& vehicle, double duration_s) {
+  return vehicle.now() + from_seconds(duration_s);
 }
 
 TEST(SimulatedVehicle, NamesItselfAsALinkSource) {
@@ -208,9 +204,9 @@ TEST(SimulatedVehicle, IsTheSameForAnyStepsOfTime) {
 }
 
 /// Polls every 20 ms, as a radio does; what was sent meanwhile, packets of log block 1 only.
-std::vector<SentPacket> polled(SimulatedVehicle& vehicle, double seconds) {
+std::vector<SentPacket> polled(SimulatedVehicle& vehicle, double duration_s) {
   std::vector<SentPacket> data;
-  const DeviceTime end = after(vehicle, seconds);
+  const DeviceTime end = after(vehicle, duration_s);
   while (vehicle.now() < end) {
     EXPECT_TRUE(ask(vehicle, {0xFF}).empty());
     for (const SentPacket& sent : vehicle.advance(vehicle.now() + std::chrono::milliseconds(20)))
@@ -239,7 +235,7 @@ std::uint8_t param_value(SimulatedVehicle& vehicle, std::string_view group, std:
   return ask(vehicle, {0x2D, static_cast<std::uint8_t>(id), static_cast<std::uint8_t>(id >> 8U)}).at(0).at(4);
 }
 
-VehicleModel on_air() {
+VehicleModel exact_on_air() {
   VehicleModel model = exact();
   model.link_timeout = kRadioLinkTimeout;
   return model;
@@ -255,7 +251,7 @@ TEST(SimulatedVehicle, DoesNotAnswerPacketsWithoutAService) {
 }
 
 TEST(SimulatedVehicle, DeletesItsBlocksAfterMoreThanASecondOfSilence) {
-  SimulatedVehicle vehicle(hop(), on_air(), 1);
+  SimulatedVehicle vehicle(hop(), exact_on_air(), 1);
   log_as_int16(vehicle, "range", "left");
   EXPECT_GE(vehicle.advance(after(vehicle, 1.0)).size(), 9U);
   EXPECT_TRUE(vehicle.is_linked());
@@ -269,7 +265,7 @@ TEST(SimulatedVehicle, DeletesItsBlocksAfterMoreThanASecondOfSilence) {
 }
 
 TEST(SimulatedVehicle, KeepsItsBlocksWhileItReceivesNullPackets) {
-  SimulatedVehicle vehicle(hop(), on_air(), 1);
+  SimulatedVehicle vehicle(hop(), exact_on_air(), 1);
   log_as_int16(vehicle, "range", "left");
   EXPECT_NEAR(static_cast<double>(polled(vehicle, 5.0).size()), 50.0, 1.0);
 }
@@ -473,7 +469,7 @@ TEST(SimulatedVehicle, StaysWithinBoundsForAnyParameterValue) {
 }
 
 TEST(SimulatedVehicle, SurvivesAnyPacket) {
-  SimulatedVehicle vehicle(hop(), on_air(), 1);
+  SimulatedVehicle vehicle(hop(), exact_on_air(), 1);
   NoiseSource noise(1, "packets");
   const auto any = [&noise](int limit) { return static_cast<std::uint8_t>(noise.uniform(0.0, limit)); };
   std::size_t answers = 0;

@@ -14,13 +14,13 @@ using nlohmann::json;
 using std::chrono::microseconds;
 using testing::HasSubstr;
 
-HostTime at(std::int64_t us) { return HostTime(microseconds(us)); }
+HostTime at_us(std::int64_t us) { return HostTime(microseconds(us)); }
 
 Evaluation evaluation_of(ReferenceResult result) {
   return {.trajectory_file = "trajectory.tum",
           .poses = 3816,
-          .first_stamp = at(1'627'252'323'712'197),
-          .last_stamp = at(1'627'252'704'955'267),
+          .first_stamp = at_us(1'627'252'323'712'197),
+          .last_stamp = at_us(1'627'252'704'955'267),
           .references = {std::move(result)}};
 }
 
@@ -29,7 +29,8 @@ Evaluation of_relations() {
   error.all = {4, {0.2, 0.18708, 0.5}, {1.25, 1.299, 3.0}};
   error.under_3_s = {4, {0.2, 0.18708, 0.5}, {1.25, 1.299, 3.0}};
   error.missed = 2;
-  error.stamps = {6, 1, {at(1'000'000), at(2'500'000), at(3'000'000), at(1'629'657'168'376'475), at(5)}};
+  error.stamps = {
+      6, 1, {at_us(1'000'000), at_us(2'500'000), at_us(3'000'000), at_us(1'629'657'168'376'475), at_us(5)}};
   return evaluation_of({"intel.relations", error});
 }
 
@@ -40,7 +41,7 @@ Evaluation of_truth() {
                     .mean_m = 0.25,
                     .max_m = 0.5,
                     .T_truth_estimate = Pose2(1.0, 2.0, radians(90.0))};
-  error.stamps = {10, 0, {at(7'000'000)}};
+  error.stamps = {10, 0, {at_us(7'000'000)}};
   return evaluation_of({"truth.tum", error});
 }
 
@@ -49,7 +50,7 @@ Evaluation of_flight() {
   flight.sharpness = {.map = {.returns = 9001, .cells_10_cm = 3436, .cells_20_cm = 1760},
                       .drawn = 3000,
                       .interpolated = 12,
-                      .outside = {at(8'000'000)}};
+                      .outside = {at_us(8'000'000)}};
   flight.input.counters.unpaired = 2;
   flight.input.problems = {"damaged"};
   return evaluation_of({"flight.pcap", flight});
@@ -81,7 +82,7 @@ TEST(EvaluationText, TellsTheErrorOfPositions) {
 TEST(EvaluationText, SaysFirstThatMostOfItWasNotCompared) {
   PathError error;
   error.position.pairs = 1;
-  error.stamps = {1, 0, {at(7'000'000), at(8'000'000)}, 0};
+  error.stamps = {1, 0, {at_us(7'000'000), at_us(8'000'000)}, 0};
   EXPECT_THAT(evaluation_text(evaluation_of({"truth.tum", error})),
               testing::StartsWith("WARNING: truth.tum: only 1 of 3 positions have stamps that match; the "
                                   "figures are of those alone\ntrajectory.tum: "));

@@ -17,9 +17,11 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-HostTime at(std::int64_t ms) { return HostTime(milliseconds(ms)); }
+HostTime at_ms(std::int64_t ms) { return HostTime(milliseconds(ms)); }
 
-StampedPath straight_path() { return StampedPath({{at(1000), Pose2()}, {at(2000), Pose2(1.0, 0.0, 0.0)}}); }
+StampedPath straight_path() {
+  return StampedPath({{at_ms(1000), Pose2()}, {at_ms(2000), Pose2(1.0, 0.0, 0.0)}});
+}
 
 TEST(Evaluate, MeasuresByTheKindOfTheReference) {
   const TemporaryFile relations("a", "1 2 1.5 0 0 0 0 0\n");
@@ -37,7 +39,7 @@ TEST(Evaluate, MeasuresByTheKindOfTheReference) {
 TEST(Evaluate, CountsWhatACaptureLeavesUndrawn) {
   const TemporaryFile capture("flight.pcap");
   write_capture(capture.path(), SyntheticCapture().frames());
-  const StampedPath path({{at(1'700'000'001'300), Pose2()}, {at(1'700'000'001'500), Pose2()}});
+  const StampedPath path({{at_ms(1'700'000'001'300), Pose2()}, {at_ms(1'700'000'001'500), Pose2()}});
   const auto flight = evaluate_against(path, capture.path(), ReferenceKind::kFlight);
   ASSERT_TRUE(flight.ok()) << flight.error().message;
   const auto& result = std::get<FlightResult>(flight->figures);

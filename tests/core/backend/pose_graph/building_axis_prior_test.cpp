@@ -12,14 +12,12 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kSigmaRad = radians(2.5);
+constexpr double kAxisSigmaRad = radians(2.5);
 constexpr double kStepSigmaRad = radians(1);
 constexpr double kDriftRad = radians(0.4);  // that each step does not know of
 
-KeyframeId keyframe(std::size_t i) { return static_cast<KeyframeId>(i); }
-
 WallAxis axis_seen_at(double true_yaw_rad, double building_rad = 0.0) {
-  return {wrap_axis(building_rad - true_yaw_rad), kSigmaRad};
+  return {wrap_axis(building_rad - true_yaw_rad), kAxisSigmaRad};
 }
 
 /// Flies around a square in a building whose walls run with the map, with dead reckoning that turns
@@ -37,13 +35,13 @@ struct Flight {
     const double turn_rad = count % 20 == 0 ? kPi / 2.0 : 0.0;
     true_yaw_rad += turn_rad;
     const Pose2 T(0.5, 0.0, turn_rad + kDriftRad);
-    graph.factors.push_back({keyframe(count - 1), keyframe(count), T,
+    graph.factors.push_back({make_id<KeyframeId>(count - 1), make_id<KeyframeId>(count), T,
                              Eigen::Vector3d(1e4, 1e4, 1.0 / (kStepSigmaRad * kStepSigmaRad)).asDiagonal()});
     graph.T_map_keyframe.push_back(graph.T_map_keyframe.values().back() * T);
     since_rad2 += kStepSigmaRad * kStepSigmaRad;
     if (!sees_walls || count % 6 != 0) return;
     const std::size_t before = graph.headings.size();
-    hold.add(keyframe(count), axis_seen_at(true_yaw_rad, building_rad), since_rad2, graph);
+    hold.add(make_id<KeyframeId>(count), axis_seen_at(true_yaw_rad, building_rad), since_rad2, graph);
     if (graph.headings.size() == before) return;
     since_rad2 = 0.0;
     hold.update(graph);
@@ -55,7 +53,7 @@ struct Flight {
   }
   /// How far the way is bent: the heading's error at the end against that after the first lap.
   [[nodiscard]] double bend_rad() const {
-    const double after_a_lap_rad = graph.T_map_keyframe[keyframe(80)].yaw_rad() - 4.0 * kPi / 2.0;
+    const double after_a_lap_rad = graph.T_map_keyframe[make_id<KeyframeId>(80)].yaw_rad() - 4.0 * kPi / 2.0;
     return std::abs(
         wrap_angle(graph.T_map_keyframe.values().back().yaw_rad() - true_yaw_rad - after_a_lap_rad));
   }
@@ -70,7 +68,7 @@ TEST(BuildingAxisPrior, KeepsTheHeadingAlongAWayThatDeadReckoningLosesItOn) {
     without.step(false);
   }
   EXPECT_GT(without.yaw_error_rad(), radians(110)) << "120 degrees of drift";
-  EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kSigmaRad)
+  EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kAxisSigmaRad)
       << "a heading is good to that; of 88 degrees of drift";
   EXPECT_GT(without.bend_rad(), radians(80));
   EXPECT_EQ(flight.graph.headings.size(), 50U);
@@ -92,7 +90,8 @@ TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
   for (int i = 0; i < 60; ++i) flight.step(true);
   const double yaw_rad = flight.graph.T_map_keyframe.values().back().yaw_rad();
   const std::size_t before = flight.graph.headings.size();
-  flight.hold.add(keyframe(60), axis_seen_at(yaw_rad, radians(42)), radians(90) * radians(90), flight.graph);
+  flight.hold.add(make_id<KeyframeId>(60), axis_seen_at(yaw_rad, radians(42)), radians(90) * radians(90),
+                  flight.graph);
   EXPECT_EQ(flight.graph.headings.size(), before);
 }
 
@@ -101,8 +100,8 @@ TEST(BuildingAxisPrior, TurnsBackAsFarAsTheOtherWayRoundIsMuchLessLikely) {
     PoseGraph graph;
     graph.T_map_keyframe = KeyframePoses({Pose2(), Pose2(5.0, 0.0, off_rad)});
     BuildingAxisPrior hold;
-    hold.add(keyframe(0), axis_seen_at(0.0), 0.0, graph);
-    hold.add(keyframe(1), axis_seen_at(0.0), sigma_rad * sigma_rad, graph);
+    hold.add(make_id<KeyframeId>(0), axis_seen_at(0.0), 0.0, graph);
+    hold.add(make_id<KeyframeId>(1), axis_seen_at(0.0), sigma_rad * sigma_rad, graph);
     return graph.headings.size() == 2;
   };
   EXPECT_TRUE(is_taken(radians(34), radians(9))) << "after a spin; the other way round it were 56";
@@ -115,12 +114,12 @@ TEST(BuildingAxisPrior, AFalseAxisIsScaledAwayByTheOthers) {
   Flight flight;
   for (int i = 0; i < 120; ++i) flight.step(true);
   const std::size_t wrong = flight.graph.headings.size();
-  flight.hold.add(keyframe(120), axis_seen_at(flight.true_yaw_rad, radians(22)), radians(9) * radians(9),
-                  flight.graph);
+  flight.hold.add(make_id<KeyframeId>(120), axis_seen_at(flight.true_yaw_rad, radians(22)),
+                  radians(9) * radians(9), flight.graph);
   ASSERT_EQ(flight.graph.headings.size(), wrong + 1);
   for (int i = 0; i < 60; ++i) flight.step(true);
   EXPECT_LT(flight.graph.headings[wrong].dcs_scale, 0.7);
-  EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kSigmaRad);
+  EXPECT_LT(flight.bend_rad(), std::sqrt(3.0) * kAxisSigmaRad);
 }
 
 TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreErasedGoWithThem) {
@@ -128,12 +127,12 @@ TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreErasedGoWithThem) {
   for (int i = 0; i < 60; ++i) flight.step(true);
   ASSERT_EQ(flight.graph.headings.size(), 10U);
   IdRanges<KeyframeId> gone;
-  gone.add({keyframe(10), keyframe(25)});  // and with it the headings of 12, 18 and 24
+  gone.add({make_id<KeyframeId>(10), make_id<KeyframeId>(25)});  // and with it the headings of 12, 18 and 24
   flight.graph.T_map_keyframe.erase(gone);
   flight.hold.erase(gone, flight.graph);
   ASSERT_EQ(flight.graph.headings.size(), 7U);
-  EXPECT_EQ(flight.graph.headings[0].pose, keyframe(6));
-  EXPECT_EQ(flight.graph.headings[1].pose, keyframe(30));
+  EXPECT_EQ(flight.graph.headings[0].pose, make_id<KeyframeId>(6));
+  EXPECT_EQ(flight.graph.headings[1].pose, make_id<KeyframeId>(30));
   flight.hold.update(flight.graph);
   for (const HeadingFactor<KeyframeId>& heading : flight.graph.headings) {
     const double now_rad = flight.graph.T_map_keyframe[heading.pose].yaw_rad();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kStepM = 0.5;
 
-KeyframeId id(std::uint32_t number) { return make_id<KeyframeId>(number); }
+KeyframeId keyframe_id(std::uint32_t number) { return make_id<KeyframeId>(number); }
 
 /// A straight flight along x, one scan a keyframe.
 class KeyframeGraphTest : public testing::Test {
@@ -33,7 +33,7 @@ class KeyframeGraphTest : public testing::Test {
     chain_.add(scans_.add(step));
     Keyframe made;
     made.id = made_id;
-    made.starts_segment = has_restarted || made_id == id(0);
+    made.starts_segment = has_restarted || made_id == keyframe_id(0);
     made.motion_covariance = Covariance3::from_matrix(Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal());
     EXPECT_TRUE(made.T_local_keyframe.try_push_back(step.sample.T_odom_body));
     T_local_keyframe_.push_back(step.sample.T_odom_body);
@@ -42,7 +42,8 @@ class KeyframeGraphTest : public testing::Test {
   }
   /// The way from keyframe 0 is longer than the motion has it.
   [[nodiscard]] RelativePoseFactor<KeyframeId> closure_to(std::uint32_t to, double longer_m) const {
-    return {id(0), id(to), Pose2(kStepM * to + longer_m, 0.0, 0.0), 1e4 * Eigen::Matrix3d::Identity(), true};
+    return {keyframe_id(0), keyframe_id(to), Pose2(kStepM * to + longer_m, 0.0, 0.0),
+            1e4 * Eigen::Matrix3d::Identity(), true};
   }
 
   BackendConfig config_;
@@ -56,7 +57,8 @@ TEST_F(KeyframeGraphTest, FollowsTheMotionWhileNothingElseIsKnown) {
   fly(20);
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
   EXPECT_EQ(graph_.counters().optimizations, 0U);
-  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
+  EXPECT_TRUE(
+      poses_near(graph_.T_map_keyframe()[keyframe_id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
 }
 
 TEST_F(KeyframeGraphTest, AVehicleThatRestartedMostLikelyStoodStillUntilClosuresContradict) {
@@ -64,7 +66,8 @@ TEST_F(KeyframeGraphTest, AVehicleThatRestartedMostLikelyStoodStillUntilClosures
   add_keyframe(true);
   fly(9);
   const auto sigma_m = [&] {
-    return std::sqrt(relative_covariances(graph_.graph(), id(9), config_.tuning.covariance)[id(10)](0, 0));
+    return std::sqrt(relative_covariances(graph_.graph(), keyframe_id(9),
+                                          config_.tuning.covariance)[keyframe_id(10)](0, 0));
   };
   EXPECT_NEAR(sigma_m(), kStoodStill.xy_m, 0.01);
   const std::vector<RelativePoseFactor<KeyframeId>> elsewhere{closure_to(12, 6.0), closure_to(15, 6.0),
@@ -72,8 +75,8 @@ TEST_F(KeyframeGraphTest, AVehicleThatRestartedMostLikelyStoodStillUntilClosures
   ASSERT_TRUE(graph_.accommodate(elsewhere));
   for (const RelativePoseFactor<KeyframeId>& closure : elsewhere) graph_.add_closure(closure);
   graph_.optimize();
-  EXPECT_NEAR(graph_.T_map_keyframe()[id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
-  EXPECT_NEAR(graph_.T_map_keyframe()[id(9)].x_m(), 9 * kStepM, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(9)].x_m(), 9 * kStepM, 0.05);
 }
 
 TEST_F(KeyframeGraphTest, AMotionInDoubtHoldsUntilClosuresContradictIt) {
@@ -81,14 +84,14 @@ TEST_F(KeyframeGraphTest, AMotionInDoubtHoldsUntilClosuresContradictIt) {
   const std::vector<RelativePoseFactor<KeyframeId>> elsewhere{closure_to(12, 6.0), closure_to(15, 6.0),
                                                               closure_to(18, 6.0)};
   EXPECT_FALSE(graph_.accommodate(elsewhere)) << "the motion is known";
-  graph_.doubt_motion_to(id(10));
+  graph_.doubt_motion_to(keyframe_id(10));
   graph_.optimize();
-  EXPECT_NEAR(graph_.T_map_keyframe()[id(15)].x_m(), 15 * kStepM, 1e-6);
+  EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM, 1e-6);
   ASSERT_TRUE(graph_.accommodate(elsewhere));
   for (const RelativePoseFactor<KeyframeId>& closure : elsewhere) graph_.add_closure(closure);
   graph_.optimize();
-  EXPECT_NEAR(graph_.T_map_keyframe()[id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
-  EXPECT_NEAR(graph_.T_map_keyframe()[id(9)].x_m(), 9 * kStepM, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(9)].x_m(), 9 * kStepM, 0.05);
 }
 
 TEST_F(KeyframeGraphTest, AnExpectedClosureWaitsForOthersButNotForEver) {
@@ -107,7 +110,7 @@ TEST_F(KeyframeGraphTest, AClosureThatDisagreesMovesTheGraphAtOnce) {
   fly(20);
   graph_.add_closure(closure_to(19, 0.05));
   EXPECT_TRUE(add_keyframe());
-  EXPECT_GT(graph_.T_map_keyframe()[id(19)].x_m(), 19 * kStepM + 0.01);
+  EXPECT_GT(graph_.T_map_keyframe()[keyframe_id(19)].x_m(), 19 * kStepM + 0.01);
   EXPECT_EQ(graph_.counters().optimizations, 1U);
 }
 
@@ -124,7 +127,7 @@ TEST_F(KeyframeGraphTest, AGroupThatFitsMovesTheGraphToItself) {
   for (const std::uint32_t to : {390U, 393U, 396U, 399U}) group.push_back(closure_to(to, 0.5));
   EXPECT_TRUE(graph_.accommodate(group));
   EXPECT_EQ(graph_.state(), GraphState::kMoved);
-  EXPECT_NEAR(graph_.T_map_keyframe()[id(399)].x_m(), 399 * kStepM + 0.5, 0.05);
+  EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(399)].x_m(), 399 * kStepM + 0.5, 0.05);
   for (const RelativePoseFactor<KeyframeId>& closure : group) graph_.add_closure(closure);
   EXPECT_TRUE(add_keyframe());
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
@@ -135,7 +138,8 @@ TEST_F(KeyframeGraphTest, AGroupThatContradictsTheMotionIsRefused) {
   const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(17, 3.0), closure_to(19, 3.0)};
   EXPECT_FALSE(graph_.accommodate(group));
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
-  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
+  EXPECT_TRUE(
+      poses_near(graph_.T_map_keyframe()[keyframe_id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
 }
 
 TEST_F(KeyframeGraphTest, AcrossAHoleTheMotionIsUnknownAndTiesHold) {
@@ -143,19 +147,19 @@ TEST_F(KeyframeGraphTest, AcrossAHoleTheMotionIsUnknownAndTiesHold) {
   const FactorId gone = graph_.add_closure(closure_to(10, 0.0));
   const FactorId kept = graph_.add_closure(closure_to(18, 0.0));
   IdRanges<KeyframeId> pruned;
-  pruned.add({id(9), id(12)});
+  pruned.add({keyframe_id(9), keyframe_id(12)});
   const RelativePoseFactor<KeyframeId> tie = closure_to(12, 0.0);
   graph_.erase(pruned, std::vector{tie});
   const IdMap<FactorId, RelativePoseFactor<KeyframeId>>& factors = graph_.graph().factors;
   EXPECT_FALSE(factors.contains(gone));
   EXPECT_TRUE(factors.contains(kept));
   const RelativePoseFactor<KeyframeId>& across = factors[factors.last_id()];
-  EXPECT_EQ(across.from, id(8));
-  EXPECT_EQ(across.to, id(12));
+  EXPECT_EQ(across.from, keyframe_id(8));
+  EXPECT_EQ(across.to, keyframe_id(12));
   EXPECT_LT(across.information(0, 0), 1e-3);
   EXPECT_EQ(factors[factors.previous(factors.last_id())].to, tie.to);
   EXPECT_TRUE(graph_.optimize());
-  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-6, 1e-6));
+  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[keyframe_id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-6, 1e-6));
 }
 
 }  // namespace

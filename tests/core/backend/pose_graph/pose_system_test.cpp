@@ -38,7 +38,7 @@ struct Problem {
   std::vector<Pull> pulls;
 };
 
-PoseIndex id(std::size_t pose) { return make_id<PoseIndex>(pose); }
+PoseIndex pose_index(std::size_t pose) { return make_id<PoseIndex>(pose); }
 
 /// A chain of poses, joined in both directions, with a few closures, and pulls at some.
 Problem random_problem(std::mt19937& random, std::uint32_t poses) {
@@ -47,8 +47,8 @@ Problem random_problem(std::mt19937& random, std::uint32_t poses) {
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
     const bool forward = random_int(random, 0, 1) == 0;
     RelativePoseFactor<PoseIndex> c;
-    c.from = id(forward ? a : b);
-    c.to = id(forward ? b : a);
+    c.from = pose_index(forward ? a : b);
+    c.to = pose_index(forward ? b : a);
     c.T_from_to = between(problem.T_map_pose[index_of(c.from)], problem.T_map_pose[index_of(c.to)]) *
                   random_pose(random, 0.1);
     c.information = random_covariance(random, 0.5);
@@ -67,7 +67,7 @@ void fill(PoseSystem& system, const Problem& problem) {
   system.set_zero();
   for (std::size_t i = 0; i < problem.factors.size(); ++i)
     system.add(problem.factors[i], problem.weights[i], problem.T_map_pose);
-  for (const Pull& pull : problem.pulls) system.add(id(pull.pose), pull.H, pull.rhs);
+  for (const Pull& pull : problem.pulls) system.add(pose_index(pull.pose), pull.H, pull.rhs);
 }
 
 /// The slow twin: all Jacobians of all poses as one dense matrix, the first pose's columns left out.
@@ -123,16 +123,17 @@ TEST(PoseSystem, ABlockOfTwoPosesMayComeEitherWayRound) {
   H_12(0, 2) = 1.5;
   const auto moved = [&](bool later_first) {
     PoseSystem system;
-    const std::vector<PosePair> pairs{{id(1), id(2)}, {id(2), id(1)}, {id(0), id(2)}};
+    const std::vector<PosePair> pairs{
+        {pose_index(1), pose_index(2)}, {pose_index(2), pose_index(1)}, {pose_index(0), pose_index(2)}};
     EXPECT_TRUE(system.prepare_pairs(3, pairs));
     system.set_zero();
-    system.add(id(1), H, Eigen::Vector3d(0.1, 0.2, 0.3));
-    system.add(id(2), H, Eigen::Vector3d(0.3, 0.1, 0.2));
+    system.add(pose_index(1), H, Eigen::Vector3d(0.1, 0.2, 0.3));
+    system.add(pose_index(2), H, Eigen::Vector3d(0.3, 0.1, 0.2));
     if (later_first)
-      system.add(id(2), id(1), H_12.transpose());
+      system.add(pose_index(2), pose_index(1), H_12.transpose());
     else
-      system.add(id(1), id(2), H_12);
-    system.add(id(0), id(2), H);  // the first pose is held
+      system.add(pose_index(1), pose_index(2), H_12);
+    system.add(pose_index(0), pose_index(2), H);  // the first pose is held
     std::vector<Pose2> T_map_pose(3);
     EXPECT_TRUE(system.step(T_map_pose));
     return T_map_pose;
@@ -155,7 +156,7 @@ TEST(PoseSystem, ReportsTheLargestComponentOfTheStep) {
     PoseSystem system;
     ASSERT_TRUE(system.prepare(2, {}));
     system.set_zero();
-    system.add(id(1), Eigen::Matrix3d::Identity(), pull);
+    system.add(pose_index(1), Eigen::Matrix3d::Identity(), pull);
     std::vector<Pose2> T_map_pose(2);
     const Result<double> largest = system.step(T_map_pose);
     ASSERT_TRUE(largest);
@@ -167,11 +168,11 @@ TEST(PoseSystem, ReportsTheLargestComponentOfTheStep) {
 TEST(PoseSystem, TheFirstPoseStaysWhateverPullsAtIt) {
   PoseSystem system;
   std::vector<Pose2> T_map_pose{Pose2(1.0, 2.0, 3.0), Pose2(4.0, 5.0, 0.5)};
-  RelativePoseFactor<PoseIndex> c{id(0), id(1), between(T_map_pose[0], T_map_pose[1])};
+  RelativePoseFactor<PoseIndex> c{pose_index(0), pose_index(1), between(T_map_pose[0], T_map_pose[1])};
   ASSERT_TRUE(system.prepare(2, std::vector<RelativePoseFactor<PoseIndex>>{c}));
   system.set_zero();
   system.add(c, 1.0, T_map_pose);
-  system.add(id(0), Eigen::Matrix3d::Identity(), Eigen::Vector3d(9.0, 9.0, 9.0));
+  system.add(pose_index(0), Eigen::Matrix3d::Identity(), Eigen::Vector3d(9.0, 9.0, 9.0));
   const std::vector<Pose2> before = T_map_pose;
   ASSERT_TRUE(system.step(T_map_pose));
   expect_same(T_map_pose, before, 1e-12);
@@ -182,8 +183,9 @@ TEST(PoseSystem, StepsLeadToWhatTheFactorsSay) {
   std::vector<Pose2> truth;
   std::vector<RelativePoseFactor<PoseIndex>> factors;
   for (std::size_t i = 0; i < 12; ++i) truth.push_back(random_pose(random, 3.0));
-  for (std::size_t i = 1; i < 12; ++i) factors.push_back({id(i - 1), id(i), between(truth[i - 1], truth[i])});
-  factors.push_back({id(11), id(2), between(truth[11], truth[2])});
+  for (std::size_t i = 1; i < 12; ++i)
+    factors.push_back({pose_index(i - 1), pose_index(i), between(truth[i - 1], truth[i])});
+  factors.push_back({pose_index(11), pose_index(2), between(truth[11], truth[2])});
   std::vector<Pose2> T_map_pose = truth;
   for (std::size_t i = 1; i < 12; ++i) {
     T_map_pose[i] = Pose2(T_map_pose[i].x_m() + random_in(random, -0.2, 0.2),
@@ -213,7 +215,7 @@ TEST(PoseSystem, OneThatIsKeptSolvesLikeANewOne) {
                                 first};
   for (RelativePoseFactor<PoseIndex>& c : problems[1].factors)
     c.T_from_to = c.T_from_to * random_pose(random, 0.2);
-  problems[2].factors.push_back({id(14), id(1), random_pose(random, 1.0)});
+  problems[2].factors.push_back({pose_index(14), pose_index(1), random_pose(random, 1.0)});
   problems[2].weights.push_back(1.0);
   for (const Problem& problem : problems) {
     ASSERT_TRUE(kept.prepare(problem.T_map_pose.size(), problem.factors));
@@ -233,8 +235,9 @@ TEST(PoseSystem, APoseThatNothingHoldsIsNamedAndNoneMoves) {
   std::mt19937 random(94);
   std::vector<Pose2> T_map_pose(4);
   for (Pose2& pose : T_map_pose) pose = random_pose(random, 2.0);
-  const std::vector<RelativePoseFactor<PoseIndex>> factors{{id(0), id(1), Pose2(1.0, 0.0, 0.0)},
-                                                           {id(1), id(3), Pose2(1.0, 0.0, 0.0)}};
+  const std::vector<RelativePoseFactor<PoseIndex>> factors{
+      {pose_index(0), pose_index(1), Pose2(1.0, 0.0, 0.0)},
+      {pose_index(1), pose_index(3), Pose2(1.0, 0.0, 0.0)}};
   PoseSystem system;
   ASSERT_TRUE(system.prepare(T_map_pose.size(), factors));
   system.set_zero();
@@ -251,13 +254,14 @@ TEST(PoseSystem, AStepThatIsNotFiniteIsAnErrorAndNoPoseMoves) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     std::vector<Pose2> T_map_pose{Pose2(), Pose2(1.0, 0.0, 0.0), Pose2(2.0, 0.0, 0.1)};
-    const std::vector<RelativePoseFactor<PoseIndex>> factors{{id(0), id(1), Pose2(1.1, 0.0, 0.0)},
-                                                             {id(1), id(2), Pose2(1.0, 0.0, 0.0)}};
+    const std::vector<RelativePoseFactor<PoseIndex>> factors{
+        {pose_index(0), pose_index(1), Pose2(1.1, 0.0, 0.0)},
+        {pose_index(1), pose_index(2), Pose2(1.0, 0.0, 0.0)}};
     PoseSystem system;
     ASSERT_TRUE(system.prepare(T_map_pose.size(), factors));
     system.set_zero();
     for (const RelativePoseFactor<PoseIndex>& c : factors) system.add(c, 1.0, T_map_pose);
-    system.add(id(2), Eigen::Matrix3d::Zero(), Eigen::Vector3d(0.0, bad, 0.0));
+    system.add(pose_index(2), Eigen::Matrix3d::Zero(), Eigen::Vector3d(0.0, bad, 0.0));
     const std::vector<Pose2> before = T_map_pose;
     const Result<double> step = system.step(T_map_pose);
     ASSERT_FALSE(step);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -35,13 +34,6 @@ TestVehicle to_and_fro(const TestVehicleModel& model) {
   return vehicle;
 }
 
-/// Truth, with the first pose as origin as in dead reckoning.
-std::vector<Pose2> true_poses(const TestVehicle& vehicle) {
-  std::vector<Pose2> T_map_body;
-  for (const Pose2& T_world_body : vehicle.T_world_body())
-    T_map_body.push_back(between(vehicle.T_world_body()[0], T_world_body));
-  return T_map_body;
-}
 std::vector<Pose2> dead_reckoned(const TestVehicle& vehicle) {
   std::vector<Pose2> T_odom_body;
   for (const RangeSample& sample : vehicle.samples()) T_odom_body.push_back(sample.T_odom_body);
@@ -49,7 +41,7 @@ std::vector<Pose2> dead_reckoned(const TestVehicle& vehicle) {
 }
 
 /// As loop closing leaves a path: off in slow waves, here of up to a third of a metre.
-std::vector<Pose2> in_waves(std::vector<Pose2> path) {
+std::vector<Pose2> in_large_waves(std::vector<Pose2> path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double phase = 2.0 * kPi * static_cast<double>(i) / 150.0;
     path[i] =
@@ -82,16 +74,6 @@ double worst_m(const std::vector<Pose2>& estimate, const std::vector<Pose2>& tru
     worst =
         std::max(worst, std::hypot(estimate[i].x_m() - truth[i].x_m(), estimate[i].y_m() - truth[i].y_m()));
   return worst;
-}
-
-bool same_bits(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      if (std::bit_cast<std::uint64_t>(a[i].vector()[k]) != std::bit_cast<std::uint64_t>(b[i].vector()[k]))
-        return false;
-    }
-  }
-  return a.size() == b.size();
 }
 
 /// Twelve beams all around.
@@ -162,7 +144,7 @@ TEST(Refinement, BringsPassesThroughACorridorTogether) {
 TEST(Refinement, SmoothsOutWhatLoopClosingLeaves) {
   const TestVehicle vehicle = to_and_fro(drifting());
   const std::vector<Pose2> truth = true_poses(vehicle);
-  std::vector<Pose2> T_map_body = in_waves(truth);
+  std::vector<Pose2> T_map_body = in_large_waves(truth);
   const double before_m = aligned_rms_error_m(T_map_body, truth);
   const Result<RefinementReport> report = refine(vehicle, T_map_body);
   ASSERT_TRUE(report) << report.error().message;

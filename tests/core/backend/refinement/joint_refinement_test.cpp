@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,7 @@
 #include "core/backend/refinement/point_to_line_factor.hpp"
 #include "core/backend/store/traversal.hpp"
 #include "core/geometry/angle.hpp"
+#include "tests/support/pose_near.hpp"
 #include "tests/support/text_room.hpp"
 #include "tests/support/trajectory_error.hpp"
 
@@ -120,14 +120,6 @@ double found_scale(const Flight& flight, const Flight& before, int axis) {
     measured += std::abs(before.factors[i].T_from_to.vector()(axis));
   }
   return corrected / measured;
-}
-
-bool same_bits(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      if (std::bit_cast<std::uint64_t>(a[i].vector()[k]) != std::bit_cast<std::uint64_t>(b[i].vector()[k]))
-        return false;
-  return a.size() == b.size();
 }
 
 TEST(JointRefinement, PutsThePathWhereTheWallsWereSeen) {

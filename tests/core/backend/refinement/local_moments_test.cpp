@@ -15,7 +15,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kRadiusM = 0.3;
+constexpr double kMomentsRadiusM = 0.3;
 
 std::vector<TraversalPoint> random_points(std::mt19937& random, std::size_t count) {
   std::vector<TraversalPoint> points(count);
@@ -46,7 +46,7 @@ Moments2 one_by_one(const std::vector<TraversalPoint>& points, const std::vector
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const double dx = points[i].p_map.x_m - place.p_map.x_m;
       const double dy = points[i].p_map.y_m - place.p_map.y_m;
-      const double weight = 1.0 - (dx * dx + dy * dy) / (kRadiusM * kRadiusM);
+      const double weight = 1.0 - (dx * dx + dy * dy) / (kMomentsRadiusM * kMomentsRadiusM);
       if (weight <= 0.0 || points[i].traversal == place.traversal) continue;
       m.add({dx, dy}, weight);
     }
@@ -61,7 +61,7 @@ TEST(LocalMoments, AreThoseOfThePointsOneByOne) {
     const std::vector<TraversalPoint> points = random_points(random, count);
     const std::vector<PointRange> ranges = random_ranges(random, count);
     const TraversalPoint place = random_place(random);
-    const Moments2 m = local_moments(PointColumns(points), ranges, place, kRadiusM);
+    const Moments2 m = local_moments(PointColumns(points), ranges, place, kMomentsRadiusM);
     const Moments2 expected = one_by_one(points, ranges, place);
     ASSERT_EQ(m.count, expected.count);
     EXPECT_NEAR(m.w, expected.w, 1e-12);
@@ -82,8 +82,8 @@ TEST(LocalMoments, AreTheSameToTheLastBitOnAllMachines) {
     const PointColumns points(random_points(random, count));
     const std::vector<PointRange> ranges = random_ranges(random, count);
     const TraversalPoint place = random_place(random);
-    const Moments2 fast = local_moments(points, ranges, place, kRadiusM);
-    const Moments2 portable = local_moments_portable(points, ranges, place, kRadiusM);
+    const Moments2 fast = local_moments(points, ranges, place, kMomentsRadiusM);
+    const Moments2 portable = local_moments_portable(points, ranges, place, kMomentsRadiusM);
     ASSERT_EQ(fast.count, portable.count);
     ASSERT_EQ(fast.w, portable.w);
     ASSERT_EQ(fast.x, portable.x);
@@ -105,8 +105,8 @@ TEST(LocalMoments, TheLargestTraversalNumberIsOneLikeAnother) {
   constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
   const PointColumns points(std::vector<TraversalPoint>(5, TraversalPoint{{0.1, 0.0}, kLargest}));
   const std::vector<PointRange> all{{0, 5}};
-  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest}, kRadiusM).count, 0U);
-  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest - 1}, kRadiusM).count, 5U);
+  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest}, kMomentsRadiusM).count, 0U);
+  EXPECT_EQ(local_moments(points, all, {{0.0, 0.0}, kLargest - 1}, kMomentsRadiusM).count, 5U);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -98,26 +97,8 @@ double apart_over_way(const std::vector<Pose2>& a, const std::vector<Pose2>& b, 
   return std::sqrt(sum_m2 / static_cast<double>(a.size())) / run.scans().all().values().back().path_m;
 }
 
-bool same_bits(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      if (std::bit_cast<std::uint64_t>(a[i].vector()[k]) != std::bit_cast<std::uint64_t>(b[i].vector()[k]))
-        return false;
-    }
-  }
-  return a.size() == b.size();
-}
-
-/// Truth, with the first pose as origin as in dead reckoning.
-std::vector<Pose2> true_poses(const TestVehicle& vehicle) {
-  std::vector<Pose2> T_map_body;
-  for (const Pose2& T_world_body : vehicle.T_world_body())
-    T_map_body.push_back(between(vehicle.T_world_body()[0], T_world_body));
-  return T_map_body;
-}
-
 /// As loop closing leaves a path: off in slow waves of a few centimetres.
-std::vector<Pose2> in_waves(std::vector<Pose2> path) {
+std::vector<Pose2> in_small_waves(std::vector<Pose2> path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double phase = 2.0 * kPi * static_cast<double>(i) / 150.0;
     path[i] = path[i] * Pose2(0.05 * std::sin(phase), 0.05 * std::sin(1.3 * phase), 0.0);
@@ -129,7 +110,7 @@ TEST(RunRefinement, TheRangesPayForACorrectionThatDriftAloneMakesUnlikely) {
   const StoredRun run(two_laps().samples());
   const std::vector<Pose2> truth = true_poses(two_laps());
   ASSERT_GT(apart_over_way(odometry(two_laps()), truth, run), 2.0 * RefinementTuning().median_drift);
-  const FinalMap map = final_map(run, in_waves(truth));
+  const FinalMap map = final_map(run, in_small_waves(truth));
   EXPECT_EQ(map.counters.map_source, MapSource::kPoseGraph);
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.3);
 }
@@ -205,13 +186,13 @@ TEST(RunRefinement, ARestartThatLoopsHaveBridgedIsNoDrift) {
   fly_along(vehicle, loop_corridor(), "da");
   const StoredRun run(vehicle.samples(), bent(vehicle, 0.0));
   const std::vector<Pose2> truth = true_poses(vehicle);
-  const FinalMap map = final_map(run, in_waves(truth));
+  const FinalMap map = final_map(run, in_small_waves(truth));
   EXPECT_EQ(map.counters.map_source, MapSource::kPoseGraph);
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.1);
 }
 
 TEST(RunRefinement, TwoRunsGiveTheSameBytes) {
-  const std::vector<Pose2> T_graph_body = in_waves(true_poses(two_laps()));
+  const std::vector<Pose2> T_graph_body = in_small_waves(true_poses(two_laps()));
   const FinalMap one = final_map(StoredRun(two_laps().samples()), T_graph_body);
   const FinalMap other = final_map(StoredRun(two_laps().samples()), T_graph_body);
   EXPECT_TRUE(one.counters.refined);

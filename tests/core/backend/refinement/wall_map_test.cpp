@@ -20,7 +20,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kRadiusM = 0.5;
+constexpr double kWallRadiusM = 0.5;
 constexpr double kSpacingM = 0.09;  // wider than a thinning cell: every point counts
 constexpr std::uint32_t kAskingTraversal = 99;
 
@@ -75,7 +75,7 @@ class AllPoints {
     double sum = 0.0;
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     for (const auto& [traversal, p] : thinned_) {
-      const double weight = 1.0 - (p - at).squaredNorm() / (kRadiusM * kRadiusM);
+      const double weight = 1.0 - (p - at).squaredNorm() / (kWallRadiusM * kWallRadiusM);
       if (traversal == place.traversal || weight <= 0.0) continue;
       near.emplace_back(weight, p);
       mean += weight * p;
@@ -103,7 +103,7 @@ TEST(WallMap, EqualsTheSearchThroughAllPoints) {
   std::size_t none = 0;
   for (int round = 0; round < 10; ++round) {
     const std::vector<TraversalPoint> points = random_places(random);
-    const WallMap map(points, kRadiusM);
+    const WallMap map(points, kWallRadiusM);
     const AllPoints twin(points);
     ASSERT_EQ(map.size(), twin.size());
     for (int query = 0; query < 300; ++query) {
@@ -133,8 +133,8 @@ TEST(WallMap, PointsThatAreThinnedAlreadyCountTheSame) {
   std::vector<TraversalPoint> thinned;
   append_thinned(std::vector<TraversalPoint>(points.begin(), later), RefinementTuning{}.thinning_cell_m,
                  thinned);
-  const WallMap of_both(thinned, std::vector<TraversalPoint>(later, points.end()), kRadiusM);
-  const WallMap of_all(points, kRadiusM);
+  const WallMap of_both(thinned, std::vector<TraversalPoint>(later, points.end()), kWallRadiusM);
+  const WallMap of_all(points, kWallRadiusM);
   ASSERT_EQ(of_both.size(), of_all.size());
   EXPECT_LT(of_all.size(), points.size());
   for (int query = 0; query < 300; ++query) {
@@ -152,7 +152,7 @@ TEST(WallMap, PointsThatAreThinnedAlreadyCountTheSame) {
 TEST(WallMap, TheNormalStandsAcrossTheWallInEveryDirection) {
   for (int i = 0; i < 24; ++i) {
     const double direction_rad = i * kPi / 12.0;
-    const WallMap map(stretch({2.0, -3.0}, direction_rad, 9, 0), kRadiusM);
+    const WallMap map(stretch({2.0, -3.0}, direction_rad, 9, 0), kWallRadiusM);
     const double middle_m = 4.0 * kSpacingM;
     const Point2 middle{2.0 + middle_m * std::cos(direction_rad), -3.0 + middle_m * std::sin(direction_rad)};
     const Point2 beside{middle.x_m - 0.1 * std::sin(direction_rad),
@@ -173,7 +173,7 @@ TEST(WallMap, NearPointsCountMore) {
   std::vector<TraversalPoint> points = stretch({-0.36, 0.0}, 0.0, 9, 0);
   const std::vector<TraversalPoint> upper = stretch({-0.36, 0.1}, 0.0, 9, 1);
   points.insert(points.end(), upper.begin(), upper.end());
-  const WallMap map(points, kRadiusM);
+  const WallMap map(points, kWallRadiusM);
   const auto at_lower = map.wall_near({{0.0, -0.2}, kAskingTraversal});
   const auto at_upper = map.wall_near({{0.0, 0.3}, kAskingTraversal});
   ASSERT_TRUE(at_lower && at_upper);
@@ -184,10 +184,10 @@ TEST(WallMap, NearPointsCountMore) {
 TEST(WallMap, APassDoesNotSeeItsOwnReturns) {
   std::vector<TraversalPoint> points = stretch({0.0, 0.0}, 0.0, 9, 0);
   const Point2 place{0.36, 0.05};
-  EXPECT_FALSE(WallMap(points, kRadiusM).wall_near({place, 0}));
+  EXPECT_FALSE(WallMap(points, kWallRadiusM).wall_near({place, 0}));
   const std::vector<TraversalPoint> other = stretch({0.0, 0.2}, 0.0, 9, 1);
   points.insert(points.end(), other.begin(), other.end());
-  const WallMap map(points, kRadiusM);
+  const WallMap map(points, kWallRadiusM);
   const auto of_0 = map.wall_near({place, 0});
   const auto of_1 = map.wall_near({place, 1});
   ASSERT_TRUE(of_0 && of_1);
@@ -197,8 +197,8 @@ TEST(WallMap, APassDoesNotSeeItsOwnReturns) {
 
 TEST(WallMap, FewerThanFivePointsAreNoWall) {
   const Point2 place{0.2, 0.0};
-  EXPECT_FALSE(WallMap(stretch({0.0, 0.0}, 0.0, 4, 0), kRadiusM).wall_near({place, kAskingTraversal}));
-  EXPECT_TRUE(WallMap(stretch({0.0, 0.0}, 0.0, 5, 0), kRadiusM).wall_near({place, kAskingTraversal}));
+  EXPECT_FALSE(WallMap(stretch({0.0, 0.0}, 0.0, 4, 0), kWallRadiusM).wall_near({place, kAskingTraversal}));
+  EXPECT_TRUE(WallMap(stretch({0.0, 0.0}, 0.0, 5, 0), kWallRadiusM).wall_near({place, kAskingTraversal}));
 }
 
 TEST(WallMap, ClutterIsNoWall) {
@@ -207,7 +207,7 @@ TEST(WallMap, ClutterIsNoWall) {
     const std::vector<TraversalPoint> line = stretch({-0.36, kSpacingM * row - 0.36}, 0.0, 9, row);
     block.insert(block.end(), line.begin(), line.end());
   }
-  EXPECT_FALSE(WallMap(block, kRadiusM).wall_near({{0.0, 0.0}, kAskingTraversal}));
+  EXPECT_FALSE(WallMap(block, kWallRadiusM).wall_near({{0.0, 0.0}, kAskingTraversal}));
 }
 
 TEST(WallMap, AShortStretchHasNoDirection) {
@@ -215,19 +215,19 @@ TEST(WallMap, AShortStretchHasNoDirection) {
   std::vector<TraversalPoint> post(20);
   for (std::uint32_t traversal = 0; traversal < 20; ++traversal)
     post[traversal] = {{1.0 + 0.008 * traversal, 1.0}, traversal};
-  EXPECT_FALSE(WallMap(post, kRadiusM).wall_near({{1.08, 1.0}, kAskingTraversal}));
+  EXPECT_FALSE(WallMap(post, kWallRadiusM).wall_near({{1.08, 1.0}, kAskingTraversal}));
   for (TraversalPoint& p : post) p.p_map.x_m = 1.0 + 0.016 * p.traversal;
-  EXPECT_TRUE(WallMap(post, kRadiusM).wall_near({{1.16, 1.0}, kAskingTraversal})) << "long enough";
+  EXPECT_TRUE(WallMap(post, kWallRadiusM).wall_near({{1.16, 1.0}, kAskingTraversal})) << "long enough";
 }
 
 TEST(WallMap, WallsBeyondTheRadiusAreNotNear) {
-  const WallMap map(stretch({0.0, 0.0}, 0.0, 12, 0), kRadiusM);
+  const WallMap map(stretch({0.0, 0.0}, 0.0, 12, 0), kWallRadiusM);
   EXPECT_TRUE(map.wall_near({{0.5, 0.3}, kAskingTraversal}));
   EXPECT_FALSE(map.wall_near({{0.5, 0.5}, kAskingTraversal}));
 }
 
 TEST(WallMap, FarOutsideThereIsNothing) {
-  const WallMap map(stretch({0.0, 0.0}, 0.5, 40, 0), kRadiusM);
+  const WallMap map(stretch({0.0, 0.0}, 0.5, 40, 0), kWallRadiusM);
   for (const double x_m : {-1e4, -2.0, 1.0, 20.0, 1e4}) {
     for (const double y_m : {-1e4, -2.0, 20.0, 1e4})
       EXPECT_FALSE(map.wall_near({{x_m, y_m}, kAskingTraversal})) << x_m << ", " << y_m;
@@ -235,7 +235,7 @@ TEST(WallMap, FarOutsideThereIsNothing) {
 }
 
 TEST(WallMap, AnEmptyMapHasNoWalls) {
-  const WallMap map({}, kRadiusM);
+  const WallMap map({}, kWallRadiusM);
   EXPECT_EQ(map.size(), 0U);
   EXPECT_FALSE(map.wall_near({{0.0, 0.0}, 0}));
 }
@@ -246,7 +246,7 @@ TEST(WallMap, KeepsOnePointAPassAndCellInTheirMiddle) {
   points.insert(points.end(), 50, TraversalPoint{{0.02, 0.03}, 0});
   for (int i = 1; i < 9; ++i) points.push_back({{0.02 + 0.08 * i, 0.02}, 0});
   points.push_back({{0.02, 0.02}, 1});
-  const WallMap map(points, kRadiusM);
+  const WallMap map(points, kWallRadiusM);
   EXPECT_EQ(map.size(), 10U);
   const auto wall = map.wall_near({{0.34, 0.02}, 1});
   ASSERT_TRUE(wall);
