@@ -197,7 +197,8 @@ Status check_output(const ConvertCommand& command) {
   std::error_code failure;
   if (fs::equivalent(command.input, command.output, failure))
     return cannot_write(command, "this is the input; name another output");
-  if (fs::is_directory(command.output, failure)) return cannot_write(command, "this is a directory");
+  if (fs::is_directory(command.output, failure))
+    return cannot_write(command, "this is a directory; name a file in it");
   const fs::path folder = folder_of(command.output);
   if (!fs::is_directory(folder, failure))
     return cannot_write(command, "there is no directory " + folder.string());

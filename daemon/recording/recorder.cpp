@@ -65,7 +65,8 @@ Result<CaptureWriter> Recorder::create_file() {
   std::error_code error;
   std::filesystem::create_directories(plan_.directory, error);
   if (error)
-    return Error{ErrorCode::kInvalidInput, plan_.directory.string() + ": cannot be made: " + error.message()};
+    return Error{ErrorCode::kInvalidInput, plan_.directory.string() + ": cannot be made: " + error.message() +
+                                               "; name another directory in record.directory"};
   // Two recorders that began in the same second take turns.
   const auto is_taken = [this](const std::filesystem::path& path) {
     std::error_code ignored;

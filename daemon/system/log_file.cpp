@@ -29,7 +29,7 @@ struct LogFile::State {
 
 Result<std::unique_ptr<LogFile>> LogFile::open(const std::string& path) {
   Result<spdlog::sink_ptr> file = open_file(path);
-  if (!file) return file.error();
+  if (!file) return Error{file.error().code, file.error().message + "; name another file with --log-file"};
   auto state = std::make_unique<State>();
   state->path = path;
   state->sink->add_sink(std::move(file).value());

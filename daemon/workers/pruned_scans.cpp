@@ -90,7 +90,8 @@ bool PrunedScans::visit_block(const Backend& backend, const Block& block,
 Status PrunedScans::for_each_scan(const Backend& backend,
                                   const std::function<void(const TrajectoryPoint&)>& visit) const {
   const Error lost{ErrorCode::kOutOfSpace,
-                   "pruned scans could not be kept on disk; the trajectories would miss them"};
+                   "pruned scans could not be kept on disk, and the trajectories would miss them; make room "
+                   "and map the recording"};
   if (failed_ || std::fflush(file_.get()) != 0) return lost;
   std::vector<Block> blocks = blocks_;
   std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.first < b.first; });

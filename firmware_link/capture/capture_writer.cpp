@@ -58,7 +58,9 @@ Result<CaptureWriter> CaptureWriter::create(const std::string& path, const Captu
   const int file = ::open(path.c_str(), flags, kEverybodyMayRead);
   if (file < 0 && refuses && errno == EEXIST)
     return Error{ErrorCode::kInvalidInput, path + ": is there already; choose another name or remove it"};
-  if (file < 0) return Error{ErrorCode::kInvalidInput, path + ": cannot be written: " + text_of_error(errno)};
+  if (file < 0)
+    return Error{ErrorCode::kInvalidInput,
+                 path + ": cannot be written: " + text_of_error(errno) + "; name another file"};
   static_cast<void>(
       ::flock(file, LOCK_EX | LOCK_NB));  // advisory: without the lock the file is written anyway
   CaptureWriter writer(path, vehicle, file);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <thread>
@@ -35,13 +36,15 @@ Result<std::unique_ptr<FollowedLink>> FollowedLink::open(const std::string& path
     std::unique_ptr<FollowedLink> link(new FollowedLink(path, file));
     link->kept_ = std::tmpfile();
     if (link->kept_ == nullptr)
-      return Error{ErrorCode::kInvalidInput, path + ": no temporary file: " + std::strerror(errno)};
+      return Error{ErrorCode::kInvalidInput, path + ": no temporary file can be made in " P_tmpdir ": " +
+                                                 std::strerror(errno) + "; make room there"};
     link->path_ = "/proc/self/fd/" + std::to_string(::fileno(link->kept_));
     return link;
   }
   ::close(file);
   if (!is_known || !S_ISREG(status.st_mode))
-    return Error{ErrorCode::kInvalidInput, path + ": neither a file nor a FIFO"};
+    return Error{ErrorCode::kInvalidInput,
+                 path + ": neither a file nor a FIFO; name the capture that is being written"};
   return std::unique_ptr<FollowedLink>(new FollowedLink(path, -1));
 }
 

@@ -110,7 +110,8 @@ void LogHandshake::on_source(std::span<const std::uint8_t> packet) {
   if (text.starts_with(kSourceText)) return enter(Step::kVersion);
   // The right answer to the same request may still come.
   if (std::exchange(awaits_source_, false))
-    refuse("the vehicle is not a Crazyflie, or older than CRTP protocol 1", packet);
+    refuse("the vehicle is not a Crazyflie, or older than CRTP protocol 1: check the address, or update it",
+           packet);
 }
 
 void LogHandshake::on_version(std::span<const std::uint8_t> packet) {
@@ -126,7 +127,8 @@ void LogHandshake::on_version(std::span<const std::uint8_t> packet) {
 void LogHandshake::on_reset(std::span<const std::uint8_t> packet) {
   // The id in the reply to a reset has no meaning.
   if (static_cast<LogError>(packet[3]) != LogError::kNone)
-    return refuse("the vehicle refuses to reset its log, error " + std::to_string(packet[3]));
+    return refuse("the vehicle refuses to reset its log, error " + std::to_string(packet[3]) +
+                  ": restart the vehicle");
   enter(Step::kToc);
 }
 

@@ -48,7 +48,8 @@ Result<std::unique_ptr<SimulatedUdpServer>> SimulatedUdpServer::open(const std::
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
-    return Error{ErrorCode::kInvalidInput, "cannot listen on udp " + where + ": not an IPv4 address"};
+    return Error{ErrorCode::kInvalidInput,
+                 "cannot listen on udp " + where + ": not an IPv4 address; write 127.0.0.1:19850"};
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket < 0) return no_socket(where);
   if (bind(socket, generic(&address), sizeof address) != 0) {

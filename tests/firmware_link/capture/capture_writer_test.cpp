@@ -37,7 +37,8 @@ TEST(CaptureWriter, ReportsWhereItCannotWrite) {
   const Result<CaptureWriter> writer = CaptureWriter::create("/nonexistent/a.pcap", radio_vehicle(0xE7));
   ASSERT_FALSE(writer.ok());
   EXPECT_EQ(writer.error().code, ErrorCode::kInvalidInput);
-  EXPECT_EQ(writer.error().message, "/nonexistent/a.pcap: cannot be written: No such file or directory");
+  EXPECT_EQ(writer.error().message,
+            "/nonexistent/a.pcap: cannot be written: No such file or directory; name another file");
 }
 
 TEST(CaptureWriter, RefusesAnExistingFileAndDoesNotChangeIt) {
