@@ -77,7 +77,7 @@ TEST(FrontendWorker, ThePoseKnowsWhenItsSampleArrived) {
 }
 
 TEST(FrontendWorker, ThePoseCarriesTheBeamsThatWereMeasuredThere) {
-  Bench bench;
+  FrontendBench bench;
   RangeSample sample = flight_in_square_room(1, 3.0, 1.0).front();
   sample.measured_at = DeviceTime(std::chrono::seconds(9));
   sample.status[2] = RangeStatus::kNoReturn;
