@@ -150,6 +150,7 @@ SILENT_TEXTS = {
         frontend: batches rolled back
         listening on …; Ctrl-C ends
         …: open … in a browser; Ctrl-C ends
+        the live map: open … in a browser
         file: …: for --config of swiftlet map and swiftletd
         kind of building: …
         …: … samples in … s; … m forward and back, … m sideways, … turns
@@ -167,6 +168,8 @@ SILENT_TEXTS = {
         took off
         flight interrupted
         listening on udp://…, world …, seed …; type help for instructions""",
+    "the text of Python's help": """
+        What cannot be done, in one line: what, where, and what to do.""",
     "a header of the web server":
         "\ndefault-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
