@@ -124,7 +124,7 @@ TEST(WindowRefinement, WithoutNeighboursPullsTheWindowToThem) {
 
 TEST(WindowRefinement, WhatNoWallHoldsGoesBackToTheGraph) {
   TestVehicle vehicle(TextRoom({"a"}, 0.5), Pose2(), {}, 52);  // nothing within reach of any beam
-  vehicle.fly_to(TextRoom({"a"}, 0.5), {6.0, 0.0});
+  vehicle.fly_to(TextRoom({"a"}, 0.5), {20.0, 0.0});
   const StoredRun run(vehicle.samples());
   WindowPoses poses;
   for (const RangeSample& sample : vehicle.samples()) poses.T_map_graph.push_back(sample.T_odom_body);
