@@ -24,7 +24,9 @@ bool MessageMailbox::take(Message& message) {
     std::array<std::uint8_t, sizeof(Head)> raw;
     if (ring_.read_available() < raw.size()) return false;
     ring_.pop(raw.data(), raw.size());
-    std::memcpy(&head_.emplace(), raw.data(), raw.size());
+    Head head;
+    std::memcpy(&head, raw.data(), raw.size());
+    head_ = head;
   }
   if (ring_.read_available() < head_->bytes) return false;
   message.channel = head_->channel;
