@@ -17,17 +17,11 @@ from pathlib import Path
 import numpy as np
 
 import swiftlet
+from map_picture import FREE, OCCUPIED, UNKNOWN, pixels_of
 
 SWIFTLETD = sys.argv[2]
 PROTO = Path(__file__).resolve().parents[3] / "proto"
-UNKNOWN, FREE, OCCUPIED = 205, 254, 0
 ALL = (swiftlet.Pose, swiftlet.Tile, swiftlet.Walls, swiftlet.Closure, swiftlet.Status)
-
-
-def pixels_of(path):
-    _, size, _, pixels = path.read_bytes().split(b"\n", 3)
-    columns, rows = (int(number) for number in size.split())
-    return np.frombuffer(pixels, np.uint8).reshape(rows, columns)
 
 
 class PublishedRun(unittest.TestCase):

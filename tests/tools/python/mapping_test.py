@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 
 import swiftlet
+from map_picture import FREE, OCCUPIED, UNKNOWN, pixels_of
 
 SWIFTLET = sys.argv[1]
 INPUT = "sim://patrol?seed=3"
-FREE, UNKNOWN, OCCUPIED = 254, 205, 0
 # For what stops it.
 LONG = "sim://office?seed=1&laps=30"
 
@@ -29,13 +29,6 @@ def poses_of(path):
     """Time, x, y and yaw of a TUM file."""
     stamp, x, y, _, _, _, qz, qw = np.loadtxt(path).T
     return np.column_stack([stamp, x, y, 2 * np.arctan2(qz, qw)])
-
-
-def pixels_of(path):
-    kind, size, highest, pixels = path.read_bytes().split(b"\n", 3)
-    assert (kind, highest) == (b"P5", b"255")
-    columns, rows = (int(number) for number in size.split())
-    return np.frombuffer(pixels, np.uint8).reshape(rows, columns)
 
 
 class MappedFlight(unittest.TestCase):
