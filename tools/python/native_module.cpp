@@ -19,6 +19,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -129,10 +130,10 @@ py::dict map_input(MapCommand command, const py::object& on_progress) {
 double seconds(std::int64_t utime_us) { return static_cast<double>(utime_us) * 1e-6; }
 
 /// The name of a code of a message's type; a newer daemon may have codes of which this knows nothing.
-template <std::size_t N>
-const char* name_of_code(const std::array<const char*, N>& names, std::int8_t code) {
-  const auto index = static_cast<std::size_t>(code);
-  return code >= 0 && index < N ? names[index] : "unknown";
+const char* name_of_code(std::span<const char* const> names, std::int8_t code) {
+  if (code < 0) return "unknown";
+  const std::size_t index = static_cast<std::uint8_t>(code);
+  return index < names.size() ? names[index] : "unknown";
 }
 constexpr std::array kFrames{"map", "local", "odom"};
 constexpr std::array kTrackingStates{"good", "uncertain", "lost", "relocalizing"};
@@ -358,6 +359,7 @@ void define_error(py::module_& m) {
       "swiftlet.Error", "What cannot be done, in one line: what, where, and what to do.", nullptr, nullptr);
   if (error == nullptr) throw py::error_already_set();
   m.add_object("Error", error);
+  // pybind11 gives the type of this function. NOLINTNEXTLINE(performance-unnecessary-value-param)
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
