@@ -66,7 +66,7 @@ std::string tuning_problem(std::string_view part, std::string_view key, const Va
                      shortest_text(range.lowest), shortest_text(range.highest));
 }
 
-/// Reads a file, and settings above it, into one configuration and remembers all that is wrong with them.
+/// Reads a file, and settings above it, into one configuration, and collects all problems.
 class Loader {
  public:
   Status read_file(const std::string& path) {

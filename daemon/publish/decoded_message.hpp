@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-/// Where a message has the number of elements of its lists; 0: nowhere.
+/// The byte at which an encoded message (proto/) has the number of elements of its lists; 0: it has no lists.
 template <typename Message>
 inline constexpr std::size_t kCountAt = 0;
 template <>
@@ -33,7 +33,8 @@ inline constexpr std::size_t kCountAt<landmarks_t> = 32;
 /// A message of the LCM type; nullopt where the bytes are not one, or one of another version.
 template <typename Message>
 [[nodiscard]] std::optional<Message> decoded_message(std::span<const std::uint8_t> bytes) {
-  if (kCountAt < Message >> 0 && !can_hold_its_count(bytes, kCountAt<Message>)) return std::nullopt;
+  constexpr std::size_t kAt = kCountAt<Message>;
+  if (kAt > 0 && !can_hold_its_count(bytes, kAt)) return std::nullopt;
   std::optional<Message> message(std::in_place);
   try {
     if (message->decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) message.reset();

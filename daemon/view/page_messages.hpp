@@ -28,10 +28,10 @@ namespace swiftlet {
 //   newest
 // From the server, as bytes, little-endian: a header of 16 bytes (u32 kind, u32 count, f64 value), then
 // `count` records:
-//   1 poses, value n, how many beams there are: before the records f32[n] bearings of the beams; then each
-//   f64
-//     utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment, correction_version,
-//     tracking; f32[6] covariance_map as in pose_t; u32 serial; f32[n] ranges as TrailPose::ranges_m
+//   1 poses, value n: number of beams. f32[n] bearings come before the records.
+//     A record: f64 utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment,
+//     correction_version, tracking; f32[6] covariance_map as in pose_t; u32 serial; f32[n] ranges as
+//     TrailPose::ranges_m
 //   2 walls, value utime_us: all of them: i32 id; f32[4] start x, y, end x, y
 //   3 tiles, value resolution_m: i32 x, y, version; i8[4096] occupancy as in map_tile_t. Version 0: gone
 // From the page, as text: {"at": utime_us} to look at the run as it was then, {"at": null} for the newest.

@@ -14,8 +14,8 @@
 
 namespace swiftlet {
 
-/// The page on which a run is watched, and the same for Foxglove: fills its history by what it is told, and
-/// serves it in a thread of its own, which yields to others.
+/// Serves the page of a run, and the same to Foxglove, from a history that others fill. Its thread yields to
+/// others.
 class ViewService {
  public:
   /// Pages of `foreign_origins` may look, too. Error: kInvalidInput: it cannot listen there.

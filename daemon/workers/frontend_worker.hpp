@@ -17,8 +17,8 @@ namespace swiftlet {
 /// @note A step allocates nothing, takes no lock and logs nothing.
 class FrontendWorker {
  public:
-  /// References must outlive the worker, but that of `beams`, which says how the beams of this run lie.
-  /// Without `publisher` poses go nowhere but to the backend.
+  /// References must outlive the worker, except `beams`, which is copied: the bearings of this run's beams.
+  /// Without `publisher` poses go to the backend alone.
   FrontendWorker(Frontend& frontend, const Clock& clock, SampleQueue::Consumer samples,
                  StepQueue::Producer steps, CorrectionValue& correction,
                  std::optional<FrontendOutlet> publisher, const BeamReadings& beams, StageHistogram& times);

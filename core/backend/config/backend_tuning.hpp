@@ -243,8 +243,8 @@ struct RefinementTuning {
   // Windows of the online refinement
   std::size_t max_window_returns = 3000;  ///< a window with more is thinned
   double step_weight = 0.25;              ///< on information: errors of dead reckoning persist, and add up
-  double tie_sigma_m = 0.3;     ///< of each keyframe to its pose in the graph; at places flown before
-                                ///< that errs by so much (docs/results/live.md). Holds poses without walls
+  double tie_sigma_m = 0.3;     ///< of each keyframe to its pose in the graph, for poses without walls: the
+                                ///< graph's error at places flown before, rms 0.15 to 0.3 m in most worlds
   double tie_sigma_rad = 0.05;  ///< likewise
 
   static constexpr TuningValue<RefinementTuning> kValues[] = {

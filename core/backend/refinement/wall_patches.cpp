@@ -20,13 +20,15 @@ double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.
 class ReturnsByCell {
  public:
   ReturnsByCell(std::span<const DrawnReturn> returns, double cell_m) : cell_m_(cell_m) {
-    for (const DrawnReturn& r : returns) cells_.push_back(cell_of(r.p_map, cell_m));
     index_.resize(returns.size());
     std::iota(index_.begin(), index_.end(), 0U);
-    std::stable_sort(index_.begin(), index_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return cells_[a] < cells_[b]; });
-    std::sort(cells_.begin(), cells_.end());
-    for (const std::uint32_t i : index_) sorted_.push_back(returns[i]);
+    std::stable_sort(index_.begin(), index_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return cell_at(returns[a].p_map) < cell_at(returns[b].p_map);
+    });
+    for (const std::uint32_t i : index_) {
+      sorted_.push_back(returns[i]);
+      cells_.push_back(cell_at(returns[i].p_map));
+    }
   }
   [[nodiscard]] std::size_t size() const { return sorted_.size(); }
   [[nodiscard]] const DrawnReturn& operator[](std::size_t position) const { return sorted_[position]; }
