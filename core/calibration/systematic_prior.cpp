@@ -26,10 +26,18 @@ InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel&
   InputCalibration calibration{expected, expected, estimate.sigma};
   calibration.found.range_age = std::clamp(
       expected.range_age + from_seconds(error(SystematicError::kRangeAge)), Duration::zero(), kMaxRangeAge);
-  calibration.found.odometry_calibration = {
-      1.0 + error(SystematicError::kForwardScale), 1.0 + error(SystematicError::kSidewaysScale),
-      error(SystematicError::kYawPerMetre), error(SystematicError::kYawPerRadian),
-      error(SystematicError::kYawPerSecond)};
+  OdometryCalibration& odometry = calibration.found.odometry_calibration;
+  odometry.forward_scale = 1.0 + error(SystematicError::kForwardScale);
+  odometry.sideways_scale = 1.0 + error(SystematicError::kSidewaysScale);
+  if (yaw_goes_with_travel(expected.odometry)) {
+    OdometryNoise& noise = calibration.found.odometry;
+    noise.expected_drift_yaw_per_metre_rad =
+        error(SystematicError::kYawPerMetre) - odometry.yaw_per_metre_rad;
+    noise.expected_drift_yaw_per_radian = error(SystematicError::kYawPerRadian) - odometry.yaw_per_radian;
+  } else {
+    odometry.yaw_per_radian = error(SystematicError::kYawPerRadian);
+    odometry.yaw_per_second_rad = error(SystematicError::kYawPerSecond);
+  }
   return calibration;
 }
 

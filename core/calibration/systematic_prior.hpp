@@ -11,7 +11,7 @@ namespace swiftlet {
 /// Posterior mean and standard deviation: what a run shows little of stays near zero. `sigma_factor`:
 /// estimates from different maps differ by more than their sigmas.
 [[nodiscard]] JointEstimate weighed(JointEstimate measured, const SensorModel& sensor,
-                                    const SystematicPrior& prior = {}, double sigma_factor = 2.0);
+                                    const SystematicPrior& prior, double sigma_factor = 2.0);
 
 /// What an input shows of its own sensors.
 struct InputCalibration {
@@ -20,7 +20,8 @@ struct InputCalibration {
   SystematicErrors sigma = SystematicErrors::Zero();  ///< of what was found; 0: not estimated
 };
 /// `estimate` is relative to the expected range age, and to no calibration of the odometry. An age is not
-/// below zero.
+/// below zero. The yaw that wheels miss becomes what the frontend expects of it: it differs along the way, so
+/// the frontend goes on learning it, and dead reckoning as such stays as reported.
 [[nodiscard]] InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel& expected);
 
 }  // namespace swiftlet

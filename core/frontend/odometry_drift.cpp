@@ -8,6 +8,7 @@ namespace swiftlet {
 
 OdometryDrift::OdometryDrift(const OdometryNoise& noise, const OdometryDriftTuning& tuning)
     : tuning_(tuning),
+      estimate_(noise.expected_drift_yaw_per_metre_rad, noise.expected_drift_yaw_per_radian),
       covariance_(Eigen::Vector2d(squared(noise.drift_yaw_per_metre_rad), squared(noise.drift_yaw_per_radian))
                       .asDiagonal()),
       wander_(squared(tuning.wander_share) * covariance_) {}

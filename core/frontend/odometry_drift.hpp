@@ -17,7 +17,8 @@ namespace swiftlet {
 /// @note Fixed storage. One thread at a time.
 class OdometryDrift {
  public:
-  /// `noise` gives the drift's standard deviations; where 0, the estimate stays 0.
+  /// `noise` gives the drift's expected values, at which the estimate begins, and its standard deviations;
+  /// where those are 0, it stays there.
   explicit OdometryDrift(const OdometryNoise& noise, const OdometryDriftTuning& tuning = {});
 
   /// A motion measured as `forward_m` and `turn_rad` missed `yaw_error_rad` by the graph's estimate; the
@@ -29,7 +30,7 @@ class OdometryDrift {
 
  private:
   OdometryDriftTuning tuning_;
-  Eigen::Vector2d estimate_ = Eigen::Vector2d::Zero();  // rad/m, rad/rad
+  Eigen::Vector2d estimate_;  // rad/m, rad/rad
   Eigen::Matrix2d covariance_;
   Eigen::Matrix2d wander_;  // process noise of each motion: drift changes slowly
 };

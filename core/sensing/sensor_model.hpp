@@ -36,7 +36,9 @@ struct OdometryNoise {
                                     ///< gives each that much less weight
   double drift_yaw_per_metre_rad =
       0.0;  ///< standard deviation of the yaw that is missed with each metre forward
-  double drift_yaw_per_radian = 0.0;        ///< ... and with each radian turned
+  double drift_yaw_per_radian = 0.0;              ///< ... and with each radian turned
+  double expected_drift_yaw_per_metre_rad = 0.0;  ///< the mean of that yaw: where the estimate begins
+  double expected_drift_yaw_per_radian = 0.0;
   double detour_speed_m_per_s = 0.5;        ///< how fast the vehicle may move while no packet arrives ...
   double detour_turn_rate_rad_per_s = 0.5;  ///< ... and turn
 };

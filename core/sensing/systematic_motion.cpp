@@ -53,9 +53,9 @@ double value_in(const SensorModel& sensor, SystematicError error) {
     case SystematicError::kSidewaysScale:
       return calibration.sideways_scale;
     case SystematicError::kYawPerMetre:
-      return calibration.yaw_per_metre_rad;
+      return calibration.yaw_per_metre_rad + sensor.odometry.expected_drift_yaw_per_metre_rad;
     case SystematicError::kYawPerRadian:
-      return calibration.yaw_per_radian;
+      return calibration.yaw_per_radian + sensor.odometry.expected_drift_yaw_per_radian;
     case SystematicError::kYawPerSecond:
       return calibration.yaw_per_second_rad;
   }

@@ -12,14 +12,18 @@ using SystematicCovariance = Eigen::Matrix<double, kSystematicErrors, kSystemati
 
 /// Standard deviations of the systematic errors of an input of which nothing else is known.
 struct SystematicPrior {
-  double range_age_s = 0.1;      ///< about a scan period
-  double scale = 0.03;           ///< of odometry
-  double scales_apart = 0.01;    ///< forward and sideways: one flow sensor measures both, at one height
-  double yaw_per_radian = 0.01;  ///< of a gyro; that of wheels is learnt by the frontend
+  double range_age_s = 0.1;        ///< about a scan period
+  double scale = 0.03;             ///< of odometry
+  double scales_apart = 0.01;      ///< forward and sideways: one flow sensor measures both, at one height
+  double yaw_per_metre_rad = 0.0;  ///< the yaw: of a gyro
+  double yaw_per_radian = 0.01;
   double yaw_per_second_rad = 0.002;
 };
 
-/// Zero where an error is none: wheels do not move sideways, and the frontend learns their yaw.
+/// Of an input with this odometry.
+[[nodiscard]] SystematicPrior systematic_prior(const OdometryNoise& noise);
+
+/// Zero where an error is none: wheels do not move sideways.
 [[nodiscard]] SystematicCovariance covariance_of(const SystematicPrior& prior, bool has_wheels);
 
 }  // namespace swiftlet

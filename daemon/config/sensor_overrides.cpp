@@ -20,6 +20,8 @@ void SensorOverrides::take_calibration(const SensorModel& calibrated) {
   take(calibration.yaw_per_metre_rad, missed_yaw_per_metre_rad);
   take(calibration.yaw_per_radian, missed_yaw_per_radian);
   take(calibration.yaw_per_second_rad, missed_yaw_per_second_rad);
+  take(calibrated.odometry.expected_drift_yaw_per_metre_rad, expected_drift_yaw_per_metre_rad);
+  take(calibrated.odometry.expected_drift_yaw_per_radian, expected_drift_yaw_per_radian);
 }
 
 SensorModel SensorOverrides::applied_to(SensorModel model) const {
@@ -33,6 +35,10 @@ SensorModel SensorOverrides::applied_to(SensorModel model) const {
   model.odometry.drift_yaw_per_metre_rad =
       drift_yaw_per_metre_rad.value_or(model.odometry.drift_yaw_per_metre_rad);
   model.odometry.drift_yaw_per_radian = drift_yaw_per_radian.value_or(model.odometry.drift_yaw_per_radian);
+  model.odometry.expected_drift_yaw_per_metre_rad =
+      expected_drift_yaw_per_metre_rad.value_or(model.odometry.expected_drift_yaw_per_metre_rad);
+  model.odometry.expected_drift_yaw_per_radian =
+      expected_drift_yaw_per_radian.value_or(model.odometry.expected_drift_yaw_per_radian);
   OdometryCalibration& calibration = model.odometry_calibration;
   calibration.forward_scale = odometry_forward_scale.value_or(calibration.forward_scale);
   calibration.sideways_scale = odometry_sideways_scale.value_or(calibration.sideways_scale);

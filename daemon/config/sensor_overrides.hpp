@@ -22,6 +22,8 @@ struct SensorOverrides {
   std::optional<double> odometry_yaw_per_metre_rad;
   std::optional<double> drift_yaw_per_metre_rad;
   std::optional<double> drift_yaw_per_radian;
+  std::optional<double> expected_drift_yaw_per_metre_rad;
+  std::optional<double> expected_drift_yaw_per_radian;
   std::optional<double> odometry_forward_scale;
   std::optional<double> odometry_sideways_scale;
   std::optional<double> missed_yaw_per_metre_rad;
@@ -48,6 +50,11 @@ struct SensorOverrides {
        "standard deviation of the yaw that dead reckoning misses with every metre; 0: none is learnt", 0, 1},
       {"drift_yaw_per_radian", &SensorOverrides::drift_yaw_per_radian, "rad/rad",
        "the same with every radian turned", 0, 1},
+      {"expected_drift_yaw_per_metre_rad", &SensorOverrides::expected_drift_yaw_per_metre_rad, "rad/m",
+       "the yaw missed with every metre forward at which learning begins; swiftlet map estimates it", -0.5,
+       0.5},
+      {"expected_drift_yaw_per_radian", &SensorOverrides::expected_drift_yaw_per_radian, "rad/rad",
+       "the same with every radian turned", -0.5, 0.5},
       {"odometry_forward_scale", &SensorOverrides::odometry_forward_scale, "m/m",
        "metres moved per metre of dead reckoning, forward; swiftlet calibrate estimates this and what "
        "follows",
@@ -65,8 +72,8 @@ struct SensorOverrides {
   /// All that is wrong with it, one line each; empty when usable.
   [[nodiscard]] std::vector<std::string> validate() const;
 
-  /// Takes the systematic errors of a calibrated model, age of the ranges, scales and missed yaw, where none
-  /// is set.
+  /// Takes the systematic errors of a calibrated model, age of the ranges, scales, missed yaw and drift,
+  /// where none is set.
   void take_calibration(const SensorModel& calibrated);
 
   /// The input's model with what is set here put in its place.

@@ -23,7 +23,7 @@ Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorM
   if (samples.size() < 2) return Error{ErrorCode::kInvalidInput, "too few samples"};
   const Result<JointEstimate> estimate = estimate_from_stretches(samples, expected, source.beams());
   if (!estimate) return estimate.error();
-  SystematicPrior prior;
+  SystematicPrior prior = systematic_prior(expected.odometry);
   if (!source.report().shows_age) prior.range_age_s = 0.0;
   return calibrated_by(weighed(*estimate, expected, prior), expected);
 }
@@ -40,6 +40,7 @@ std::string calibration_note(const InputCalibration& calibration) {
   add(SystematicError::kRangeAge, "age of the ranges", " s");
   add(SystematicError::kForwardScale, "scale of the odometry", "");
   add(SystematicError::kSidewaysScale, "sideways", "");
+  add(SystematicError::kYawPerMetre, "missed yaw", " rad/m");
   return note;
 }
 

@@ -10,6 +10,9 @@ namespace {
 constexpr Eigen::Index kAge = index_of(SystematicError::kRangeAge);
 constexpr Eigen::Index kForward = index_of(SystematicError::kForwardScale);
 constexpr Eigen::Index kSideways = index_of(SystematicError::kSidewaysScale);
+constexpr Eigen::Index kYawPerMetre = index_of(SystematicError::kYawPerMetre);
+constexpr Eigen::Index kYawPerRadian = index_of(SystematicError::kYawPerRadian);
+constexpr Eigen::Index kYawPerSecond = index_of(SystematicError::kYawPerSecond);
 
 JointEstimate measured(double sigma) {
   JointEstimate estimate;
@@ -18,9 +21,13 @@ JointEstimate measured(double sigma) {
   return estimate;
 }
 
+JointEstimate weighed_by(const SensorModel& sensor, const JointEstimate& estimate) {
+  return weighed(estimate, sensor, systematic_prior(sensor.odometry));
+}
+
 TEST(SystematicPrior, LeavesWhatIsWellKnownAsItWasMeasured) {
   const JointEstimate sure = measured(1e-6);
-  const JointEstimate weighed_one = weighed(sure, SensorModel::crazyflie());
+  const JointEstimate weighed_one = weighed_by(SensorModel::crazyflie(), sure);
   for (const Eigen::Index k : {kAge, kForward, kSideways})
     EXPECT_NEAR(weighed_one.errors(k), sure.errors(k), 1e-4);
   EXPECT_LT(weighed_one.sigma.maxCoeff(), 1e-5);
@@ -28,7 +35,7 @@ TEST(SystematicPrior, LeavesWhatIsWellKnownAsItWasMeasured) {
 
 TEST(SystematicPrior, LeavesWhatIsUnknownAtItsPrior) {
   const SystematicPrior prior;
-  const JointEstimate unsure = weighed(measured(100.0), SensorModel::crazyflie());
+  const JointEstimate unsure = weighed_by(SensorModel::crazyflie(), measured(100.0));
   EXPECT_LT(unsure.errors.cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_NEAR(unsure.sigma(kAge), prior.range_age_s, 1e-4);
 }
@@ -37,13 +44,34 @@ TEST(SystematicPrior, AScaleShowsTheOther) {
   JointEstimate forward_only = measured(1e-3);
   forward_only.sigma(kSideways) = 1.0;
   forward_only.errors(kSideways) = 0.3;
-  EXPECT_NEAR(weighed(forward_only, SensorModel::crazyflie()).errors(kSideways), -0.07, 0.01);
+  EXPECT_NEAR(weighed_by(SensorModel::crazyflie(), forward_only).errors(kSideways), -0.07, 0.01);
 }
 
-TEST(SystematicPrior, WheelsDoNotMoveSidewaysAndTheirYawIsLearntInTheRun) {
-  const SystematicErrors errors = weighed(measured(1e-6), SensorModel::carmen_laser()).errors;
+TEST(SystematicPrior, WheelsDoNotMoveSidewaysAndMissNoYawWithTime) {
+  const SystematicErrors errors = weighed_by(SensorModel::carmen_laser(), measured(1e-6)).errors;
   EXPECT_NEAR(errors(kForward), -0.08, 1e-3);
-  EXPECT_EQ(errors.tail<4>(), Eigen::Vector4d::Zero());
+  EXPECT_NEAR(errors(kYawPerMetre), 0.01, 1e-3);
+  EXPECT_NEAR(errors(kYawPerRadian), 0.01, 1e-3);
+  EXPECT_EQ(errors(kSideways), 0.0);
+  EXPECT_EQ(errors(kYawPerSecond), 0.0);
+}
+
+TEST(SystematicPrior, TheYawThatWheelsMissIsWhereTheFrontendBegins) {
+  SensorModel expected = SensorModel::carmen_laser();
+  expected.odometry_calibration.yaw_per_metre_rad = 0.002;
+  const SensorModel found = calibrated_by(measured(0.001), expected).found;
+  EXPECT_DOUBLE_EQ(found.odometry.expected_drift_yaw_per_metre_rad, 0.008);
+  EXPECT_DOUBLE_EQ(found.odometry.expected_drift_yaw_per_radian, 0.01);
+  EXPECT_DOUBLE_EQ(found.odometry_calibration.yaw_per_metre_rad, 0.002);
+  EXPECT_DOUBLE_EQ(found.odometry_calibration.yaw_per_radian, 0.0);
+  EXPECT_DOUBLE_EQ(value_in(found, SystematicError::kYawPerMetre), 0.01);
+}
+
+TEST(SystematicPrior, TheYawThatAGyroMissesIsTakenOut) {
+  const SensorModel found = calibrated_by(measured(0.001), SensorModel::crazyflie()).found;
+  EXPECT_DOUBLE_EQ(found.odometry_calibration.yaw_per_radian, 0.01);
+  EXPECT_DOUBLE_EQ(found.odometry_calibration.yaw_per_second_rad, 0.001);
+  EXPECT_DOUBLE_EQ(found.odometry.expected_drift_yaw_per_radian, 0.0);
 }
 
 TEST(SystematicPrior, AnAgeIsNotNegative) {

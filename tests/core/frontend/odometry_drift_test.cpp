@@ -23,6 +23,17 @@ TEST(OdometryDrift, IsNoneBeforeAnythingWasLearnt) {
   EXPECT_EQ(usual_drift().yaw_correction_rad(1.0, 1.0), 0.0);
 }
 
+TEST(OdometryDrift, BeginsAtWhatIsExpectedAndLearnsOn) {
+  OdometryNoise noise = SensorModel::carmen_laser().odometry;
+  noise.expected_drift_yaw_per_metre_rad = radians(3.0);
+  noise.expected_drift_yaw_per_radian = -0.02;
+  OdometryDrift drift(noise);
+  EXPECT_DOUBLE_EQ(drift.yaw_correction_rad(2.0, 0.0), radians(6.0));
+  EXPECT_DOUBLE_EQ(drift.yaw_correction_rad(0.0, 1.0), -0.02);
+  for (int i = 0; i < 200; ++i) drift.update(0.5, 0.0, 0.5 * radians(1.0), kNoiseVariance);
+  EXPECT_NEAR(drift.yaw_correction_rad(1.0, 0.0), radians(1.0), radians(0.2));
+}
+
 TEST(OdometryDrift, FindsASystematicYaw) {
   test::RandomGeometry random(1);
   for (const double truth : {radians(2.5), radians(-1.5)}) {
