@@ -36,6 +36,7 @@ LcmTransport::Listener MessageListener::taker(MessageListener* self, std::string
   using Bytes = std::span<const std::uint8_t>;
   if (channel == "POSE" || channel == "POSE_LOCAL" || channel == "POSE_ODOM")
     return [self](Bytes bytes) { self->take<pose_t>(bytes); };
+  if (channel == "RANGES") return [self](Bytes bytes) { self->take<ranges_t>(bytes); };
   if (channel == "MAP_TILE") return [self](Bytes bytes) { self->take<map_tile_t>(bytes); };
   if (channel == "LANDMARKS") return [self](Bytes bytes) { self->take_walls(bytes); };
   if (channel == "LOOP_CLOSURE") return [self](Bytes bytes) { self->take<loop_closure_t>(bytes); };

@@ -19,6 +19,7 @@
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
 #include "swiftlet/pose_t.hpp"
+#include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
@@ -30,13 +31,14 @@ struct WallsMessage {
   std::vector<landmark_t> walls;
 };
 
-using DaemonMessage = std::variant<pose_t, map_tile_t, WallsMessage, loop_closure_t, status_t>;
+using DaemonMessage = std::variant<pose_t, ranges_t, map_tile_t, WallsMessage, loop_closure_t, status_t>;
 
 /// Receives what a running swiftletd publishes (docs/lcm.md). What cannot be decoded is left out. One thread
 /// at a time.
 class MessageListener {
  public:
-  /// `channels` without their prefix: POSE, POSE_LOCAL, POSE_ODOM, MAP_TILE, LANDMARKS, LOOP_CLOSURE, STATUS.
+  /// `channels` without their prefix: POSE, POSE_LOCAL, POSE_ODOM, RANGES, MAP_TILE, LANDMARKS, LOOP_CLOSURE,
+  /// STATUS.
   /// Errors: as LcmTransport::open(); kInvalidInput: another channel.
   [[nodiscard]] static Result<std::unique_ptr<MessageListener>> open(const std::string& url,
                                                                      const std::string& channel_prefix,

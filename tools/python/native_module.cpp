@@ -166,6 +166,22 @@ py::dict fields_of(const pose_t& message) {
                   "covariance_start"_a = covariance_of(message.covariance_start));
 }
 
+/// An array of double, as numpy's functions want it.
+py::array_t<double> doubles_of(const std::vector<float>& numbers) {
+  return array_of(std::vector<double>(numbers.begin(), numbers.end()),
+                  {static_cast<py::ssize_t>(numbers.size())});
+}
+
+py::dict fields_of(const ranges_t& message) {
+  using py::literals::operator""_a;
+  const auto count = static_cast<py::ssize_t>(message.status.size());
+  return py::dict(
+      "time_s"_a = seconds(message.utime), "map_id"_a = message.map_id, "sequence"_a = message.sequence,
+      "device_time_s"_a = seconds(message.device_utime),
+      "max_range_m"_a = static_cast<double>(message.max_range), "bearing_rad"_a = doubles_of(message.bearing),
+      "distance_m"_a = doubles_of(message.distance), "status"_a = array_of(message.status, {count}));
+}
+
 py::dict fields_of(const map_tile_t& message) {
   using py::literals::operator""_a;
   const std::int8_t* const cells = &message.occupancy_percent[0][0];
@@ -269,7 +285,7 @@ py::dict fields_of(const status_t& message) {
 }
 
 /// In the order of DaemonMessage.
-constexpr std::array kKinds{"pose", "tile", "walls", "closure", "status"};
+constexpr std::array kKinds{"pose", "ranges", "tile", "walls", "closure", "status"};
 static_assert(kKinds.size() == std::variant_size_v<DaemonMessage>);
 
 /// Python's view of a MessageListener.

@@ -55,6 +55,7 @@ def main():
         names = run_examples()
         assert names["message"].state == "finished" and names["tiles"].is_complete(names["message"]), names["message"]
         assert names["pose"] is not None and names["pose"].frame == "local", names["pose"]
+        assert {"hit_x_m", "hit_y_m"} <= names.keys(), "no beam of a pose was received"
         os.chdir("/")
     return 0
 

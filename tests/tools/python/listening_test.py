@@ -4,9 +4,7 @@
 """swiftlet.listen() on what swiftletd publishes. listening_test.py SWIFTLET SWIFTLETD"""
 
 import dataclasses
-import os
 import re
-import signal
 import subprocess
 import sys
 import tempfile
@@ -17,11 +15,12 @@ from pathlib import Path
 import numpy as np
 
 import swiftlet
+from interrupted_program import exit_code_after_ctrl_c
 from map_picture import FREE, OCCUPIED, UNKNOWN, pixels_of
 
 SWIFTLETD = sys.argv[2]
 PROTO = Path(__file__).resolve().parents[3] / "proto"
-ALL = (swiftlet.Pose, swiftlet.Tile, swiftlet.Walls, swiftlet.Closure, swiftlet.Status)
+ALL = (swiftlet.Pose, swiftlet.Ranges, swiftlet.Tile, swiftlet.Walls, swiftlet.Closure, swiftlet.Status)
 
 
 class PublishedRun(unittest.TestCase):
@@ -64,6 +63,27 @@ class PublishedRun(unittest.TestCase):
                     self.assertGreater(np.linalg.eigvalsh(P).min(), 0)
                 else:
                     self.assertFalse(P.any())
+
+    def test_the_beams_of_a_pose_end_at_the_walls(self):
+        beams = self.of(swiftlet.Ranges)
+        poses = [pose for pose in self.of(swiftlet.Pose) if pose.frame == "map"]
+        self.assertEqual([each.sequence for each in beams], [pose.sequence for pose in poses])
+        self.assertEqual([each.time_s for each in beams], [pose.time_s for pose in poses])
+        measured_s = np.diff([each.device_time_s for each in beams])
+        self.assertTrue(0 < measured_s.min() and measured_s.max() < 1, "the vehicle's clock, in seconds")
+        for each in beams:
+            np.testing.assert_allclose(each.bearing_rad, np.pi * np.array([0, 0.5, 1, -0.5]), atol=1e-6)
+            self.assertTrue((each.distance_m[each.status == swiftlet.Ranges.HIT] <= each.max_range_m).all())
+            self.assertFalse(each.distance_m[each.status != swiftlet.Ranges.HIT].any())
+        self.assertEqual({int(code) for each in beams for code in each.status} & {0, 1}, {0, 1})
+        grid = swiftlet.TileMap()
+        for tile in self.of(swiftlet.Tile):
+            grid.add(tile)
+        corrected = [dataclasses.replace(pose, x_m=x, y_m=y, yaw_rad=2 * np.arctan2(qz, qw)) for pose, (x, y, qz, qw)
+                     in zip(poses, np.loadtxt(self.out / "trajectory.tum", usecols=(1, 2, 6, 7)))]
+        hits = np.vstack([each.hits_m(pose) for each, pose in zip(beams, corrected)])
+        columns, rows = np.floor((hits - grid.grid().origin_m) / grid.grid().resolution_m).astype(int).T
+        self.assertGreater(grid.grid().occupied[rows, columns].mean(), 0.6, "of the hits that the map was drawn of")
 
     def test_tiles_come_to_the_map_that_was_written(self):
         tiles = swiftlet.TileMap()
@@ -134,15 +154,15 @@ class PublishedRun(unittest.TestCase):
     def test_each_field_of_the_types_has_a_place(self):
         renamed = {"utime": "time_s", "occupancy_percent": "occupancy_percent", "ack_rate": "ack_rate",
                    "sent_rate": "sent_hz", "received_rate": "received_hz", "sample_rate": "sample_rate_hz",
-                   "from_map": "from_m", "to_map": "to_m"}
-        for name, kind in (("pose_t", swiftlet.Pose), ("map_tile_t", swiftlet.Tile), ("status_t", swiftlet.Status),
-                           ("loop_closure_t", swiftlet.Closure), ("link_status_t", swiftlet.Link),
-                           ("tracking_t", swiftlet.Tracking), ("queue_status_t", swiftlet.Queue),
-                           ("stage_time_t", swiftlet.Stage)):
+                   "from_map": "from_m", "to_map": "to_m", "device_utime": "device_time_s"}
+        for name, kind in (("pose_t", swiftlet.Pose), ("ranges_t", swiftlet.Ranges), ("map_tile_t", swiftlet.Tile),
+                           ("status_t", swiftlet.Status), ("loop_closure_t", swiftlet.Closure),
+                           ("link_status_t", swiftlet.Link), ("tracking_t", swiftlet.Tracking),
+                           ("queue_status_t", swiftlet.Queue), ("stage_time_t", swiftlet.Stage)):
             places = {field.name for field in dataclasses.fields(kind)}
             text = (PROTO / f"{name}.lcm").read_text()
             for field in re.findall(r"^  (?!const)\w+ (\w+)(?:\[.*\])?;", text, re.MULTILINE):
-                if field in ("queue_count", "stage_count"):
+                if field in ("count", "queue_count", "stage_count"):
                     continue
                 wanted = {renamed.get(field, field)} | {f"{field}{unit}" for unit in ("_m", "_rad", "_ms")}
                 self.assertTrue(places & wanted, f"{name}.{field} is missing in {kind.__name__}")
@@ -188,15 +208,7 @@ class Waiting(unittest.TestCase):
         script = ("import swiftlet, sys\nlistener = swiftlet.listen('memq://')\n"
                   "try:\n    print('begun', flush=True)\n    next(listener)\n"
                   "except KeyboardInterrupt:\n    sys.exit(3)\n")
-        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True,
-                              env=os.environ) as program:
-            try:
-                self.assertEqual(program.stdout.readline(), "begun\n")
-                program.send_signal(signal.SIGINT)
-                program.communicate(timeout=60)
-            finally:
-                program.kill()
-        self.assertEqual(program.returncode, 3)
+        self.assertEqual(exit_code_after_ctrl_c(script), 3)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -17,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import swiftlet
+from interrupted_program import exit_code_after_ctrl_c
 from map_picture import FREE, OCCUPIED, UNKNOWN, pixels_of
 
 SWIFTLET = sys.argv[1]
@@ -191,14 +191,7 @@ class Running(unittest.TestCase):
                   "    print('begun', flush=True)\n"
                   f"try:\n    swiftlet.map({LONG!r}, calibrate=False, on_progress=tell)\n"
                   "except KeyboardInterrupt:\n    sys.exit(3)\n")
-        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as program:
-            try:
-                self.assertEqual(program.stdout.readline(), "begun\n")
-                program.send_signal(signal.SIGINT)
-                program.communicate(timeout=60)
-            finally:
-                program.kill()
-        self.assertEqual(program.returncode, 3)
+        self.assertEqual(exit_code_after_ctrl_c(script), 3)
 
     def test_two_runs_at_once_give_the_same(self):
         runs = {}

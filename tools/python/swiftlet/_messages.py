@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Type, Union
+from typing import Any, ClassVar, Dict, Iterable, Iterator, List, Optional, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -49,6 +49,41 @@ class Pose:
     """3 x 3: of (x, y, yaw), relative to the part of the map around the vehicle. Zero in other frames than map."""
     covariance_start: npt.NDArray[np.float64]
     """3 x 3: the same, relative to the start of the run."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ranges:
+    """The beams of a sample, in the body frame; they begin at its origin. The Pose of the same sequence is where they
+    were measured, and comes before them."""
+
+    HIT: ClassVar[int] = 0
+    NO_RETURN: ClassVar[int] = 1
+    """Nothing within max_range_m."""
+    INVALID: ClassVar[int] = 2
+    """No measurement, no information."""
+
+    time_s: float
+    """As of the Pose."""
+    map_id: int
+    sequence: int
+    """As of the Pose."""
+    device_time_s: float
+    """When they were measured, on the vehicle's own clock: only differences have a meaning."""
+    max_range_m: float
+    """What is farther is no return."""
+    bearing_rad: npt.NDArray[np.float64]
+    """K: counter-clockwise from straight ahead. The same in the whole run."""
+    distance_m: npt.NDArray[np.float64]
+    """K: from the origin to the hit; 0 where there is none."""
+    status: npt.NDArray[np.int8]
+    """K: HIT, NO_RETURN or INVALID."""
+
+    def hits_m(self, pose: Pose) -> npt.NDArray[np.float64]:
+        """H x 2: x and y of the hits, in the frame of the pose."""
+        hit = self.status == self.HIT
+        angle_rad = pose.yaw_rad + self.bearing_rad[hit]
+        return np.column_stack([pose.x_m + self.distance_m[hit] * np.cos(angle_rad),
+                                pose.y_m + self.distance_m[hit] * np.sin(angle_rad)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,9 +251,9 @@ class Status:
     missed_deadlines: int
 
 
-Message = Union[Pose, Tile, Walls, Closure, Status]
+Message = Union[Pose, Ranges, Tile, Walls, Closure, Status]
 
-_CHANNELS = {Tile: "MAP_TILE", Walls: "LANDMARKS", Closure: "LOOP_CLOSURE", Status: "STATUS"}
+_CHANNELS = {Ranges: "RANGES", Tile: "MAP_TILE", Walls: "LANDMARKS", Closure: "LOOP_CLOSURE", Status: "STATUS"}
 _POSE_CHANNELS = {"map": "POSE", "local": "POSE_LOCAL", "odom": "POSE_ODOM"}
 
 
@@ -231,6 +266,8 @@ def _status(fields: Dict[str, Any]) -> Status:
 def _message(kind: str, fields: Dict[str, Any]) -> Message:
     if kind == "pose":
         return Pose(**fields)
+    if kind == "ranges":
+        return Ranges(**fields)
     if kind == "tile":
         return Tile(**fields)
     if kind == "walls":
@@ -251,7 +288,7 @@ def _channels(messages: Iterable[Type[Message]], frames: Iterable[str]) -> List[
         elif kind in _CHANNELS:
             channels.append(_CHANNELS[kind])
         else:
-            raise _native.Error(f"messages: {kind!r} is none of Pose, Tile, Walls, Closure and Status")
+            raise _native.Error(f"messages: {kind!r} is none of Pose, Ranges, Tile, Walls, Closure and Status")
     return channels
 
 
@@ -327,7 +364,7 @@ def listen(url: Optional[str] = None, *, messages: Iterable[Type[Message]] = (Po
 
     url: where swiftletd publishes; without it LCM_DEFAULT_URL, without that this machine. A log of LCM's (file://) is
     read at its pace, or with &speed=0 at once.
-    messages: which classes of Pose, Tile, Walls, Closure and Status. frames: of the poses: map, local, odom.
+    messages: which classes of Pose, Ranges, Tile, Walls, Closure and Status. frames: of the poses: map, local, odom.
     channel_prefix: publish.channel_prefix of swiftletd's configuration.
     timeout: after so many seconds without a message iterating raises swiftlet.Timeout; without it it waits.
     follow: go on with the next run instead of ending with this one.
