@@ -40,4 +40,5 @@ def evaluate(flight, swiftlet, config=None):
     command = [str(swiftlet), "eval", "--live", *flight.arguments(), *settings, "--json", "-"]
     figures = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     figures["live"].pop("errors_m", None)
+    figures.pop("poses", None)
     return {"world": flight.world, **figures}

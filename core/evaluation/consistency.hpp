@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/base/time.hpp"
@@ -24,6 +25,7 @@ struct DoubtedPose {
   Covariance3 from_start;           ///< of (x, y, yaw) relative to the start, along the axes of frame map
   bool is_tracked = false;          ///< the program held the pose for right
   Covariance3 from_surroundings{};  ///< as from_start, relative to the part of the map around the vehicle
+  std::string_view state{};         ///< its name; of the program's life
 };
 
 /// The error of one pose against its covariance.

@@ -11,7 +11,7 @@
 namespace swiftlet {
 
 /// Keeps what a run publishes of its confidence with each sample. Views the backend, which must outlive it.
-/// Allocates: 160 bytes a sample.
+/// Allocates: 180 bytes a sample.
 class ConfidenceHistory {
  public:
   explicit ConfidenceHistory(Backend& backend) : backend_(&backend) {}

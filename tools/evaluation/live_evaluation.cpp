@@ -135,6 +135,7 @@ Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
   LiveEvaluation evaluation{command.input, observer.error(*truth), {}, {}};
   evaluation.consistency = {consistency(observer.doubted_poses(), *truth),
                             count_alarms(observer.doubted_poses(), evaluation.live.errors)};
+  evaluation.poses.assign(observer.doubted_poses().begin(), observer.doubted_poses().end());
   if (!command.batch_s) return evaluation;
   Result<BatchError> batch =
       batch_error(map, prepared->config, *command.batch_s, evaluation.live.errors, *truth);

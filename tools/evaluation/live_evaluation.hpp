@@ -34,6 +34,7 @@ struct LiveEvaluation {
   KnownPlaceError live;
   std::optional<BatchError> batch;
   RunConsistency consistency;
+  std::vector<DoubtedPose> poses{};  ///< as published
 };
 
 /// Maps the input and holds the poses published on the way against the map that was published then, and their

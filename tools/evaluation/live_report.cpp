@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "daemon/outputs/consistency_json.hpp"
@@ -28,6 +29,12 @@ std::string consistency_text(const RunConsistency& consistency) {
          fmt::format("  in doubt {} times, {:.1f} % of the time; {} times while off by less than {} m\n",
                      alarms.alarms, 100.0 * alarms.seconds_doubted / std::max(1.0, alarms.seconds),
                      alarms.false_alarms, AlarmTuning{}.right_m);
+}
+
+/// In the worst direction: the square root of the greater eigenvalue.
+double position_sigma_m(const Covariance3& P) {
+  const double mean = 0.5 * (P.xx + P.yy);
+  return std::sqrt(mean + std::hypot(0.5 * (P.xx - P.yy), P.xy));
 }
 
 std::string number(const std::optional<double>& value) {
@@ -69,6 +76,11 @@ std::string live_evaluation_json(const LiveEvaluation& evaluation) {
   for (const StampedError& at : evaluation.live.errors)
     errors.push_back({to_seconds(at.stamp.time_since_epoch()), at.error_m});
   json["consistency"] = consistency_json(evaluation.consistency);
+  Json& poses = json["poses"] = Json::array();
+  for (const DoubtedPose& pose : evaluation.poses)
+    poses.push_back({to_seconds(pose.stamp.time_since_epoch()), pose.T_map_body.x_m(), pose.T_map_body.y_m(),
+                     pose.T_map_body.yaw_rad(), position_sigma_m(pose.from_start),
+                     position_sigma_m(pose.from_surroundings), pose.state});
   if (evaluation.batch)
     json["batch"] = {{"moments", evaluation.batch->moments},
                      {"rms_m", evaluation.batch->rms_m},

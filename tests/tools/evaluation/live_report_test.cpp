@@ -24,6 +24,11 @@ LiveEvaluation some_flight() {
   live.across_p95_m = 0.125;
   live.contacts = 3;
   live.map_rms_m[0] = 0.375;
+  evaluation.poses = {{.stamp = HostTime(std::chrono::seconds(7)),
+                       .T_map_body = Pose2(1.5, -2.0, 0.25),
+                       .from_start = {.xx = 5.0, .xy = 4.0, .yy = 5.0},
+                       .from_surroundings = {.xx = 1.0, .yy = 0.25},
+                       .state = "lost"}};
   live.errors = {{HostTime(std::chrono::seconds(7)), 0.125}, {HostTime(std::chrono::seconds(8)), 0.375}};
   return evaluation;
 }
@@ -52,6 +57,7 @@ TEST(LiveReport, TellsProgramsAllOfIt) {
   EXPECT_EQ(report["batch"]["live_rms_m"], 0.2);
   EXPECT_EQ(report["consistency"]["after"][0]["nees"], 3.5);
   EXPECT_EQ(report["consistency"]["alarms"], 4);
+  EXPECT_EQ(report["poses"], json::array({{7.0, 1.5, -2.0, 0.25, 3.0, 1.0, "lost"}}));
 }
 
 }  // namespace
