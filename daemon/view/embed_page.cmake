@@ -31,7 +31,7 @@ PageFile file(const char* type, const unsigned char (&bytes)[size]) {
 }
 }  // namespace
 
-std::map<std::string, PageFile, std::less<>> page_files() {
+PageFiles page_files() {
   return {
 ${entries}  };
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "daemon/view/request_check.hpp"
+#include "daemon/view/web_answer.hpp"
 
 namespace swiftlet {
 namespace {
@@ -42,6 +43,20 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::span_body<const char>>;
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
+
+WebRequest web_request(const Request& request) {
+  WebRequest seen{.head = {.method = view_of(request.method_string()),
+                           .host = view_of(request[http::field::host]),
+                           .origin = {}},
+                  .target = view_of(request.target()),
+                  .subprotocols = view_of(request[http::field::sec_websocket_protocol]),
+                  .wants_socket = websocket::is_upgrade(request),
+                  .keeps_alive = request.keep_alive()};
+  if (const auto origin = request.find(http::field::origin); origin != request.end())
+    seen.head.origin = view_of(origin->value());
+  if (request.count(http::field::host) > 1) seen.head.host = {};
+  return seen;
+}
 
 /// Answers on one address.
 struct Site {
@@ -171,39 +186,18 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void answer(error_code error) {
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
     if (error) return send(http::status::bad_request, {"text/plain", "this is no request\n"}, false);
-    const Request& request = parser_->get();
-    if (const std::optional<Refusal> refusal = refuse(request))
-      return send(static_cast<http::status>(refusal->status), {"text/plain", refusal->text}, false);
-    if (websocket::is_upgrade(request)) return upgrade(request);
-    const auto file = site_.content.files.find(path_of(request));
-    if (file == site_.content.files.end())
-      return send(http::status::not_found, {"text/plain", "there is no such page\n"}, request.keep_alive());
-    send(http::status::ok, file->second, request.keep_alive());
+    const WebAnswer answer = answer_request(web_request(parser_->get()), site_.content.files, site_.names);
+    if (answer.socket) return upgrade(*answer.socket);
+    send(static_cast<http::status>(answer.status), answer.file, answer.keeps_alive);
   }
-  [[nodiscard]] std::optional<Refusal> refuse(const Request& request) const {
-    RequestHead head{.method = view_of(request.method_string()),
-                     .host = view_of(request[http::field::host]),
-                     .origin = {}};
-    if (const auto origin = request.find(http::field::origin); origin != request.end())
-      head.origin = view_of(origin->value());
-    if (request.count(http::field::host) > 1) head.host = {};
-    return refuse_request(head, site_.names);
-  }
-  [[nodiscard]] static std::string_view path_of(const Request& request) {
-    const std::string_view target = view_of(request.target());
-    return target.substr(0, target.find('?'));
-  }
-  void upgrade(const Request& request) {
-    SocketRequest wanted{.path = path_of(request), .subprotocols = {}};
-    for (const auto name : http::token_list(request[http::field::sec_websocket_protocol]))
-      wanted.subprotocols.push_back(view_of(name));
+  void upgrade(const SocketRequest& wanted) {
     SocketAnswer answer = site_.content.converse(wanted);
     if (!answer.conversation)
       return send(http::status::not_found, {"text/plain", "there is no such socket\n"}, false);
     const auto session =
         std::make_shared<WebSocketSession>(std::move(stream_), std::move(answer), std::move(counted_));
     sockets_.add(session);
-    session->accept(request);
+    session->accept(parser_->get());
   }
   void send(http::status status, const PageFile& file, bool keep_alive) {
     const bool is_head = parser_->is_header_done() && parser_->get().method() == http::verb::head;

@@ -3,41 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/base/result.hpp"
-#include "daemon/view/conversation.hpp"
+#include "daemon/view/web_site.hpp"
 
 namespace swiftlet {
-
-/// A file as it is served.
-struct PageFile {
-  std::string_view content_type;
-  std::string_view bytes;
-};
-
-/// A WebSocket that is asked for.
-struct SocketRequest {
-  std::string_view path;
-  std::vector<std::string_view> subprotocols;  ///< that the client offers
-};
-struct SocketAnswer {
-  std::unique_ptr<Conversation> conversation;  ///< nullptr: there is no such socket
-  std::string_view subprotocol;                ///< one of those offered, of static lifetime; empty: none
-};
-
-/// What a WebServer serves. Called in its thread alone.
-struct WebSite {
-  std::map<std::string, PageFile, std::less<>> files;  ///< by path; the bytes outlive the server
-  std::function<SocketAnswer(const SocketRequest&)> converse;
-  std::vector<std::string> foreign_origins;  ///< of pages that may ask too, as request_check.hpp has them
-};
 
 struct ListenAddress {
   std::string host = "127.0.0.1";  ///< IPv4 or IPv6 address, or localhost
