@@ -10,31 +10,67 @@
 
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/ranges_t.hpp"
+#include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
 
-/// The byte at which an encoded message (proto/) has the number of elements of its lists; 0: it has no lists.
-template <typename Message>
-inline constexpr std::size_t kCountAt = 0;
-template <>
-inline constexpr std::size_t kCountAt<ranges_t> = 40;
-template <>
-inline constexpr std::size_t kCountAt<landmarks_t> = 32;
+/// Reads the numbers of elements that a message claims, which LCM's own code makes room for before it looks
+/// whether they are there.
+class ClaimedCounts {
+ public:
+  /// The first number stands at byte `at`.
+  ClaimedCounts(std::span<const std::uint8_t> bytes, std::size_t at) : bytes_(bytes), at_(at) {}
 
-/// Whether a message can hold as many elements as it claims to. LCM's own code makes room for them first.
-[[nodiscard]] inline bool can_hold_its_count(std::span<const std::uint8_t> bytes, std::size_t count_at) {
-  constexpr std::size_t kCountBytes = 4;
-  if (bytes.size() < count_at + kCountBytes) return false;
-  std::uint32_t count = 0;
-  for (const std::uint8_t byte : bytes.subspan(count_at, kCountBytes)) count = count << 8U | byte;
-  return count <= bytes.size();
+  /// The next number; nullopt: there is none, or the message cannot hold as many.
+  std::optional<std::size_t> next() {
+    constexpr std::size_t kNumberBytes = 4;
+    if (at_ > bytes_.size() || bytes_.size() - at_ < kNumberBytes) return std::nullopt;
+    std::uint32_t number = 0;
+    for (const std::uint8_t byte : bytes_.subspan(at_, kNumberBytes)) number = number << 8U | byte;
+    at_ += kNumberBytes;
+    return number <= bytes_.size() ? std::optional<std::size_t>(number) : std::nullopt;
+  }
+  void skip(std::size_t size) { at_ += size; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_;
+};
+
+/// Whether a message can hold as many elements as it claims to.
+template <typename Message>
+[[nodiscard]] bool can_hold_its_counts(std::span<const std::uint8_t>) {
+  return true;
+}
+template <>
+[[nodiscard]] inline bool can_hold_its_counts<ranges_t>(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kCountAt = 40;
+  return ClaimedCounts(bytes, kCountAt).next().has_value();
+}
+template <>
+[[nodiscard]] inline bool can_hold_its_counts<landmarks_t>(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kCountAt = 32;
+  return ClaimedCounts(bytes, kCountAt).next().has_value();
+}
+/// Of queues, each a name and numbers, and behind them of stages.
+template <>
+[[nodiscard]] inline bool can_hold_its_counts<status_t>(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kCountAt = 362;
+  constexpr std::size_t kBytesOfQueue = 16;  // beside its name
+  ClaimedCounts counts(bytes, kCountAt);
+  std::optional<std::size_t> queues = counts.next();
+  for (; queues && *queues > 0; --*queues) {
+    const std::optional<std::size_t> name_bytes = counts.next();
+    if (!name_bytes) return false;
+    counts.skip(*name_bytes + kBytesOfQueue);
+  }
+  return queues && counts.next();
 }
 
 /// A message of the LCM type; nullopt where the bytes are not one, or one of another version.
 template <typename Message>
 [[nodiscard]] std::optional<Message> decoded_message(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kAt = kCountAt<Message>;
-  if (kAt > 0 && !can_hold_its_count(bytes, kAt)) return std::nullopt;
+  if (!can_hold_its_counts<Message>(bytes)) return std::nullopt;
   std::optional<Message> message(std::in_place);
   try {
     if (message->decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) message.reset();

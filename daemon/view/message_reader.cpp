@@ -37,7 +37,10 @@ constexpr std::array kChannels{kPose,    kPoseLocal, kPoseOdom,    kRanges,
 constexpr std::size_t kMaxWalls = 100'000;
 constexpr std::int32_t kMaxTileIndex = 1 << 20;
 constexpr double kFarthestM = 1e7;
+constexpr std::int64_t kMost = std::int64_t{1} << 53;  // what a page's numbers hold; as a time, in 285 years
 
+/// A count, or microseconds since 1970.
+bool is_count(std::int64_t number) { return number >= 0 && number <= kMost; }
 bool is_place(double x_m, double y_m) { return std::abs(x_m) < kFarthestM && std::abs(y_m) < kFarthestM; }
 bool is_place(const double (&point)[2]) { return is_place(point[0], point[1]); }
 bool is_place(const float (&point)[2]) {
@@ -66,9 +69,13 @@ bool is_sound(const loop_closure_t& closure) {
   return is_place(closure.from_map) && is_place(closure.to_map) && std::isfinite(closure.score);
 }
 bool is_sound(const status_t& status) {
-  return std::isfinite(status.progress) && std::isfinite(status.sample_rate) &&
-         std::isfinite(status.link.ack_rate) && std::isfinite(status.link.round_trip_ms) &&
-         std::isfinite(status.link.battery_v);
+  const std::array counts{status.samples,          status.gaps,
+                          status.missing_packets,  status.segments,
+                          status.keyframes,        status.closures_accepted,
+                          status.closures_dropped, status.missed_deadlines};
+  return std::all_of(counts.begin(), counts.end(), is_count) && std::isfinite(status.progress) &&
+         std::isfinite(status.sample_rate) && std::isfinite(status.link.ack_rate) &&
+         std::isfinite(status.link.round_trip_ms) && std::isfinite(status.link.battery_v);
 }
 
 double latency_p99_ms(const status_t& status) {
@@ -171,7 +178,7 @@ void MessageReader::add(const status_t& message) {
 template <typename Message>
 void MessageReader::decode(std::span<const std::uint8_t> bytes, MonotonicTime now) {
   const std::optional<Message> message = decoded_message<Message>(bytes);
-  if (!message || !is_sound(*message)) return;
+  if (!message || !is_count(message->utime) || !is_sound(*message)) return;
   const double silence_s = std::chrono::duration<double>(now - last_accepted_).count();
   if (!history_.enter_run(message->map_id, silence_s)) return;
   last_accepted_ = now;

@@ -7,6 +7,8 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -119,18 +121,78 @@ TEST_F(MessageReaderTest, AClaimOfMoreWallsThanThereAreIsRefused) {
   EXPECT_EQ(history_.generation(), 0U);
 }
 
+long peak_memory_kb() {
+  rusage usage{};
+  EXPECT_EQ(::getrusage(RUSAGE_SELF, &usage), 0);
+  return usage.ru_maxrss;
+}
+
 TEST_F(MessageReaderTest, AClaimOfMoreBeamsThanThereAreCostsNoMemory) {
-  const auto peak_kb = [] {
-    rusage usage{};
-    EXPECT_EQ(::getrusage(RUSAGE_SELF, &usage), 0);
-    return usage.ru_maxrss;
-  };
   std::vector<std::uint8_t> bytes = encoded(ranges_message(3));
   const std::size_t count_at = bytes.size() - 3 * 9 - 4;
   bytes[count_at] = 0x10;  // 268 million
-  const auto before_kb = peak_kb();
+  const auto before_kb = peak_memory_kb();
   reader_.take("RANGES", bytes, MonotonicTime());
-  EXPECT_LT(peak_kb() - before_kb, 100'000);
+  EXPECT_LT(peak_memory_kb() - before_kb, 100'000);
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+status_t status_with_lists() {
+  status_t status{};
+  status.map_id = 5;
+  for (const char* name : {"samples", "keyframes"}) {
+    queue_status_t queue{};
+    queue.name = name;
+    status.queues.push_back(queue);
+  }
+  status.queue_count = 2;
+  stage_time_t stage{};
+  stage.name = "frame_to_pose";
+  stage.count = 9;
+  stage.p99 = 4.0;
+  status.stages.push_back(stage);
+  status.stage_count = 1;
+  return status;
+}
+
+TEST_F(MessageReaderTest, TheLatencyIsThatOfTheStageToThePose) {
+  take("STATUS", status_with_lists());
+  EXPECT_EQ(value_of(history_.statuses().newest()).latency_p99_ms, 4.0);
+}
+
+TEST_F(MessageReaderTest, AClaimOfMoreQueuesOrStagesThanThereAreCostsNoMemory) {
+  const std::vector<std::uint8_t> sound = encoded(status_with_lists());
+  const std::size_t stages_at = sound.size() - 8 - (4 + 14 + 48) - 4;
+  const std::size_t queues_at = stages_at - (4 + 10 + 16) - (4 + 8 + 16) - 4;
+  const auto before_kb = peak_memory_kb();
+  for (const std::size_t count_at : {queues_at, stages_at}) {
+    std::vector<std::uint8_t> bytes = sound;
+    ASSERT_EQ(bytes[count_at + 3], count_at == queues_at ? 2 : 1);
+    bytes[count_at] = 0x01;  // 16 million
+    reader_.take("STATUS", bytes, MonotonicTime());
+  }
+  EXPECT_LT(peak_memory_kb() - before_kb, 100'000);
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, WhatNoClockShowsIsRefused) {
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t utime_us : {kNever, std::int64_t{-1}, -kNever}) {
+    pose_t pose = pose_message(pose_t::FRAME_MAP, 3);
+    pose.utime = utime_us;
+    take("POSE", pose);
+  }
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, CountsThatNoRunReachesAreRefused) {
+  status_t status{};
+  status.map_id = 5;
+  status.closures_dropped = std::numeric_limits<std::int64_t>::min();
+  take("STATUS", status);
+  status.closures_dropped = 0;
+  status.missing_packets = -1;
+  take("STATUS", status);
   EXPECT_EQ(history_.generation(), 0U);
 }
 
