@@ -18,6 +18,12 @@
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/link/frame_sink.hpp"
 #include "firmware_link/sample_table/sample_table.hpp"
+#include "swiftlet/landmarks_t.hpp"
+#include "swiftlet/loop_closure_t.hpp"
+#include "swiftlet/map_tile_t.hpp"
+#include "swiftlet/pose_t.hpp"
+#include "swiftlet/ranges_t.hpp"
+#include "swiftlet/status_t.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/fuzz/fuzz_bytes.hpp"
 
@@ -185,6 +191,90 @@ std::string laser_log() {
   return log;
 }
 
+constexpr std::string_view kPageRequest =
+    "GET /view.js?1 HTTP/1.1\r\nHost: 127.0.0.1:8440\r\nOrigin: http://127.0.0.1:8440\r\nConnection: "
+    "close\r\n\r\n";
+constexpr std::string_view kSocketRequest =
+    "GET /live HTTP/1.1\r\nHost: [::1]:8440\r\nOrigin: file://\r\nUpgrade: websocket\r\n"
+    "Connection: keep-alive, Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+    "Sec-WebSocket-Version: 13\r\n";
+/// See web_request_fuzz.cpp; the first character chooses.
+constexpr std::string_view kRequestLines = "0GET\n127.0.0.1:8440\n/view.js?1\n\nhttp://127.0.0.1:8440";
+constexpr std::string_view kSocketLines =
+    "1GET\n[::1]:8440\n/live\nfoxglove.sdk.v1, other\nhttps://app.foxglove.dev";
+/// A WebSocket is asked for, then a text of the mask 0 arrives.
+std::string socket_conversation(std::string_view more_header, std::string_view text) {
+  std::string bytes(kSocketRequest);
+  bytes.append(more_header).append("\r\n");
+  bytes += {static_cast<char>(0x81), static_cast<char>(0x80U | text.size()), 0, 0, 0, 0};
+  return bytes.append(text);
+}
+/// The first character chooses: of a run, of a recording.
+constexpr std::string_view kPageLines = "0{\"at\": 2000000}\n{\"at\": null}\n{\"at\": -1.5e3}";
+constexpr std::string_view kFoxgloveLines =
+    "1{\"op\":\"subscribe\",\"subscriptions\":[{\"id\":7,\"channelId\":4},{\"id\":8,\"channelId\":1}]}\n"
+    "{\"op\":\"unsubscribe\",\"subscriptionIds\":[7]}\n"
+    "{\"op\":\"subscribe\",\"subscriptions\":[{\"id\":7,\"channelId\":9},{\"id\":9,\"channelId\":7}]}";
+
+/// As published_messages_fuzz.cpp has it.
+template <typename Message>
+void append_message(std::vector<std::uint8_t>& bytes, std::uint8_t channel, Message message) {
+  message.map_id = 5;
+  const auto size = static_cast<std::size_t>(message.getEncodedSize());
+  bytes.insert(bytes.end(),
+               {channel, static_cast<std::uint8_t>(size), static_cast<std::uint8_t>(size >> 8U)});
+  bytes.resize(bytes.size() + size);
+  message.encode(bytes.data() + bytes.size() - size, 0, static_cast<int>(size));
+}
+
+/// One message of each channel, in the order of viewed_channels().
+std::vector<std::uint8_t> published_messages() {
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint8_t frame : {pose_t::FRAME_MAP, pose_t::FRAME_LOCAL, pose_t::FRAME_ODOM}) {
+    pose_t pose{};
+    pose.frame = static_cast<std::int8_t>(frame);
+    pose.x = 1.0;
+    append_message(bytes, frame, pose);
+  }
+  ranges_t ranges{};
+  ranges.count = 2;
+  ranges.bearing = {0.0F, 1.5F};
+  ranges.distance = {1.25F, 0.0F};
+  ranges.status = {ranges_t::STATUS_HIT, ranges_t::STATUS_NO_RETURN};
+  append_message(bytes, 3, ranges);
+  map_tile_t tile{};
+  tile.version = 1;
+  tile.resolution = 0.05;
+  append_message(bytes, 4, tile);
+  landmarks_t walls{};
+  walls.total = walls.count = 1;
+  walls.landmarks.push_back({.id = 1, .start = {0, 0}, .end = {1, 0}});
+  append_message(bytes, 5, walls);
+  append_message(bytes, 6, loop_closure_t{});
+  status_t status{};
+  status.queue_count = 1;
+  status.queues.resize(1);
+  status.queues[0].name = "samples";
+  status.stage_count = 1;
+  status.stages.resize(1);
+  status.stages[0].name = "frame_to_pose";
+  append_message(bytes, 7, status);
+  return bytes;
+}
+
+bool write_view(const std::filesystem::path& folder) {
+  return write(folder / "web_request/page", kRequestLines) &&
+         write(folder / "web_request/socket", kSocketLines) &&
+         write(folder / "web_connection/page", kPageRequest) &&
+         write(folder / "web_connection/live", socket_conversation("", "{\"at\": null}")) &&
+         write(folder / "web_connection/foxglove",
+               socket_conversation("Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n",
+                                   R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":2}]})")) &&
+         write(folder / "page_client/lines", kPageLines) &&
+         write(folder / "foxglove_client/lines", kFoxgloveLines) &&
+         write(folder / "published_messages/run", published_messages());
+}
+
 bool write_all(const std::filesystem::path& folder) {
   const std::vector<LinkFrame> one_block = session("");
   const std::vector<LinkFrame> two_blocks = session("stateEstimate.x");
@@ -199,7 +289,7 @@ bool write_all(const std::filesystem::path& folder) {
          write(folder / "recording/samples.csv", sample_table()) &&
          write(folder / "reference/truth", kTruth) && write(folder / "reference/relations", kRelations) &&
          write(folder / "reference/either", kRelationsOrTruth) &&
-         write(folder / "block_description/one.toml", kDescription);
+         write(folder / "block_description/one.toml", kDescription) && write_view(folder);
 }
 
 }  // namespace
