@@ -3,16 +3,19 @@
 #include "daemon/outputs/mcap_writer.hpp"
 
 #include <zlib.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <array>
 #include <type_traits>
+#include <utility>
 
 namespace swiftlet {
 namespace {
 
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
-constexpr std::size_t kChunkBytes = 1'000'000;
+constexpr std::size_t kChunkBytes = 1'000'000;  // before compression
+constexpr int kCompressionLevel = 3;
 
 enum class Opcode : std::uint8_t {
   kHeader = 0x01,
@@ -81,6 +84,21 @@ std::string channel_record(const McapChannel& channel) {
                                       .sized(""));
 }
 
+/// The records of a chunk as they stand in the file.
+struct PackedRecords {
+  std::string_view compression;
+  std::string bytes;
+};
+
+PackedRecords packed(const std::string& records) {
+  std::string bytes(ZSTD_compressBound(records.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(bytes.data(), bytes.size(), records.data(), records.size(), kCompressionLevel);
+  if (ZSTD_isError(size) != 0) return {.compression = "", .bytes = records};  // for want of memory alone
+  bytes.resize(size);
+  return {.compression = "zstd", .bytes = std::move(bytes)};
+}
+
 /// Records of one kind, beside each other.
 struct Group {
   Opcode opcode{};
@@ -121,10 +139,12 @@ void McapWriter::add(std::uint16_t channel, std::uint64_t time_ns, std::string_v
 void McapWriter::end_chunk() {
   if (chunk_.empty()) return;
   const std::uint64_t size = chunk_.size();
+  const PackedRecords records = packed(chunk_);
+  const std::uint64_t packed_size = records.bytes.size();
   const std::uint64_t chunk_at = offset_;
   Fields chunk;
   chunk.number(chunk_span_.first_ns).number(chunk_span_.last_ns).number(size).number(crc_of(0, chunk_));
-  put(record(Opcode::kChunk, chunk.sized("").number(size).raw(chunk_)));
+  put(record(Opcode::kChunk, chunk.sized(records.compression).number(packed_size).raw(records.bytes)));
   const std::uint64_t indices_at = offset_;
   Fields index_offsets;
   for (const auto& [channel, messages] : chunk_index_) {
@@ -136,7 +156,7 @@ void McapWriter::end_chunk() {
   Fields summary;
   summary.number(chunk_span_.first_ns).number(chunk_span_.last_ns);
   summary.number(chunk_at).number(indices_at - chunk_at).sized(index_offsets.bytes());
-  summary.number(offset_ - indices_at).sized("").number(size).number(size);
+  summary.number(offset_ - indices_at).sized(records.compression).number(packed_size).number(size);
   chunk_indices_.push_back(record(Opcode::kChunkIndex, summary));
   chunk_.clear();
   chunk_span_ = {};

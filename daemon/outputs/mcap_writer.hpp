@@ -24,8 +24,8 @@ struct McapChannel {
   std::string_view schema;
 };
 
-/// Writes an MCAP file (https://mcap.dev/spec): messages in chunks with indices, summary, checksums; not
-/// compressed. The same calls write the same bytes. One thread at a time.
+/// Writes an MCAP file (https://mcap.dev/spec): messages in chunks, compressed by zstd, with indices,
+/// summary, checksums. The same calls write the same bytes. One thread at a time.
 class McapWriter {
  public:
   /// Begins the file. What the channels view must live until finish().

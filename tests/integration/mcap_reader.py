@@ -7,6 +7,8 @@ import json
 import struct
 import zlib
 
+import zstandard
+
 MAGIC = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, CHUNK_INDEX = range(1, 9)
 STATISTICS, SUMMARY_OFFSET, DATA_END = 0x0B, 0x0E, 0x0F
@@ -87,11 +89,20 @@ class Mcap:
             elif opcode == CHUNK_INDEX:
                 first, last, at, size = (fields.number("Q") for _ in range(4))
                 self.chunks.append((first, last, at, size, dict(fields.pairs("HQ"))))
+                self.check_chunk_sizes(fields, at, size)
         assert (schemas, channels, chunks) == (len(self.schemas), len(self.channels), len(self.chunks))
         assert self.count == sum(self.counts.values())
         offsets = {f.number("B"): [f.number("Q"), f.number("Q")]
                    for opcode, f, _ in records(self.data[:-37], self.offsets_at) if opcode == SUMMARY_OFFSET}
         assert offsets == groups, "offsets of the summary"
+
+    def check_chunk_sizes(self, index, at, size):
+        """Those of the index, behind its offsets, are those of the chunk."""
+        _, chunk, _ = next(records(self.data[: at + size], at))
+        chunk.take(16)
+        length, _, compression, packed = chunk.number("Q"), chunk.number("I"), chunk.text(), chunk.number("Q")
+        index.number("Q")
+        assert (index.text(), index.number("Q"), index.number("Q")) == (compression, packed, length)
 
     def check_data_section(self):
         in_order = list(records(self.data[: self.summary_at], 8))
@@ -104,8 +115,8 @@ class Mcap:
         (opcode, fields, _), *_ = records(self.data[: at + size], at)
         assert opcode == CHUNK and (fields.number("Q"), fields.number("Q")) == (first, last)
         length, crc = fields.number("Q"), fields.number("I")
-        assert fields.text() == "" and fields.number("Q") == length
-        content = fields.rest()
+        assert fields.text() == "zstd" and fields.number("Q") == len(fields.rest())
+        content = zstandard.decompress(fields.rest())
         assert len(content) == length and zlib.crc32(content) == crc, "a chunk's checksum"
         messages = {offset: message for _, message, offset in records(content)}
         for channel, index_at in indices.items():

@@ -4,7 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zstd.h>
 
+#include <cstdint>
 #include <string>
 
 namespace swiftlet {
@@ -47,14 +49,33 @@ TEST(McapWriter, BeginsWithMagicHeaderSchemaAndChannel) {
   EXPECT_THAT(written([](McapWriter&) {}), StartsWith(kMagic + header + schema + channel));
 }
 
+/// The records of the only chunk.
+std::string unpacked(const std::string& bytes) {
+  const std::size_t frame = bytes.find("\x28\xb5\x2f\xfd");  // as zstd has it
+  if (frame == std::string::npos) return {};
+  std::string records(10'000, '\0');
+  const std::size_t packed = ZSTD_findFrameCompressedSize(bytes.data() + frame, bytes.size() - frame);
+  records.resize(ZSTD_decompress(records.data(), records.size(), bytes.data() + frame, packed));
+  return records;
+}
+
 TEST(McapWriter, WritesAMessageWithItsChannelSequenceAndTimes) {
   const std::string message = bytes_of({5, 24, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0}) +
                               bytes_of({7, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0, 0, 0, 0, 0}) + "{}";
-  EXPECT_THAT(written([](McapWriter& writer) {
+  EXPECT_THAT(unpacked(written([](McapWriter& writer) {
                 writer.add(1, 5, "{}");
                 writer.add(1, 7, "{}");
-              }),
-              HasSubstr(message));
+              })),
+              EndsWith(message));
+}
+
+TEST(McapWriter, CompressesWhatRepeats) {
+  const std::string bytes = written([](McapWriter& writer) {
+    for (std::uint64_t i = 0; i < 50'000; ++i) writer.add(1, 1000 * i, "{\"some\":\"text to fill a chunk\"}");
+  });
+  const std::size_t index_bytes = 50'000 * 16;
+  EXPECT_LT(bytes.size(), index_bytes + 500'000U);
+  EXPECT_THAT(bytes, HasSubstr(bytes_of({4, 0, 0, 0}) + "zstd"));
 }
 
 TEST(McapWriter, EndsWithFooterAndMagic) {
