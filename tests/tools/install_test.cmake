@@ -12,6 +12,7 @@ foreach(file
     lib/systemd/system/swiftletd.service
     lib/udev/rules.d/70-swiftlet-crazyflie.rules
     share/swiftlet/60-swiftlet-lcm.conf
+    share/swiftlet/foxglove_layout.json
     share/swiftlet/swiftletd.toml
     include/swiftlet/pose_t.hpp
     share/bash-completion/completions/swiftlet
