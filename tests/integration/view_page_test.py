@@ -198,11 +198,14 @@ class PageTest(unittest.TestCase):
         self.js("swiftletPage.player.seek(swiftletPage.model.first_us + 5e6)")
         self.wait_until("swiftletPage.player.requested_us === swiftletPage.player.at_us && swiftletPage.isSynced && "
                         f"swiftletPage.tileMap.tiles.size < {all_tiles}")
+        self.assertGreater(self.js("document.querySelectorAll('#log .later').length"), 0)
+        self.assertGreater(self.js("document.querySelectorAll('#log li:not(.later)').length"), 0)
         index = self.js("swiftletPage.model.indexAt(swiftletPage.player.at_us)")
         self.press(".")
         self.assertEqual(self.js("swiftletPage.model.indexAt(swiftletPage.player.at_us)"), index + 1)
         self.press("\ue010")  # End
         self.wait_until(f"swiftletPage.tileMap.tiles.size === {all_tiles}")
+        self.assertEqual(self.js("document.querySelectorAll('#log .later').length"), 0)
 
     def test_4_a_lost_connection_is_told_and_mended(self):
         view = self.open_finished()

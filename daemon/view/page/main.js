@@ -213,7 +213,7 @@ class Page {
     });
     this.strip.update(this.model, this.player.at_us);
     this.timeline.update(this.theme.colours);
-    this.log.update();
+    this.log.update(this.player.at_us);
   }
 
   placeView() {

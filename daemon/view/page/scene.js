@@ -7,6 +7,7 @@ import {gridStep_m, lengthText} from "./units.js";
 const GRID_MIN_px = 56;
 const SCALE_BAR_px = 130;
 const FLASH_us = 3e6;
+const FULL_SCALE_px = 40;  // a metre; where it is less, lines are thinner, down to half
 const ELLIPSE_SIGMAS = 2.4477;  // holds 95 % in two dimensions
 const FONT = "12px system-ui, sans-serif";
 
@@ -77,7 +78,7 @@ export class Scene {
   drawTrail({context, transform, colours, at_us}) {
     const now = this.model.indexAt(at_us);
     context.lineJoin = "round";
-    context.lineWidth = 2 / transform.scale_px;
+    context.lineWidth = width_m(2, transform);
     if (at_us !== null) {
       context.strokeStyle = colours.later;
       this.corrected.stroke(context, Math.max(0, now), this.model.poses.length - 1);
@@ -88,7 +89,7 @@ export class Scene {
 
   drawRaw({context, transform, colours, at_us}) {
     context.strokeStyle = colours.raw;
-    context.lineWidth = 1.25 / transform.scale_px;
+    context.lineWidth = width_m(1.25, transform);
     context.setLineDash([6 / transform.scale_px, 4 / transform.scale_px]);
     this.raw.stroke(context, 0, this.model.indexAt(at_us));
     context.setLineDash([]);
@@ -96,7 +97,7 @@ export class Scene {
 
   drawWalls({context, transform, colours}) {
     context.strokeStyle = colours.wall;
-    context.lineWidth = 2.5 / transform.scale_px;
+    context.lineWidth = width_m(2.5, transform);
     context.lineCap = "round";
     context.beginPath();
     for (const {ends: [x0, y0, x1, y1]} of this.model.walls) {
@@ -112,7 +113,7 @@ export class Scene {
     for (const closure of this.model.closuresAt(at_us)) {
       const age = (now_us - closure.found_us) / FLASH_us;
       context.globalAlpha = age < 1 ? 1 : 0.28;
-      strokeLine(context, colours.closure, (age < 1 ? 2.5 : 1.25) / transform.scale_px, [...closure.from_map, ...closure.to_map]);
+      strokeLine(context, colours.closure, width_m(age < 1 ? 2.5 : 1.25, transform), [...closure.from_map, ...closure.to_map]);
       if (age < 1) ring(context, colours.closure, closure.to_map, (8 + 26 * age) / transform.scale_px, 2 / transform.scale_px);
     }
     context.globalAlpha = 1;
@@ -196,6 +197,11 @@ export class Scene {
     context.font = "600 13px system-ui, sans-serif";
     label(context, {...colours, text: colours.measure}, text, (points[0][0] + points[1][0]) / 2, (points[0][1] + points[1][1]) / 2 - 10, "center", context.font);
   }
+}
+
+/// Of a line of that width in pixels.
+function width_m(width_px, {scale_px}) {
+  return width_px * Math.min(1, Math.max(0.5, scale_px / FULL_SCALE_px)) / scale_px;
 }
 
 function strokeLine(context, colour, width, [x0, y0, x1, y1]) {
