@@ -26,7 +26,8 @@ foreach(file
     share/swiftlet/lcm/pose_t.lcm
     share/doc/swiftlet/README.md
     share/doc/swiftlet/docs/flying.md
-    share/doc/swiftlet/docs/images/office.png)
+    share/doc/swiftlet/docs/images/office.png
+    share/doc/swiftlet/docs/images/view_1600_light.png)
   if(NOT EXISTS ${PREFIX}/${file})
     message(SEND_ERROR "not installed: ${file}")
   endif()
