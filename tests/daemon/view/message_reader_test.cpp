@@ -129,7 +129,8 @@ long peak_memory_kb() {
 
 TEST_F(MessageReaderTest, AClaimOfMoreBeamsThanThereAreCostsNoMemory) {
   std::vector<std::uint8_t> bytes = encoded(ranges_message(3));
-  const std::size_t count_at = bytes.size() - 3 * 9 - 4;
+  constexpr std::size_t kBeamBytes = 9;
+  const std::size_t count_at = bytes.size() - 3 * kBeamBytes - 4;
   bytes[count_at] = 0x10;  // 268 million
   const auto before_kb = peak_memory_kb();
   reader_.take("RANGES", bytes, MonotonicTime());
