@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -94,6 +96,14 @@ class PlaceHypothesesTest : public testing::Test {
     for (KeyframeId from = first; behind(from, 6.0) < end; from = behind(from, 3.0))
       submaps_.push_back(std::make_shared<const Submap>(build_submap(
           from, behind(from, 6.0), run_.scans(), run_.chain(), run_.T_local_keyframe(), config_)));
+  }
+  /// `changed`: what becomes of 255 * p(occupied).
+  void change_cells(std::uint8_t (*changed)(std::uint8_t occupied)) {
+    for (auto& submap : submaps_) {
+      Submap other = *submap;
+      std::ranges::transform(other.cells, other.cells.begin(), changed);
+      submap = std::make_shared<const Submap>(std::move(other));
+    }
   }
   /// The scans of the last 6 m since the break.
   [[nodiscard]] ScanRange recent(KeyframeId query) const {
@@ -200,6 +210,25 @@ TEST_F(PlaceHypothesesTest, WhereNothingIsKnownNothingIsDecided) {
   EXPECT_EQ(places_.size(), 1U);
 }
 
+TEST_F(PlaceHypothesesTest, UnknownGroundIsNoEvidence) {
+  places_.begin(seconds(10));
+  ASSERT_GT(queries_until_decided(), 0);
+  const std::size_t known = places_.decided().size();
+  change_cells([](std::uint8_t) { return std::uint8_t{0}; });
+  take_queries(6);
+  EXPECT_THAT(places_.decided(), SizeIs(known)) << "neither for nor against";
+}
+
+TEST_F(PlaceHypothesesTest, AMatchOfWhatIsLikelierFreeIsNoneOfItsMatches) {
+  change_cells([](std::uint8_t occupied) { return static_cast<std::uint8_t>((occupied + 1) / 2); });
+  config_.min_group_score = 0.05;
+  config_.tuning.places.max_sigma_m = kAny;
+  config_.tuning.places.not_moved_odds = 1e300;
+  places_.begin(seconds(10));
+  take_queries(4);
+  EXPECT_THAT(places_.decided(), IsEmpty());
+}
+
 TEST_F(PlaceHypothesesTest, APlaceThatIsFoundHasToOutdoNotHavingMoved) {
   begin_nowhere(0.0);
   const int usually = queries_until_decided();
@@ -279,6 +308,16 @@ TEST_F(PlaceHypothesesTest, TheSamePlaceIsOneHypothesis) {
   EXPECT_EQ(places_.size(), 3U);
 }
 
+TEST_F(PlaceHypothesesTest, HypothesesThatComeTogetherAreOne) {
+  put_travel(Pose2(0.4, 0.0, 0.0));
+  places_.begin(kLong);
+  take_query();
+  propose(Pose2(-0.4, 0.0, 0.0));
+  ASSERT_EQ(places_.size(), 2U);
+  take_queries(3);
+  EXPECT_EQ(places_.size(), 1U) << "the walls draw both to the true place";
+}
+
 TEST_F(PlaceHypothesesTest, OnlySoManyHypothesesAreKept) {
   config_.tuning.places.max_hypotheses = 2;
   put_travel(kNowhere);
@@ -310,6 +349,16 @@ TEST_F(PlaceHypothesesTest, OldTravelIsForgotten) {
   const KeyframeId third = take_query();
   take_queries(3);
   EXPECT_THAT(places_.decided(), AllOf(SizeIs(4), Each(Field(&LoopClosure::to, Ge(third)))));
+}
+
+TEST_F(PlaceHypothesesTest, SoIsItsEvidence) {
+  config_.tuning.places.max_sigma_m = kAny;
+  config_.tuning.places.places_per_submap = 1e9;  // more than three queries speak for
+  begin_nowhere(100.0);
+  EXPECT_GT(queries_until_decided(), 0);
+  config_.tuning.places.max_queries = 3;
+  begin_nowhere(100.0);
+  EXPECT_EQ(queries_until_decided(), 0);
 }
 
 /// The corridor stands on the map twice, 40 m apart, flown in two laps.
