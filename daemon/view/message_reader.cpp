@@ -37,10 +37,10 @@ constexpr std::array kChannels{kPose,    kPoseLocal, kPoseOdom,    kRanges,
 constexpr std::size_t kMaxWalls = 100'000;
 constexpr std::int32_t kMaxTileIndex = 1 << 20;
 constexpr double kFarthestM = 1e7;
-constexpr std::int64_t kMost = std::int64_t{1} << 53;  // what a page's numbers hold; as a time, in 285 years
+constexpr std::int64_t kLargest = std::int64_t{1} << 53;  // that a page's numbers hold; the year 2255
 
 /// A count, or microseconds since 1970.
-bool is_count(std::int64_t number) { return number >= 0 && number <= kMost; }
+bool is_count(std::int64_t number) { return number >= 0 && number <= kLargest; }
 bool is_place(double x_m, double y_m) { return std::abs(x_m) < kFarthestM && std::abs(y_m) < kFarthestM; }
 bool is_place(const double (&point)[2]) { return is_place(point[0], point[1]); }
 bool is_place(const float (&point)[2]) {
