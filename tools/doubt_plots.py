@@ -63,7 +63,7 @@ def draw_carried(of, fault_s, end_s, file):
     arrow(axes, of.true[begin - 1], of.true[end], "#777777")
     arrow(axes, of.live[back - 1], of.live[back], LIVE)
     mark(axes, of.true[end], "carried to here", (0, -24), TRUE)
-    mark(axes, of.live[end], "believed to be\nwhere it was", (0, -28), LOST)
+    mark(axes, of.live[end], "taken to be\nwhere it was", (0, -28), LOST)
     mark(axes, of.live[back - 1], f"{of.time_s[back] - end_s:.0f} s later", (34, -24), LOST)
     mark(axes, of.live[back], "found back", (38, -16), LIVE)
     figure.legend(loc="lower center", ncol=2, frameon=False, fontsize=9)
