@@ -120,18 +120,20 @@ void MapAgreement::add_newest_scan(const Pose2& T_map_body) {
       std::abs(moved.yaw_rad()) < tuning_->turn_between_rad)
     return;
   T_map_compared_ = T_map_body;
-  for (const ScanReturn& beam : scans_->returns(scans_->all().last_id()))
-    if (beam.is_hit) weigh(verdict(T_map_body, beam));
+  const std::span<const ScanReturn> returns = scans_->returns(scans_->all().last_id());
+  const double weight = std::min(1.0, tuning_->returns_in_full / static_cast<double>(returns.size()));
+  for (const ScanReturn& beam : returns)
+    if (beam.is_hit) weigh(verdict(T_map_body, beam), weight);
 }
 
-void MapAgreement::weigh(ReturnVerdict verdict) {
+void MapAgreement::weigh(ReturnVerdict verdict, double weight) {
   if (verdict == ReturnVerdict::kUnknown) return;
   const bool contradicts = verdict == ReturnVerdict::kContradicts;
   ++returns_compared_;
   share_ += ((contradicts ? 1.0 : 0.0) - share_) / tuning_->recent_returns;
   const double right = tuning_->share_if_right;
   const double off = tuning_->share_if_off;
-  log_odds_ += contradicts ? std::log(off / right) : std::log((1.0 - off) / (1.0 - right));
+  log_odds_ += weight * (contradicts ? std::log(off / right) : std::log((1.0 - off) / (1.0 - right)));
   log_odds_ = std::clamp(log_odds_, 0.0, tuning_->alarm_log_odds);
   if (log_odds_ <= 0.0) is_contradicted_ = false;
   if (log_odds_ >= tuning_->alarm_log_odds && !is_contradicted_) {

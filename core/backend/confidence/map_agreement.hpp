@@ -54,7 +54,7 @@ class MapAgreement {
     Pose2 T_submap_map;
   };
   [[nodiscard]] ReturnVerdict verdict(const Pose2& T_map_body, const ScanReturn& beam) const;
-  void weigh(ReturnVerdict verdict);
+  void weigh(ReturnVerdict verdict, double weight);
 
   const ConfidenceTuning* tuning_;
   const ScanStore* scans_;

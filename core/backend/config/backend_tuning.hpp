@@ -153,6 +153,7 @@ struct ConfidenceTuning {
   double free_probability = 0.4;        ///< of one that is free, at most
   double share_if_right = 0.02;  ///< of the returns that contradict the older map, where the pose is right
   double share_if_off = 0.2;     ///< likewise, where it is off by half a metre or more
+  double returns_in_full = 4.0;  ///< of a scan; more count as so many: neighbouring beams meet one wall
   double alarm_log_odds = 19.6;  ///< a right pose meets 18000 returns in an hour: 9.8, were they independent;
                                  ///< those of scans 0.1 m apart count for about half
   double recent_returns = 50.0;  ///< the published share is of about so many
@@ -173,6 +174,7 @@ struct ConfidenceTuning {
       {"free_probability", &ConfidenceTuning::free_probability},
       {"share_if_right", &ConfidenceTuning::share_if_right},
       {"share_if_off", &ConfidenceTuning::share_if_off},
+      {"returns_in_full", &ConfidenceTuning::returns_in_full},
       {"alarm_log_odds", &ConfidenceTuning::alarm_log_odds},
       {"recent_returns", &ConfidenceTuning::recent_returns}};
 };

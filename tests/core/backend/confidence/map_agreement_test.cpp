@@ -26,10 +26,20 @@ Submap room() {
   return drawn_submap(picture, 0.1, 1);
 }
 
+/// So many beams to each of four walls.
+BeamLayout beams_to_walls(std::size_t of_each) {
+  const BeamLayout each = BeamLayout::multiranger();
+  BeamLayout beams;
+  beams.count = static_cast<std::uint8_t>(each.count * of_each);
+  for (std::size_t i = 0; i < beams.count; ++i) beams.bearing_rad[i] = each.bearing_rad[i % each.count];
+  return beams;
+}
+
 /// A vehicle that sees the four walls of the room from where it is, held for elsewhere.
 class MapAgreementTest : public testing::Test {
  protected:
-  MapAgreementTest() {
+  explicit MapAgreementTest(std::size_t beams_to_wall = 1) : scans_(beams_to_walls(beams_to_wall)) {
+    beam_count_ = beams_to_walls(beams_to_wall).count;
     T_map_keyframe_.push_back(Pose2());
     submaps_.push_back(std::make_shared<const Submap>(room()));
   }
@@ -39,10 +49,10 @@ class MapAgreementTest : public testing::Test {
     constexpr double kWallM = 2.9;
     FrontendStep step;
     RangeSample& sample = step.sample;
-    sample.beam_count = 4;
+    sample.beam_count = beam_count_;
     const double distances[] = {kWallM - at.x_m, kWallM - at.y_m, kWallM + at.x_m, kWallM + at.y_m};
-    for (std::size_t i = 0; i < 4; ++i) {
-      sample.distance_m[i] = static_cast<float>(distances[i]);
+    for (std::size_t i = 0; i < beam_count_; ++i) {
+      sample.distance_m[i] = static_cast<float>(distances[i % 4]);
       sample.status[i] = RangeStatus::kHit;
     }
     scans_.add(step);
@@ -50,13 +60,19 @@ class MapAgreementTest : public testing::Test {
     agreement_.look_around(T_map_body, kLongAgoM, submaps_, T_map_keyframe_);
     agreement_.add_newest_scan(T_map_body);
   }
+  [[nodiscard]] double of_two_contradictions_in_four() const {
+    const double right = tuning_.share_if_right;
+    const double off = tuning_.share_if_off;
+    return 2.0 * std::log(off * (1.0 - off) / (right * (1.0 - right))) / tuning_.alarm_log_odds;
+  }
   /// To and fro along the room.
   void fly(int scans, const Point2& off) {
     for (int i = 0; i < scans; ++i) see({std::sin(0.3 * i), 0.4 * std::cos(0.2 * i)}, off);
   }
 
   ConfidenceTuning tuning_;
-  ScanStore scans_{BeamLayout::multiranger()};
+  std::uint8_t beam_count_ = 0;
+  ScanStore scans_;
   KeyframePoses T_map_keyframe_;
   std::vector<std::shared_ptr<const Submap>> submaps_;
   MapAgreement agreement_{tuning_, scans_};
@@ -86,6 +102,22 @@ TEST_F(MapAgreementTest, BeamsThatEndInTheOpenAndBeamsThroughWallsBothContradict
   // Ahead through the wall, behind in the open; left and right on walls still.
   EXPECT_EQ(agreement_.returns_compared(), 4U);
   EXPECT_NEAR(agreement_.contradicting_share(), 2.0 / tuning_.recent_returns, 0.005);
+}
+
+TEST_F(MapAgreementTest, EachReturnOfFourCountsInFull) {
+  see({0.0, 0.0}, {1.0, 0.0});
+  EXPECT_NEAR(agreement_.contradiction(), of_two_contradictions_in_four(), 1e-9);
+}
+
+class MapAgreementOfManyBeams : public MapAgreementTest {
+ protected:
+  MapAgreementOfManyBeams() : MapAgreementTest(8) {}
+};
+
+TEST_F(MapAgreementOfManyBeams, ReturnsOfOneScanCountAsFour) {
+  see({0.0, 0.0}, {1.0, 0.0});
+  EXPECT_EQ(agreement_.returns_compared(), 32U);
+  EXPECT_NEAR(agreement_.contradiction(), of_two_contradictions_in_four(), 1e-9);
 }
 
 TEST_F(MapAgreementTest, WhoeverHoversIsComparedOnce) {
