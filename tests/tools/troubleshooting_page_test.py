@@ -73,6 +73,7 @@ SILENT_TEXTS = {
         share of each turn missed
         yaw missed per second
         scale of the odometry
+        missed yaw
         by the input itself:
         true or false
         a whole number
