@@ -13,6 +13,10 @@ JointEstimate weighed(JointEstimate measured, const SensorModel& sensor, const S
   const SystematicCovariance before = covariance_of(prior, yaw_goes_with_travel(sensor.odometry));
   SystematicCovariance both = before;
   both.diagonal() += (sigma_factor * measured.sigma).cwiseAbs2();
+  if (yaw_goes_with_travel(sensor.odometry)) {
+    measured.errors(index_of(SystematicError::kYawPerMetre)) -= sensor.odometry_calibration.yaw_per_metre_rad;
+    measured.errors(index_of(SystematicError::kYawPerRadian)) -= sensor.odometry_calibration.yaw_per_radian;
+  }
   for (Eigen::Index k = 0; k < both.rows(); ++k)
     if (before(k, k) == 0.0) both(k, k) = 1.0;
   const SystematicCovariance gain = before * both.inverse();
@@ -31,9 +35,8 @@ InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel&
   odometry.sideways_scale = 1.0 + error(SystematicError::kSidewaysScale);
   if (yaw_goes_with_travel(expected.odometry)) {
     OdometryNoise& noise = calibration.found.odometry;
-    noise.expected_drift_yaw_per_metre_rad =
-        error(SystematicError::kYawPerMetre) - odometry.yaw_per_metre_rad;
-    noise.expected_drift_yaw_per_radian = error(SystematicError::kYawPerRadian) - odometry.yaw_per_radian;
+    noise.expected_drift_yaw_per_metre_rad = error(SystematicError::kYawPerMetre);
+    noise.expected_drift_yaw_per_radian = error(SystematicError::kYawPerRadian);
   } else {
     odometry.yaw_per_radian = error(SystematicError::kYawPerRadian);
     odometry.yaw_per_second_rad = error(SystematicError::kYawPerSecond);

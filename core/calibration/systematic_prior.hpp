@@ -9,7 +9,8 @@
 namespace swiftlet {
 
 /// Posterior mean and standard deviation: what a run shows little of stays near zero. `sigma_factor`:
-/// estimates from different maps differ by more than their sigmas.
+/// estimates from different maps differ by more than their sigmas. The yaw that wheels miss becomes relative
+/// to the calibration of `sensor`, so that what a run shows little of leaves that calibration as it is.
 [[nodiscard]] JointEstimate weighed(JointEstimate measured, const SensorModel& sensor,
                                     const SystematicPrior& prior, double sigma_factor = 2.0);
 
@@ -19,7 +20,8 @@ struct InputCalibration {
   SensorModel found;
   SystematicErrors sigma = SystematicErrors::Zero();  ///< of what was found; 0: not estimated
 };
-/// `estimate` is relative to the expected range age, and to no calibration of the odometry. An age is not
+/// `estimate`, as weighed() returns it, is relative to the expected range age, and to no calibration of the
+/// odometry but for the yaw of wheels. An age is not
 /// below zero. The yaw that wheels miss becomes what the frontend expects of it: it differs along the way, so
 /// the frontend goes on learning it, and dead reckoning as such stays as reported.
 [[nodiscard]] InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel& expected);

@@ -59,12 +59,21 @@ TEST(SystematicPrior, WheelsDoNotMoveSidewaysAndMissNoYawWithTime) {
 TEST(SystematicPrior, TheYawThatWheelsMissIsWhereTheFrontendBegins) {
   SensorModel expected = SensorModel::carmen_laser();
   expected.odometry_calibration.yaw_per_metre_rad = 0.002;
-  const SensorModel found = calibrated_by(measured(0.001), expected).found;
-  EXPECT_DOUBLE_EQ(found.odometry.expected_drift_yaw_per_metre_rad, 0.008);
-  EXPECT_DOUBLE_EQ(found.odometry.expected_drift_yaw_per_radian, 0.01);
+  const SensorModel found = calibrated_by(weighed_by(expected, measured(1e-6)), expected).found;
+  EXPECT_NEAR(found.odometry.expected_drift_yaw_per_metre_rad, 0.008, 1e-6);
+  EXPECT_NEAR(found.odometry.expected_drift_yaw_per_radian, 0.01, 1e-6);
   EXPECT_DOUBLE_EQ(found.odometry_calibration.yaw_per_metre_rad, 0.002);
   EXPECT_DOUBLE_EQ(found.odometry_calibration.yaw_per_radian, 0.0);
-  EXPECT_DOUBLE_EQ(value_in(found, SystematicError::kYawPerMetre), 0.01);
+  EXPECT_NEAR(value_in(found, SystematicError::kYawPerMetre), 0.01, 1e-6);
+}
+
+TEST(SystematicPrior, ARunThatShowsNothingLeavesTheCalibrationOfWheels) {
+  SensorModel expected = SensorModel::carmen_laser();
+  expected.odometry_calibration.yaw_per_metre_rad = 0.02;
+  expected.odometry_calibration.yaw_per_radian = -0.01;
+  const SensorModel found = calibrated_by(weighed_by(expected, measured(100.0)), expected).found;
+  EXPECT_NEAR(value_in(found, SystematicError::kYawPerMetre), 0.02, 1e-6);
+  EXPECT_NEAR(value_in(found, SystematicError::kYawPerRadian), -0.01, 1e-6);
 }
 
 TEST(SystematicPrior, TheYawThatAGyroMissesIsTakenOut) {
