@@ -2,27 +2,16 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/view/web_answer.hpp"
 
+#include <boost/beast/http/rfc7230.hpp>
 #include <vector>
 
 namespace swiftlet {
 namespace {
 
-constexpr std::string_view kSpace = " \t";
-
-std::string_view without_space(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
-
 std::vector<std::string_view> items_of(std::string_view list) {
   std::vector<std::string_view> items;
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = list.find(',');
-    if (const std::string_view item = without_space(list.substr(0, comma)); !item.empty())
-      items.push_back(item);
-    if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
-  }
+  for (const auto item : boost::beast::http::token_list({list.data(), list.size()}))
+    items.emplace_back(item.data(), item.size());
   return items;
 }
 
