@@ -2,28 +2,14 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/view/web_answer.hpp"
 
-#include <boost/beast/http/rfc7230.hpp>
-#include <vector>
-
 namespace swiftlet {
-namespace {
-
-std::vector<std::string_view> items_of(std::string_view list) {
-  std::vector<std::string_view> items;
-  for (const auto item : boost::beast::http::token_list({list.data(), list.size()}))
-    items.emplace_back(item.data(), item.size());
-  return items;
-}
-
-}  // namespace
 
 WebAnswer answer_request(const WebRequest& request, const PageFiles& files, const OwnNames& own) {
   if (const std::optional<Refusal> refusal = refuse_request(request.head, own))
     return {.status = refusal->status, .file = {"text/plain", refusal->text}};
   const std::string_view path = request.target.substr(0, request.target.find('?'));
   if (request.wants_socket)
-    return {.file = {},
-            .socket = SocketRequest{.path = path, .subprotocols = items_of(request.subprotocols)}};
+    return {.file = {}, .socket = SocketRequest{.path = path, .subprotocols = request.subprotocols}};
   const auto file = files.find(path);
   if (file == files.end())
     return {

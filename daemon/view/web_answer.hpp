@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "daemon/view/request_check.hpp"
 #include "daemon/view/web_site.hpp"
@@ -13,8 +14,8 @@ namespace swiftlet {
 /// What matters of a request for its answer.
 struct WebRequest {
   RequestHead head;
-  std::string_view target;        ///< path and query
-  std::string_view subprotocols;  ///< of a WebSocket, separated by commas
+  std::string_view target;                     ///< path and query
+  std::vector<std::string_view> subprotocols;  ///< that the client of a WebSocket offers
   bool wants_socket = false;
   bool keeps_alive = false;  ///< the connection may bring another request
 };

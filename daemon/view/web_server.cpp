@@ -44,12 +44,19 @@ using Response = http::response<http::span_body<const char>>;
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
+std::vector<std::string_view> items_of(std::string_view list) {
+  std::vector<std::string_view> items;
+  for (const auto item : http::token_list({list.data(), list.size()}))
+    items.emplace_back(item.data(), item.size());
+  return items;
+}
+
 WebRequest web_request(const Request& request) {
   WebRequest seen{.head = {.method = view_of(request.method_string()),
                            .host = view_of(request[http::field::host]),
                            .origin = {}},
                   .target = view_of(request.target()),
-                  .subprotocols = view_of(request[http::field::sec_websocket_protocol]),
+                  .subprotocols = items_of(view_of(request[http::field::sec_websocket_protocol])),
                   .wants_socket = websocket::is_upgrade(request),
                   .keeps_alive = request.keep_alive()};
   if (const auto origin = request.find(http::field::origin); origin != request.end())

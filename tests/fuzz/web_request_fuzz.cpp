@@ -33,7 +33,7 @@ WebRequest request_of(std::string_view text, bool wants_socket) {
   lines.resize(5);
   WebRequest request{.head = {.method = lines[0], .host = lines[1], .origin = {}},
                      .target = lines[2],
-                     .subprotocols = lines[3],
+                     .subprotocols = {lines[3]},
                      .wants_socket = wants_socket};
   if (has_origin) request.head.origin = lines[4];
   return request;
@@ -54,9 +54,7 @@ void check_admission(const RequestHead& head) {
 void check(const WebRequest& request, const WebAnswer& answer) {
   if (answer.socket) {
     SWIFTLET_CHECK(answer.socket->path.find('?') == std::string_view::npos, "a path ends before a query");
-    for (const std::string_view offered : answer.socket->subprotocols)
-      SWIFTLET_CHECK(!offered.empty() && offered.find(',') == std::string_view::npos,
-                     "a subprotocol has a name");
+    SWIFTLET_CHECK(answer.socket->subprotocols == request.subprotocols, "a site chooses the subprotocol");
   }
   if (answer.socket || answer.status == 200) check_admission(request.head);
 }

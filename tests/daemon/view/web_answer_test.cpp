@@ -57,7 +57,7 @@ TEST(WebAnswer, ASocketIsAskedForByPathAndSubprotocols) {
   ASSERT_TRUE(plain.socket);
   EXPECT_EQ(plain.socket->path, "/live");
   EXPECT_THAT(plain.socket->subprotocols, IsEmpty());
-  wanted.subprotocols = "foxglove.sdk.v1 ,\tother,, ";
+  wanted.subprotocols = {"foxglove.sdk.v1", "other"};
   EXPECT_THAT(answer_request(wanted, kFiles, kOwn).socket->subprotocols,
               ElementsAre("foxglove.sdk.v1", "other"));
 }
