@@ -34,7 +34,13 @@ class Pose2 {
 
   /// T_b_a of a T_a_b.
   [[nodiscard]] Pose2 inverse() const {
-    return {-cos_yaw_ * x_m_ - sin_yaw_ * y_m_, sin_yaw_ * x_m_ - cos_yaw_ * y_m_, -yaw_rad_};
+    Pose2 T_b_a;
+    T_b_a.x_m_ = -cos_yaw_ * x_m_ - sin_yaw_ * y_m_;
+    T_b_a.y_m_ = sin_yaw_ * x_m_ - cos_yaw_ * y_m_;
+    T_b_a.yaw_rad_ = wrap_angle(-yaw_rad_);
+    T_b_a.cos_yaw_ = cos_yaw_;  // half of all poses are inverses: without calling sine and cosine
+    T_b_a.sin_yaw_ = -sin_yaw_;
+    return T_b_a;
   }
   Pose2 operator*(const Pose2& T_b_c) const {
     const Point2 p = *this * T_b_c.position();

@@ -135,11 +135,10 @@ double CorrelativeMatcher::preference(int steps_x, int steps_y, int steps_yaw) c
                                   steps_yaw * steps_yaw / (angular * angular));
 }
 
-double CorrelativeMatcher::block_score(const Block& block) const {
-  std::uint32_t sum = 0;
-  const auto& list = cells(block.yaw);
-  for (const CellIndex& c : list) sum += pyramid_.max_at(block.level, c.x + block.x, c.y + block.y);
-  return mean_probability(sum, list.size());
+std::uint32_t CorrelativeMatcher::least_sum(double score) const {
+  constexpr double kRounding = 1e-9;
+  const auto points = static_cast<double>(cells_by_yaw_.front().size());
+  return static_cast<std::uint32_t>(std::max(0.0, (score - kRounding) * 255.0 * points));
 }
 
 CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(std::uint32_t sum, std::uint32_t known,
@@ -160,9 +159,11 @@ CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const DiscreteMat
   return known_cells(sum, known, list.size());
 }
 
-CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw) const {
+CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw,
+                                                         double min_score) const {
   Block block{level, x, y, yaw, 0.0, 0.0};
-  block.score = block_score(block);
+  const auto& list = cells(yaw);
+  block.score = mean_probability(pyramid_.sum(level, list, x, y, least_sum(min_score)), list.size());
   const int reach = (1 << level) - 1;
   const int nearest_x = std::clamp(0, x, x + reach);
   const int nearest_y = std::clamp(0, y, y + reach);
@@ -177,12 +178,13 @@ void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMa
     return;
   }
   const int half = 1 << (block.level - 1);
+  const double least = std::max(min_score, best.preferred);  // no pose is preferred more than its score
   Block children[4];
   int count = 0;
   for (const int dy : {0, half}) {
     for (const int dx : {0, half}) {
       if (block.x + dx > linear_steps_ || block.y + dy > linear_steps_) continue;
-      children[count++] = make_block(block.level - 1, block.x + dx, block.y + dy, block.yaw);
+      children[count++] = make_block(block.level - 1, block.x + dx, block.y + dy, block.yaw, least);
     }
   }
   std::stable_sort(children, children + count,
@@ -192,7 +194,8 @@ void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMa
 
 void CorrelativeMatcher::search_all_of(const Block& block, double min_score, DiscreteMatch& best) const {
   const auto& list = cells(block.yaw);
-  const TiledByteGrid::Sums sums = tiles_.sums(list, block.x, block.y);
+  const TiledByteGrid::Sums sums =
+      tiles_.sums(list, block.x, block.y, least_sum(std::max(min_score, best.preferred)));
   const int side = 1 << block.level;
   for (int y = block.y; y < block.y + side && y <= linear_steps_; ++y) {
     for (int x = block.x; x < block.x + side && x <= linear_steps_; ++x) {
@@ -210,7 +213,7 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_branch_and_bound(double
   for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
     for (int y = -linear_steps_; y <= linear_steps_; y += 1 << level) {
       for (int x = -linear_steps_; x <= linear_steps_; x += 1 << level) {
-        const Block root = make_block(level, x, y, yaw);
+        const Block root = make_block(level, x, y, yaw, min_score);
         if (root.score >= min_score) roots.push_back(root);
       }
     }
@@ -230,7 +233,7 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
   for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
     for (int y = -linear_steps_; y <= linear_steps_; ++y) {
       for (int x = -linear_steps_; x <= linear_steps_; ++x) {
-        const Block one = make_block(0, x, y, yaw);
+        const Block one = make_block(0, x, y, yaw, min_score);
         if (one.score >= min_score && one.bound > best.preferred) best = {x, y, yaw, one.score, one.bound};
       }
     }

@@ -61,7 +61,8 @@ class CorrelativeMatcher {
  private:
   struct Block;
   [[nodiscard]] double preference(int steps_x, int steps_y, int steps_yaw) const;
-  [[nodiscard]] double block_score(const Block& block) const;
+  /// No smaller sum of a list's cells has that score.
+  [[nodiscard]] std::uint32_t least_sum(double score) const;
   /// Mean probability over the points that fall on known cells, and their share. The score itself also
   /// rewards covering the submap: along a corridor it would draw every scan to the submap's middle.
   struct KnownCells {
@@ -71,7 +72,8 @@ class CorrelativeMatcher {
   /// `sum` of the probabilities under all points, `known` of them on known cells.
   [[nodiscard]] static KnownCells known_cells(std::uint32_t sum, std::uint32_t known, std::size_t points);
   [[nodiscard]] KnownCells known_cells(const DiscreteMatch& at) const;
-  [[nodiscard]] Block make_block(int level, int x, int y, int yaw) const;
+  /// The score is the right one if it is at least `min_score`; else it is less than that.
+  [[nodiscard]] Block make_block(int level, int x, int y, int yaw, double min_score) const;
   void search(const Block& block, double min_score, DiscreteMatch& best) const;
   void search_all_of(const Block& block, double min_score, DiscreteMatch& best) const;
   [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {

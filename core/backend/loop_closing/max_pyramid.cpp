@@ -54,6 +54,19 @@ MaxPyramid::MaxPyramid(const GridGeometry& geometry, std::span<const std::uint8_
   }
 }
 
+std::uint32_t MaxPyramid::sum(int level, std::span<const CellIndex> cells, int x, int y,
+                              std::uint32_t at_least) const {
+  constexpr std::size_t kCellsAtOnce = 16;
+  const Level grid(*this, level);
+  std::uint32_t sum = 0;
+  while (!cells.empty() && sum + 255 * cells.size() >= at_least) {
+    const auto some = cells.first(std::min(cells.size(), kCellsAtOnce));
+    cells = cells.subspan(some.size());
+    for (const CellIndex& c : some) sum += grid.max_at(c.x + x, c.y + y);
+  }
+  return sum;
+}
+
 std::vector<std::uint8_t> max_kernel(const GridGeometry& geometry, const std::vector<std::uint8_t>& cells,
                                      int width) {
   const int reach = width / 2;

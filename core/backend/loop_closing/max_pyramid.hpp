@@ -22,22 +22,37 @@ class MaxPyramid {
   [[nodiscard]] int levels() const { return 1 + static_cast<int>(above_.size()); }
   /// The maximum over cells [x, x + 2^level) x [y, y + 2^level); cells outside the grid count as 0.
   [[nodiscard]] std::uint8_t max_at(int level, int x, int y) const {
-    // A level's grid begins (2^h - 1) cells before the base grid, where blocks first touch it.
-    const int reach = (1 << level) - 1;
-    const int shifted_x = x + reach;
-    const int shifted_y = y + reach;
-    const int width = geometry_.width + reach;
-    const int height = geometry_.height + reach;
-    const auto is_inside = [](int at, int count) {  // negative ones are huge
-      return static_cast<unsigned>(at) < static_cast<unsigned>(count);
-    };
-    if (!is_inside(shifted_x, width) || !is_inside(shifted_y, height)) return 0;
-    const std::uint8_t* grid = level == 0 ? base_.data() : above_[static_cast<std::size_t>(level - 1)].data();
-    return grid[static_cast<std::size_t>(shifted_y) * static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(shifted_x)];
+    return Level(*this, level).max_at(x, y);
   }
+  /// The sum of the maxima at all of `cells` moved by (x, y); less, and less than `at_least`, where it would
+  /// be less than that.
+  [[nodiscard]] std::uint32_t sum(int level, std::span<const CellIndex> cells, int x, int y,
+                                  std::uint32_t at_least) const;
 
  private:
+  /// Begins (2^level - 1) cells before the base grid, where blocks first touch it.
+  class Level {
+   public:
+    Level(const MaxPyramid& pyramid, int level)
+        : reach_((1 << level) - 1),
+          width_(static_cast<unsigned>(pyramid.geometry_.width + reach_)),
+          height_(static_cast<unsigned>(pyramid.geometry_.height + reach_)),
+          grid_(level == 0 ? pyramid.base_.data()
+                           : pyramid.above_[static_cast<std::size_t>(level - 1)].data()) {}
+    [[nodiscard]] std::uint8_t max_at(int x, int y) const {
+      const auto shifted_x = static_cast<unsigned>(x + reach_);  // negative ones are huge
+      const auto shifted_y = static_cast<unsigned>(y + reach_);
+      if (shifted_x >= width_ || shifted_y >= height_) return 0;
+      return grid_[std::size_t{shifted_y} * width_ + shifted_x];
+    }
+
+   private:
+    int reach_;
+    unsigned width_;
+    unsigned height_;
+    const std::uint8_t* grid_;
+  };
+
   GridGeometry geometry_;
   std::span<const std::uint8_t> base_;
   std::vector<std::vector<std::uint8_t>> above_;  // levels 1 ...

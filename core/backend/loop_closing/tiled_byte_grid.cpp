@@ -10,7 +10,7 @@ namespace swiftlet {
 namespace {
 
 constexpr int kMargin = TiledByteGrid::kSide - 1;  // tiles that touch the grid with their last row or column
-constexpr std::size_t kCellsAtOnce = 256;          // whose bytes add up to less than 16 bits hold
+constexpr std::size_t kCellsAtOnce = 64;           // whose bytes add up to less than 16 bits hold
 
 }  // namespace
 
@@ -43,9 +43,10 @@ const std::uint8_t* TiledByteGrid::tile_at(int x, int y) const {
   return planes_[static_cast<std::size_t>(plane)].data() + at;
 }
 
-TiledByteGrid::Sums TiledByteGrid::sums(std::span<const CellIndex> cells, int x, int y) const {
+TiledByteGrid::Sums TiledByteGrid::sums(std::span<const CellIndex> cells, int x, int y,
+                                        std::uint32_t at_least) const {
   Sums sums{};
-  while (!cells.empty()) {
+  while (!cells.empty() && *std::max_element(sums.begin(), sums.end()) + 255 * cells.size() >= at_least) {
     const auto some = cells.first(std::min(cells.size(), kCellsAtOnce));
     cells = cells.subspan(some.size());
     std::array<std::uint16_t, sums.size()> partial{};

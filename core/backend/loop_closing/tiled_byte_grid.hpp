@@ -24,7 +24,8 @@ class TiledByteGrid {
   TiledByteGrid(const GridGeometry& geometry, std::span<const std::uint8_t> bytes, int stride);
 
   /// The sums with all of `cells` moved by (x + stride * column, y + stride * row). Outside the grid is 0.
-  [[nodiscard]] Sums sums(std::span<const CellIndex> cells, int x, int y) const;
+  /// Where none of them would be `at_least` they are less than that, and may be too small.
+  [[nodiscard]] Sums sums(std::span<const CellIndex> cells, int x, int y, std::uint32_t at_least = 0) const;
 
  private:
   [[nodiscard]] const std::uint8_t* tile_at(int x, int y) const;

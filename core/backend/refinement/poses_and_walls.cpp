@@ -45,8 +45,10 @@ void PosesAndWalls::associate() {
   H_.reset();
   std::vector<DrawnReturn> drawn;
   drawn.reserve(hits_.size());
-  for (const ScanHit& hit : hits_) {
-    const Pose2 T = T_map_scan(hit.scan);
+  Pose2 T;  // of the hit's scan; the hits of one follow each other
+  for (std::size_t k = 0; k < hits_.size(); ++k) {
+    const ScanHit& hit = hits_[k];
+    if (k == 0 || hit.scan != hits_[k - 1].scan) T = T_map_scan(hit.scan);
     const Point2 p = T * hit.p_body;
     const double range_m = std::hypot(hit.p_body.x_m, hit.p_body.y_m);
     drawn.push_back({p, {(p.x_m - T.x_m()) / range_m, (p.y_m - T.y_m()) / range_m}});

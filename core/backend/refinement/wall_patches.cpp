@@ -20,14 +20,17 @@ double dot(const Point2& a, const Point2& b) { return a.x_m * b.x_m + a.y_m * b.
 class ReturnsByCell {
  public:
   ReturnsByCell(std::span<const DrawnReturn> returns, double cell_m) : cell_m_(cell_m) {
+    std::vector<CellIndex> cell_of_return;
+    cell_of_return.reserve(returns.size());
+    for (const DrawnReturn& drawn : returns) cell_of_return.push_back(cell_at(drawn.p_map));
     index_.resize(returns.size());
     std::iota(index_.begin(), index_.end(), 0U);
-    std::stable_sort(index_.begin(), index_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return cell_at(returns[a].p_map) < cell_at(returns[b].p_map);
-    });
+    std::ranges::stable_sort(index_, {}, [&](std::uint32_t i) { return cell_of_return[i]; });
+    cells_.reserve(returns.size());
+    sorted_.reserve(returns.size());
     for (const std::uint32_t i : index_) {
       sorted_.push_back(returns[i]);
-      cells_.push_back(cell_at(returns[i].p_map));
+      cells_.push_back(cell_of_return[i]);
     }
   }
   [[nodiscard]] std::size_t size() const { return sorted_.size(); }

@@ -36,6 +36,28 @@ std::uint8_t max_by_looking(const RandomGrid& grid, int x, int y, int width, int
   return most;
 }
 
+TEST(MaxPyramid, SumsThatAreSoughtAreWholeAndTheOthersLess) {
+  std::mt19937 random(22);
+  const RandomGrid grid = random_grid(random, 30, 20);
+  const MaxPyramid pyramid(grid.geometry, grid.cells, 3);
+  int ended_early = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<CellIndex> cells(static_cast<std::size_t>(random_int(random, 0, 100)));
+    for (CellIndex& cell : cells) cell = {random_int(random, -5, 35), random_int(random, -5, 25)};
+    const int level = round % 3;
+    std::uint32_t whole = 0;
+    for (const CellIndex& cell : cells) whole += pyramid.max_at(level, cell.x - 2, cell.y + 1);
+    const auto at_least = static_cast<std::uint32_t>(random_int(random, 0, 100 * 255));
+    const std::uint32_t sum = pyramid.sum(level, cells, -2, 1, at_least);
+    if (whole >= at_least)
+      EXPECT_EQ(sum, whole);
+    else
+      EXPECT_LT(sum, at_least);
+    ended_early += sum != whole ? 1 : 0;
+  }
+  EXPECT_GT(ended_early, 50);
+}
+
 struct GridSize {
   int width;
   int height;

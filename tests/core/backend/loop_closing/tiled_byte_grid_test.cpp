@@ -45,6 +45,30 @@ TEST(TiledByteGrid, EqualsOnePositionAfterTheOther) {
   }
 }
 
+TEST(TiledByteGrid, SumsThatAreSoughtAreWholeAndTheOthersLess) {
+  std::mt19937 random(84);
+  int ended_early = 0;
+  for (int round = 0; round < 200; ++round) {
+    const GridGeometry geometry = grid_of(30, 30);
+    std::vector<std::uint8_t> bytes(geometry.cell_count());
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random_int(random, 0, 255));
+    std::vector<CellIndex> cells(300);
+    for (CellIndex& cell : cells) cell = {random_int(random, -10, 30), random_int(random, -10, 30)};
+    const TiledByteGrid grid(geometry, bytes, 1);
+    const TiledByteGrid::Sums whole = grid.sums(cells, 0, 0);
+    const auto at_least = static_cast<std::uint32_t>(random_int(random, 0, 300 * 255));
+    const TiledByteGrid::Sums sums = grid.sums(cells, 0, 0, at_least);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (whole[i] >= at_least)
+        ASSERT_EQ(sums[i], whole[i]);
+      else
+        ASSERT_LT(sums[i], at_least);
+    }
+    ended_early += sums != whole ? 1 : 0;
+  }
+  EXPECT_GT(ended_early, 50);
+}
+
 TEST(TiledByteGrid, ManyPointsOnFullCellsDoNotOverflow) {
   const GridGeometry geometry = grid_of(8, 8);
   const std::vector<std::uint8_t> bytes(geometry.cell_count(), 255);
