@@ -177,16 +177,13 @@ void refinement(benchmark::State& state) {
   const std::span samples = std::span(vehicle.samples()).first(static_cast<std::size_t>(state.range(0)));
   const StoredRun run(samples);
   const std::vector<Pose2> start = in_waves(samples);
-  int steps = 0;
   while (state.KeepRunning()) {
     std::vector<Pose2> T_map_body = start;
     const Result<RefinementReport> report =
-        refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, {}, {}, T_map_body);
+        refine_in_turn({.scans = run.scans(), .sensor = SensorModel::crazyflie(), .config = {}}, T_map_body);
     SWIFTLET_CHECK(report, "the poses can be refined");
-    steps += report->iterations;
   }
   state.SetComplexityN(state.range(0));
-  state.counters["steps"] = benchmark::Counter(steps, benchmark::Counter::kAvgIterations);
 }
 BENCHMARK(refinement)
     ->ArgName("poses")

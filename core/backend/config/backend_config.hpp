@@ -40,7 +40,7 @@ struct BackendConfig {
 
   // Joint refinement
   bool refine = true;
-  int refinement_iterations = 25;
+  int refinement_iterations = 8;
 
   // Known space
   int max_scans = 20000;
@@ -85,7 +85,7 @@ struct BackendConfig {
       {"refine", &BackendConfig::refine, "",
        "false: poses between keyframes stay interpolated, while flying and at the end"},
       {"refinement_iterations", &BackendConfig::refinement_iterations, "",
-       "rounds of walls and poses at most, at the end of a run", 1, 1000},
+       "rounds of walls and poses in turn, at the end of a run", 1, 1000},
       {"max_scans", &BackendConfig::max_scans, "",
        "with more than these, scans of space that others cover as well are pruned; 600 are a minute at 10 Hz",
        1000, 100000000},

@@ -240,7 +240,6 @@ struct RefinementTuning {
   // Batch refinement
   double wide_radius_m = 0.5;  ///< instead of radius_m in the first iterations: walls may lie this far apart
   int wide_iterations = 5;
-  double converged_step = 2e-4;  ///< metres or radians
 
   // Windows of the online refinement
   std::size_t max_window_returns = 3000;  ///< a window with more is thinned
@@ -264,7 +263,6 @@ struct RefinementTuning {
       {"median_drift", &RefinementTuning::median_drift},
       {"wide_radius_m", &RefinementTuning::wide_radius_m},
       {"wide_iterations", &RefinementTuning::wide_iterations},
-      {"converged_step", &RefinementTuning::converged_step},
       {"max_window_returns", &RefinementTuning::max_window_returns},
       {"step_weight", &RefinementTuning::step_weight},
       {"tie_sigma_m", &RefinementTuning::tie_sigma_m},
@@ -321,7 +319,7 @@ struct PosesAndWallsTuning {
 
 /// Poses and walls of a whole run in one problem.
 struct JointRefinementTuning {
-  int associations = 4;  ///< of returns with patches
+  int associations = 2;  ///< of returns with patches
   int steps_per_association = 2;
   double age_sigma_s = 0.02;     ///< of the ranges' age: what the estimate before the run leaves
   double closure_weight = 0.08;  ///< on information: six queries see each return, against two submaps

@@ -11,6 +11,9 @@
 namespace swiftlet {
 namespace {
 
+using Factors = std::vector<RelativePoseFactor<PoseIndex>>;
+using Headings = std::vector<HeadingFactor<PoseIndex>>;
+
 RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tuning) {
   RefinementProblem problem(tuning);
   const std::span<const StoredScan> stored = scans.all().values();
@@ -26,10 +29,9 @@ RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tun
 }
 
 /// Dead reckoning from each scan to the next.
-std::vector<RelativePoseFactor<PoseIndex>> motions_of(std::span<const StoredScan> scans,
-                                                      const SensorModel& sensor,
-                                                      DeadReckoning dead_reckoning) {
-  std::vector<RelativePoseFactor<PoseIndex>> motions;
+Factors motions_of(std::span<const StoredScan> scans, const SensorModel& sensor,
+                   DeadReckoning dead_reckoning) {
+  Factors motions;
   for (std::size_t i = 1; i < scans.size(); ++i) {
     RelativePoseFactor<PoseIndex> c;
     c.from = make_id<PoseIndex>(i - 1);
@@ -43,6 +45,16 @@ std::vector<RelativePoseFactor<PoseIndex>> motions_of(std::span<const StoredScan
     motions.push_back(c);
   }
   return motions;
+}
+
+/// The dead reckoning among factors_of().
+std::span<const RelativePoseFactor<PoseIndex>> motions_in(const Factors& factors,
+                                                          const BatchRefinement& batch) {
+  return std::span(factors).first(batch.scans.size() - 1);
+}
+
+PoseIndex pose_of(const BatchRefinement& batch, ScanId scan) {
+  return make_id<PoseIndex>(batch.scans.all().position(scan));
 }
 
 struct Judged {
@@ -74,60 +86,85 @@ Judged judge(const ScanStore& scans, const RefinementProblem& problem,
   return judged;
 }
 
-/// Walls and poses in turn. Returns the rounds taken.
-Result<int> alternate(const RefinementProblem& problem,
-                      std::span<const RelativePoseFactor<PoseIndex>> factors,
-                      std::span<const HeadingFactor<PoseIndex>> headings, const BackendConfig& config,
-                      const RefinementTuning& tuning, std::vector<Pose2>& T_map_body) {
+/// Dead reckoning from each scan to the next, then closures.
+Factors factors_of(const BatchRefinement& batch) {
+  Factors factors = motions_of(batch.scans.all().values(), batch.sensor, batch.dead_reckoning);
+  for (const RelativePoseFactor<ScanId>& c : batch.closures)
+    factors.push_back(c.joining(pose_of(batch, c.from), pose_of(batch, c.to)));
+  return factors;
+}
+
+Headings headings_of(const BatchRefinement& batch) {
+  Headings headings;
+  for (const HeadingFactor<ScanId>& f : batch.headings) headings.push_back(f.of(pose_of(batch, f.pose)));
+  return headings;
+}
+
+/// Walls and poses in turn. Single poses jump between walls for ever: there is no end but the last round.
+Status alternate(const RefinementProblem& problem, const Factors& factors, const Headings& headings,
+                 const BackendConfig& config, std::vector<Pose2>& T_map_body) {
+  const RefinementTuning& tuning = config.tuning.refinement;
   PoseSystem system;
-  if (Status status = system.prepare(T_map_body.size(), factors); !status) return status.error();
+  if (Status status = system.prepare(T_map_body.size(), factors); !status) return status;
   for (int round = 0; round < config.refinement_iterations; ++round) {
-    const bool wide = round < tuning.wide_iterations;
+    const double radius_m = round < tuning.wide_iterations ? tuning.wide_radius_m : tuning.radius_m;
     system.set_zero();
     for (const RelativePoseFactor<PoseIndex>& f : factors) system.add(f, 1.0, T_map_body);
     for (const HeadingFactor<PoseIndex>& f : headings) system.add(f, 1.0, T_map_body);
-    problem.add_factors(problem.walls_at(T_map_body, wide ? tuning.wide_radius_m : tuning.radius_m),
-                        T_map_body, system);
-    const Result<double> largest = system.step(T_map_body);
-    if (!largest) return largest.error();
-    if (*largest < tuning.converged_step && !wide) return round + 1;
+    problem.add_factors(problem.walls_at(T_map_body, radius_m), T_map_body, system);
+    if (const Result<double> largest = system.step(T_map_body); !largest) return largest.error();
   }
-  return config.refinement_iterations;
+  return {};
+}
+
+/// Takes refined poses, which have been accepted.
+void take(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report,
+          std::vector<Pose2>& T_map_body) {
+  report.share_on_walls = refined.share_on_walls;
+  report.misfit = std::move(refined.misfit);
+  T_map_body = std::move(T_refined);
 }
 
 }  // namespace
 
-Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
-                                           std::span<const RelativePoseFactor<ScanId>> closures,
-                                           std::span<const HeadingFactor<ScanId>> headings,
-                                           const BackendConfig& config, std::vector<Pose2>& T_map_body,
-                                           const RefinementTuning& tuning, DeadReckoning dead_reckoning) {
-  SWIFTLET_CHECK(T_map_body.size() == scans.size(), "every scan has a pose");
+Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vector<Pose2>& T_map_body) {
+  SWIFTLET_CHECK(T_map_body.size() == batch.scans.size(), "every scan has a pose");
   RefinementReport report;
-  if (scans.size() < 2) return report;
-  const RefinementProblem problem = problem_of(scans, tuning);
-  const auto pose_of = [&](ScanId scan) { return make_id<PoseIndex>(scans.all().position(scan)); };
-  std::vector<RelativePoseFactor<PoseIndex>> factors =
-      motions_of(scans.all().values(), sensor, dead_reckoning);
-  const std::size_t motions = factors.size();
-  Judged before = judge(scans, problem, factors, T_map_body, tuning);
-  for (const RelativePoseFactor<ScanId>& c : closures)
-    factors.push_back(c.joining(pose_of(c.from), pose_of(c.to)));
-  std::vector<HeadingFactor<PoseIndex>> headings_of_poses;
-  for (const HeadingFactor<ScanId>& f : headings) headings_of_poses.push_back(f.of(pose_of(f.pose)));
+  if (batch.scans.size() < 2) return report;
+  const RefinementTuning& tuning = batch.config.tuning.refinement;
+  const RefinementProblem problem = problem_of(batch.scans, tuning);
+  const Factors factors = factors_of(batch);
+  Judged start = judge(batch.scans, problem, motions_in(factors, batch), T_map_body, tuning);
+  report.share_on_walls = start.share_on_walls;
+  report.misfit = start.misfit;
+  report.misfit_at_start = std::move(start.misfit);
   std::vector<Pose2> T = T_map_body;
-  const Result<int> rounds = alternate(problem, factors, headings_of_poses, config, tuning, T);
-  if (!rounds) return rounds.error();
-  report.iterations = *rounds;
-  report.moved_walls =
-      refine_jointly(scans, sensor, problem.returns(), headings_of_poses, config.tuning, factors, T).ok();
-  Judged after = judge(scans, problem, std::span(factors).first(motions), T, tuning);
-  report.judge(before.held_out_m, after.held_out_m);
-  report.share_on_walls = report.accepted ? after.share_on_walls : before.share_on_walls;
-  report.misfit = report.accepted ? std::move(after.misfit) : before.misfit;
-  report.misfit_at_start = std::move(before.misfit);
-  if (report.accepted) T_map_body = std::move(T);
+  if (Status moved = alternate(problem, factors, headings_of(batch), batch.config, T); !moved)
+    return moved.error();
+  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, tuning);
+  report.judge(start.held_out_m, refined.held_out_m);
+  if (report.accepted) take(std::move(refined), std::move(T), report, T_map_body);
   return report;
+}
+
+Status refine_together(const BatchRefinement& batch, RefinementReport& report,
+                       std::vector<Pose2>& T_map_body) {
+  if (batch.scans.size() < 2) return {};
+  const RefinementTuning& tuning = batch.config.tuning.refinement;
+  const RefinementProblem problem = problem_of(batch.scans, tuning);
+  Factors factors = factors_of(batch);
+  std::vector<Pose2> T = T_map_body;
+  Status solved = refine_jointly(batch.scans, batch.sensor, problem.returns(), headings_of(batch),
+                                 batch.config.tuning, factors, T);
+  if (!solved) return solved;
+  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, tuning);
+  HeldOutVerdict verdict;
+  verdict.judge(report.held_out_before_m, refined.held_out_m);
+  report.moved_walls = verdict.accepted;
+  if (!verdict.accepted) return {};
+  static_cast<HeldOutVerdict&>(report) = verdict;
+  take(std::move(refined), std::move(T), report, T_map_body);
+  return {};
 }
 
 }  // namespace swiftlet

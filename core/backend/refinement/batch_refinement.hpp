@@ -16,8 +16,7 @@
 namespace swiftlet {
 
 struct RefinementReport : HeldOutVerdict {
-  int iterations = 0;
-  bool moved_walls = false;     ///< false: refine_jointly() had no solution; the poses are those before it
+  bool moved_walls = false;     ///< refine_together() was accepted
   double share_on_walls = 0.0;  ///< of the held-out returns: that lie on walls of other traversals
   /// By traversal, in order: minus the log likelihood of the poses returned, but for a constant. Of the
   /// held-out returns (distance over wall sigma) and of the dead reckoning (half chi-square). Comparable
@@ -32,18 +31,26 @@ enum class DeadReckoning : std::uint8_t {
   kAsReported,  ///< StoredScan::T_odom_body, calibrated
 };
 
-/// Joint refinement of every scan's pose: one sparse Gauss-Newton problem of point-to-line factors to the
-/// walls of other traversals, dead reckoning between neighbouring scans, and accepted loop closures. Walls
-/// and poses are computed in turn until no pose moves, then together (refine_jointly()). A tenth of the
-/// returns is held out: the result is accepted only if they lie as close to their walls as at the start. The
-/// start must have its walls within about half a metre of each other: refinement closes no loops.
-/// `T_map_body`: one pose per scan, in and out, the first one is held. `closures` join scans (information
-/// scaled by DCS already); `headings` likewise. Errors: kSolver. Allocates. Repeatable.
-Result<RefinementReport> refine_scan_poses(const ScanStore& scans, const SensorModel& sensor,
-                                           std::span<const RelativePoseFactor<ScanId>> closures,
-                                           std::span<const HeadingFactor<ScanId>> headings,
-                                           const BackendConfig& config, std::vector<Pose2>& T_map_body,
-                                           const RefinementTuning& tuning = {},
-                                           DeadReckoning dead_reckoning = DeadReckoning::kLessDrift);
+/// What the poses of a run's scans are refined by. Views all of it.
+struct BatchRefinement {
+  const ScanStore& scans;
+  const SensorModel& sensor;
+  std::span<const RelativePoseFactor<ScanId>> closures{};  ///< information scaled by DCS already
+  std::span<const HeadingFactor<ScanId>> headings{};       ///< likewise
+  const BackendConfig& config;
+  DeadReckoning dead_reckoning = DeadReckoning::kLessDrift;
+};
+
+/// Refinement of every scan's pose: a sparse Gauss-Newton problem of point-to-line factors to the walls of
+/// other traversals, dead reckoning between neighbouring scans, and accepted loop closures, of which walls
+/// and poses are computed in turn. A tenth of the returns is held out: the result is accepted only if they
+/// lie as close to their walls as at the start. The start must have its walls within about half a metre of
+/// each other: refinement closes no loops. `T_map_body`: one pose per scan, in and out, the first one is
+/// held. Errors: kSolver. Allocates. Repeatable.
+Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vector<Pose2>& T_map_body);
+/// Then walls and poses together, by refine_jointly(), from what refine_in_turn() reports and returns.
+/// Accepted on the same condition; else, and where there is no solution (kSolver), both are left as they are.
+Status refine_together(const BatchRefinement& batch, RefinementReport& report,
+                       std::vector<Pose2>& T_map_body);
 
 }  // namespace swiftlet

@@ -112,34 +112,47 @@ RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const Pose
   return {source, std::move(T_map_body), {}};
 }
 
+RunRefinement::Known RunRefinement::known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const {
+  if (hypothesis.source != MapSource::kPoseGraph) return {};
+  return {closures_between_scans(graph, *chain_), headings_of_scans(graph, *chain_)};
+}
+
+BatchRefinement RunRefinement::batch(const Hypothesis& hypothesis, const Known& known) const {
+  return {*scans_,
+          sensor_,
+          known.closures,
+          known.headings,
+          *config_,
+          hypothesis.source == MapSource::kDeadReckoning ? DeadReckoning::kAsReported
+                                                         : DeadReckoning::kLessDrift};
+}
+
 /// The odometry is left as reported unless that is significantly worse.
 bool RunRefinement::try_refine(Hypothesis& hypothesis, const PoseGraph& graph) {
-  const RefinementTuning& tuning = config_->tuning.refinement;
-  const bool is_odometry = hypothesis.source == MapSource::kDeadReckoning;
-  std::vector<RelativePoseFactor<ScanId>> closures;
-  std::vector<HeadingFactor<ScanId>> headings;
-  if (hypothesis.source == MapSource::kPoseGraph) {
-    closures = closures_between_scans(graph, *chain_);
-    headings = headings_of_scans(graph, *chain_);
-  }
+  const Known known = known_of(hypothesis, graph);
   std::vector<Pose2> T_refined = hypothesis.T_map_body;
-  Result<RefinementReport> report =
-      refine_scan_poses(*scans_, sensor_, closures, headings, *config_, T_refined, tuning,
-                        is_odometry ? DeadReckoning::kAsReported : DeadReckoning::kLessDrift);
+  Result<RefinementReport> report = refine_in_turn(batch(hypothesis, known), T_refined);
   if (!report) {
     ++counters_.solver_failures;
     return false;
   }
-  if (!report->moved_walls) ++counters_.solver_failures;
-  hypothesis.report = std::move(*report);
-  RefinementReport& r = hypothesis.report;
-  if (is_odometry && gain_sigmas(r.misfit, r.misfit_at_start) < tuning.refined_gain_sigmas) {
+  RefinementReport& r = hypothesis.report = std::move(*report);
+  if (hypothesis.source == MapSource::kDeadReckoning &&
+      gain_sigmas(r.misfit, r.misfit_at_start) < config_->tuning.refinement.refined_gain_sigmas) {
     r.misfit = r.misfit_at_start;
     r.accepted = false;
   } else {
     hypothesis.T_map_body = std::move(T_refined);
   }
   return true;
+}
+
+/// Dead reckoning that stays as reported is left alone.
+void RunRefinement::complete(Hypothesis& hypothesis, const PoseGraph& graph) {
+  if (hypothesis.source == MapSource::kDeadReckoning && !hypothesis.report.accepted) return;
+  const Known known = known_of(hypothesis, graph);
+  if (!refine_together(batch(hypothesis, known), hypothesis.report, hypothesis.T_map_body))
+    ++counters_.solver_failures;
 }
 
 /// By the log odds: what a correction has beforehand and what the ranges give (those of a standard normal
@@ -166,6 +179,7 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
     break;
   }
   if (!best) return false;
+  complete(*best, graph);
   counters_.held_out_before_m = best->report.held_out_before_m;
   counters_.held_out_after_m = best->report.held_out_after_m;
   counters_.refined = best->report.accepted;

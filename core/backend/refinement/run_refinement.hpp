@@ -43,8 +43,9 @@ class RunRefinement {
   /// After each keyframe: refines one window. Returns what has moved.
   ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
   /// Gives every scan a pose of its own, for good. True: poses have moved. The graph's path is held against
-  /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way. Dead
-  /// reckoning is the map unless the ranges pay for how far a correction departs from it.
+  /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way, walls and
+  /// poses in turn; the one chosen then together. Dead reckoning is the map unless the ranges pay for how far
+  /// a correction departs from it.
   bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
@@ -66,7 +67,15 @@ class RunRefinement {
   };
   [[nodiscard]] Hypothesis hypothesis(MapSource source, const PoseGraph& graph,
                                       const KeyframePoses& T_local_keyframe) const;
+  /// What a hypothesis is refined by besides dead reckoning and walls.
+  struct Known {
+    std::vector<RelativePoseFactor<ScanId>> closures;
+    std::vector<HeadingFactor<ScanId>> headings;
+  };
+  [[nodiscard]] Known known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const;
+  [[nodiscard]] BatchRefinement batch(const Hypothesis& hypothesis, const Known& known) const;
   bool try_refine(Hypothesis& hypothesis, const PoseGraph& graph);
+  void complete(Hypothesis& hypothesis, const PoseGraph& graph);
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
 
   [[nodiscard]] bool is_wanted() const { return config_->refine && config_->close_loops; }

@@ -61,11 +61,19 @@ SensorModel with_odometry_noise(double factor) {
   return sensor;
 }
 
+/// In turn, then together.
+Result<RefinementReport> refine(const BatchRefinement& batch, std::vector<Pose2>& T_map_body) {
+  Result<RefinementReport> report = refine_in_turn(batch, T_map_body);
+  if (!report) return report;
+  if (Status status = refine_together(batch, *report, T_map_body); !status) return status.error();
+  return report;
+}
+
 Result<RefinementReport> refine(const TestVehicle& vehicle, std::vector<Pose2>& T_map_body,
                                 const std::vector<RelativePoseFactor<ScanId>>& closures = {},
                                 const SensorModel& sensor = SensorModel::crazyflie()) {
   const StoredRun run(vehicle.samples());
-  return refine_scan_poses(run.scans(), sensor, closures, {}, {}, T_map_body);
+  return refine({.scans = run.scans(), .sensor = sensor, .closures = closures, .config = {}}, T_map_body);
 }
 
 double worst_m(const std::vector<Pose2>& estimate, const std::vector<Pose2>& truth) {
@@ -162,7 +170,6 @@ TEST(Refinement, TwoRunsGiveTheSameBytes) {
   ASSERT_TRUE(report && again);
   EXPECT_TRUE(report->accepted);
   EXPECT_TRUE(same_bits(one, other));
-  EXPECT_EQ(report->iterations, again->iterations);
   EXPECT_EQ(report->held_out_after_m, again->held_out_after_m);
 }
 
@@ -240,7 +247,7 @@ TEST(Refinement, TurnsAndShiftsEachScanOntoTheWallsOfTheOthers) {
   const LooksAtARoom looks = looks_at_a_room();
   std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
   const Result<RefinementReport> report =
-      refine_scan_poses(looks.scans, looks.sensor, {}, {}, {}, T_map_body);
+      refine({.scans = looks.scans, .sensor = looks.sensor, .config = {}}, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report->accepted);
   // Pair by pair: only the first scan, which is held, hangs loosely on all the others. One look may leave a
@@ -258,19 +265,25 @@ TEST(Refinement, WhereWallsCannotMovePosesDo) {
   const LooksAtARoom looks = looks_at_a_room();
   BackendConfig config;
   config.tuning.poses_and_walls.patch_turn_sigma_rad = std::nan("");
+  const BatchRefinement batch{.scans = looks.scans, .sensor = looks.sensor, .config = config};
   std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
-  const Result<RefinementReport> report =
-      refine_scan_poses(looks.scans, looks.sensor, {}, {}, config, T_map_body);
+  Result<RefinementReport> report = refine_in_turn(batch, T_map_body);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_FALSE(report->moved_walls);
   EXPECT_TRUE(report->accepted);
   EXPECT_LT(report->held_out_after_m, 0.5 * report->held_out_before_m);
+  const std::vector<Pose2> T_map_turn = T_map_body;
+  const Status together = refine_together(batch, *report, T_map_body);
+  ASSERT_FALSE(together);
+  EXPECT_EQ(together.error().code, ErrorCode::kSolver);
+  EXPECT_FALSE(report->moved_walls);
+  EXPECT_TRUE(report->accepted);
+  EXPECT_TRUE(same_bits(T_map_body, T_map_turn));
 }
 
 TEST(Refinement, ATenthOfTheReturnsHasNoSay) {
   const auto refined = [](const LooksAtARoom& looks) {
     std::vector<Pose2> T_map_body = shaken(looks.T_map_body);
-    const auto report = refine_scan_poses(looks.scans, looks.sensor, {}, {}, {}, T_map_body);
+    const auto report = refine({.scans = looks.scans, .sensor = looks.sensor, .config = {}}, T_map_body);
     EXPECT_TRUE(report && report->accepted);
     return T_map_body;
   };
@@ -286,24 +299,29 @@ TEST(Refinement, FewerThanTwoScansStayAsTheyAre) {
   for (const std::size_t scans : {0U, 1U}) {
     const StoredRun run(std::span(vehicle.samples()).first(scans));
     std::vector<Pose2> T_map_body(scans, Pose2(1.0, 2.0, 3.0));
-    const Result<RefinementReport> report = refine_scan_poses(run.scans(), {}, {}, {}, {}, T_map_body);
+    const Result<RefinementReport> report =
+        refine({.scans = run.scans(), .sensor = {}, .config = {}}, T_map_body);
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->accepted);
-    EXPECT_EQ(report->iterations, 0);
     EXPECT_TRUE(same_bits(T_map_body, std::vector<Pose2>(scans, Pose2(1.0, 2.0, 3.0))));
   }
 }
 
-TEST(Refinement, TakesNoMoreRoundsThanItMay) {
+TEST(Refinement, TakesAsManyRoundsAsItMay) {
   const TestVehicle vehicle = to_and_fro(drifting());
   const StoredRun run(vehicle.samples());
-  BackendConfig config;
-  config.refinement_iterations = 2;
-  std::vector<Pose2> T_map_body = dead_reckoned(vehicle);
-  const Result<RefinementReport> report =
-      refine_scan_poses(run.scans(), SensorModel::crazyflie(), {}, {}, config, T_map_body);
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->iterations, 2);
+  const auto after = [&](int rounds, std::vector<Pose2> T_map_body) {
+    BackendConfig config;
+    config.refinement_iterations = rounds;
+    config.tuning.refinement.wide_radius_m = config.tuning.refinement.radius_m;
+    const BatchRefinement batch{.scans = run.scans(), .sensor = SensorModel::crazyflie(), .config = config};
+    const Result<RefinementReport> report = refine_in_turn(batch, T_map_body);
+    EXPECT_TRUE(report && report->accepted);
+    return T_map_body;
+  };
+  const std::vector<Pose2> one = after(1, dead_reckoned(vehicle));
+  EXPECT_TRUE(same_bits(after(2, dead_reckoned(vehicle)), after(1, one)));
+  EXPECT_FALSE(same_bits(after(2, dead_reckoned(vehicle)), one));
 }
 
 TEST(RefinementDeathTest, AScanWithoutAPoseIsABrokenPromise) {
