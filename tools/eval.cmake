@@ -1,6 +1,10 @@
 # The files that trajectories are evaluated from.
 swiftlet_add_library(swiftlet_eval_files
-  SOURCES evaluation/number_rows.cpp evaluation/tum_file.cpp
+  SOURCES
+    evaluation/number_rows.cpp
+    evaluation/reference_kind.cpp
+    evaluation/relations_file.cpp
+    evaluation/tum_file.cpp
   LINK swiftlet_evaluation swiftlet_firmware_link
   LINK_PRIVATE spdlog::spdlog)
 
@@ -10,7 +14,5 @@ swiftlet_add_library(swiftlet_eval
     eval_command.cpp
     evaluation/eval_report.cpp
     evaluation/evaluate.cpp
-    evaluation/reference_kind.cpp
-    evaluation/relations_file.cpp
   LINK swiftlet_eval_files
   LINK_PRIVATE swiftlet_live swiftlet_outputs nlohmann_json::nlohmann_json spdlog::spdlog)
