@@ -126,8 +126,9 @@ bool ClosureGroups::is_conclusive(std::span<const std::size_t> set, const PoseGr
   const double first_m = chain_->path_m(waiting_[set.front()].closure.to);
   const double last_m = chain_->path_m(waiting_[set.back()].closure.to);
   if (last_m - first_m < tuning_.min_travel_m) return false;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
   for (const std::size_t i : set) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information_without(i, set, graph));
+    solver.computeDirect(information_without(i, set, graph), Eigen::EigenvaluesOnly);
     if (solver.eigenvalues()(0) * tuning_.max_sigma_m * tuning_.max_sigma_m < 1.0) return false;
   }
   return static_cast<double>(largest_rival(set)) <= tuning_.max_rival_share * static_cast<double>(set.size());

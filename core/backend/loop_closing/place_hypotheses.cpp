@@ -188,7 +188,8 @@ double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
     const Eigen::Matrix2d position = match.covariance.matrix().topLeftCorner<2, 2>();
     information += R * position.inverse() * R.transpose() / queries_alike();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(information, Eigen::EigenvaluesOnly);
   return 1.0 / std::sqrt(std::max(solver.eigenvalues()(0), 1e-9));
 }
 

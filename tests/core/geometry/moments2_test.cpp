@@ -51,7 +51,8 @@ TEST(Moments2, ScatterAgreesWithTheWeightedCovariance) {
     const Scatter2 scatter = moments_of(points).scatter();
     EXPECT_NEAR(scatter.mean.x_m, mean(0), 1e-12);
     EXPECT_NEAR(scatter.mean.y_m, mean(1), 1e-12);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+    eigen.computeDirect(covariance);
     EXPECT_NEAR(scatter.across(), eigen.eigenvalues()(0), 1e-12);
     EXPECT_NEAR(scatter.along(), eigen.eigenvalues()(1), 1e-12);
     const Point2 normal = scatter.normal();

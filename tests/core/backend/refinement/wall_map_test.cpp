@@ -85,7 +85,8 @@ class AllPoints {
     mean /= sum;
     Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
     for (const auto& [weight, p] : near) scatter += weight / sum * (p - mean) * (p - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+    axes.computeDirect(scatter);
     const double across = axes.eigenvalues()[0];
     const double along = axes.eigenvalues()[1];
     if (along < 0.004 || across > 0.35 * along) return std::nullopt;
