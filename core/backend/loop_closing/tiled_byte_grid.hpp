@@ -24,10 +24,16 @@ class TiledByteGrid {
   TiledByteGrid(const GridGeometry& geometry, std::span<const std::uint8_t> bytes, int stride);
 
   /// The sums with all of `cells` moved by (x + stride * column, y + stride * row). Outside the grid is 0.
-  /// Where none of them would be `at_least` they are less than that, and may be too small.
+  /// Where none of them would be `at_least` they are less than that, and may be 0.
   [[nodiscard]] Sums sums(std::span<const CellIndex> cells, int x, int y, std::uint32_t at_least = 0) const;
+  /// The same on any machine: sums() takes wider vectors where there are some.
+  [[nodiscard]] Sums sums_portable(std::span<const CellIndex> cells, int x, int y,
+                                   std::uint32_t at_least = 0) const;
 
  private:
+  template <typename Rows>
+  [[nodiscard]] Sums sums_of(std::span<const CellIndex> cells, int x, int y, std::uint32_t at_least) const;
+  [[nodiscard]] Sums sums_avx2(std::span<const CellIndex> cells, int x, int y, std::uint32_t at_least) const;
   [[nodiscard]] const std::uint8_t* tile_at(int x, int y) const;
 
   int stride_;

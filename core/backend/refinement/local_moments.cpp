@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "core/base/processor.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -97,12 +99,11 @@ template <typename Vectors>
           s.yy.total()};
 }
 
-#if defined(__x86_64__) || defined(__i386__)
+#if SWIFTLET_MAY_HAVE_AVX2
 [[gnu::target("avx2")]] Moments2 moments_avx2(const PointColumns& points, std::span<const PointRange> ranges,
                                               const TraversalPoint& place, double radius_m) {
   return moments<Fours>(points, ranges, place, radius_m);
 }
-const bool kHasAvx2 = __builtin_cpu_supports("avx2");
 #endif
 
 }  // namespace
@@ -121,8 +122,8 @@ PointColumns::PointColumns(std::span<const TraversalPoint> points)
 
 Moments2 local_moments(const PointColumns& points, std::span<const PointRange> ranges,
                        const TraversalPoint& place, double radius_m) {
-#if defined(__x86_64__) || defined(__i386__)
-  if (kHasAvx2) return moments_avx2(points, ranges, place, radius_m);
+#if SWIFTLET_MAY_HAVE_AVX2
+  if (has_avx2()) return moments_avx2(points, ranges, place, radius_m);
 #endif
   return local_moments_portable(points, ranges, place, radius_m);
 }

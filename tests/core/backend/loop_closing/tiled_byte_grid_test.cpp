@@ -30,7 +30,9 @@ TEST(TiledByteGrid, EqualsOnePositionAfterTheOther) {
     const int stride = 1 + round % 2;
     const int x = random_int(random, -30, 30);
     const int y = random_int(random, -30, 30);
-    const TiledByteGrid::Sums sums = TiledByteGrid(geometry, bytes, stride).sums(cells, x, y);
+    const TiledByteGrid grid(geometry, bytes, stride);
+    const TiledByteGrid::Sums sums = grid.sums(cells, x, y);
+    EXPECT_EQ(grid.sums_portable(cells, x, y), sums);
     for (int row = 0; row < TiledByteGrid::kSide; ++row) {
       for (int column = 0; column < TiledByteGrid::kSide; ++column) {
         std::uint32_t expected = 0;
@@ -58,6 +60,7 @@ TEST(TiledByteGrid, SumsThatAreSoughtAreWholeAndTheOthersLess) {
     const TiledByteGrid::Sums whole = grid.sums(cells, 0, 0);
     const auto at_least = static_cast<std::uint32_t>(random_int(random, 0, 300 * 255));
     const TiledByteGrid::Sums sums = grid.sums(cells, 0, 0, at_least);
+    EXPECT_EQ(grid.sums_portable(cells, 0, 0, at_least), sums);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       if (whole[i] >= at_least)
         ASSERT_EQ(sums[i], whole[i]);
