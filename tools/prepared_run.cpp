@@ -29,6 +29,11 @@ Result<Configuration> configuration_for(const MapCommand& command) {
   return config;
 }
 
+std::optional<Duration> range_age_of(const Configuration& config) {
+  if (!config.sensor.range_age_s) return std::nullopt;
+  return from_seconds(*config.sensor.range_age_s);
+}
+
 /// Estimates the systematic errors of the input from all of it first, and sets those that the configuration
 /// leaves out.
 std::optional<InputCalibration> calibrate_first(SampleSource& source, Configuration& config,
@@ -47,7 +52,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.beam_count = command.beams;
   options.max_range_m = config.sensor.max_range_m;
   options.min_range_m = config.sensor.min_range_m;
-  if (config.sensor.range_age_s) options.range_age = from_seconds(*config.sensor.range_age_s);
+  options.range_age = range_age_of(config);
   Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
   if (!source || command.odometry_only) return source;
   return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
@@ -63,6 +68,10 @@ Result<PreparedRun> prepare_run(const MapCommand& command, const std::stop_token
   if (!command.calibrate || command.odometry_only) return run;
   run.calibration = calibrate_first(*run.source, run.config, stop);
   if (stop.stop_requested()) return stopped_error(command.input);
+  if (std::unique_ptr<SampleSource> again = run.source->again(range_age_of(run.config))) {
+    run.source = std::move(again);
+    return run;
+  }
   opened = open_input(command, run.config);
   if (!opened) return opened.error();
   run.source = std::move(opened).value();

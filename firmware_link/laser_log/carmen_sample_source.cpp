@@ -100,24 +100,33 @@ Result<std::unique_ptr<SampleSource>> CarmenSampleSource::open(const std::string
   const auto beam_count = static_cast<std::size_t>(options.beam_count.value_or(kUsualBeamCount));
   Result<CarmenLog> log = read_carmen_log(path, beam_count);
   if (!log) return log.error();
-  return std::unique_ptr<SampleSource>(new CarmenSampleSource(std::move(log).value(), options));
+  return std::unique_ptr<SampleSource>(
+      new CarmenSampleSource(std::make_shared<const CarmenLog>(std::move(log).value()), options));
 }
 
-CarmenSampleSource::CarmenSampleSource(CarmenLog log, const SampleSourceOptions& options)
+std::unique_ptr<SampleSource> CarmenSampleSource::again(std::optional<Duration> range_age) const {
+  SampleSourceOptions options = options_;
+  options.range_age = range_age;
+  return std::unique_ptr<SampleSource>(new CarmenSampleSource(log_, options));
+}
+
+CarmenSampleSource::CarmenSampleSource(std::shared_ptr<const CarmenLog> log,
+                                       const SampleSourceOptions& options)
     : log_(std::move(log)),
-      uses_odometry_lines_(trusts_odometry_lines(log_)),
-      scan_times_(uses_odometry_lines_ ? std::vector<DeviceTime>() : regular_times(log_.scans)),
-      sensor_(sensor_model(log_, scan_times_, options)),
-      assembler_(assembly_config(log_, sensor_), report_.counters) {
-  report_.counters.frames = log_.lines;
-  report_.counters.duplicates = log_.duplicate_scans;
-  report_.problems = log_.problems;
+      options_(options),
+      uses_odometry_lines_(trusts_odometry_lines(*log_)),
+      scan_times_(uses_odometry_lines_ ? std::vector<DeviceTime>() : regular_times(log_->scans)),
+      sensor_(sensor_model(*log_, scan_times_, options)),
+      assembler_(assembly_config(*log_, sensor_), report_.counters) {
+  report_.counters.frames = log_->lines;
+  report_.counters.duplicates = log_->duplicate_scans;
+  report_.problems = log_->problems;
   report_.shows_age = uses_odometry_lines_;
-  report_.notes.push_back(describe_odometry(log_, uses_odometry_lines_, sensor_.range_age));
-  if (!uses_odometry_lines_ && !options.range_age && log_.pose_scan_lag.runs_a_line_ahead())
-    report_.notes.push_back(describe_lag(log_.pose_scan_lag, sensor_.range_age));
-  if (log_.scan_reversals > 0)
-    report_.notes.push_back("scans out of time order were sorted (" + std::to_string(log_.scan_reversals) +
+  report_.notes.push_back(describe_odometry(*log_, uses_odometry_lines_, sensor_.range_age));
+  if (!uses_odometry_lines_ && !options.range_age && log_->pose_scan_lag.runs_a_line_ahead())
+    report_.notes.push_back(describe_lag(log_->pose_scan_lag, sensor_.range_age));
+  if (log_->scan_reversals > 0)
+    report_.notes.push_back("scans out of time order were sorted (" + std::to_string(log_->scan_reversals) +
                             " steps back)");
 }
 
@@ -147,11 +156,12 @@ void CarmenSampleSource::finish_report() {
 }
 
 bool CarmenSampleSource::feed() {
-  const bool scans_left = next_scan_ < log_.scans.size();
-  const bool odometry_left = uses_odometry_lines_ && next_odometry_ < log_.odometry.size();
+  const bool scans_left = next_scan_ < log_->scans.size();
+  const bool odometry_left = uses_odometry_lines_ && next_odometry_ < log_->odometry.size();
   if (!scans_left && !odometry_left) return false;
-  if (odometry_left && (!scans_left || log_.odometry[next_odometry_].stamp <= log_.scans[next_scan_].stamp)) {
-    feed_odometry(log_.odometry[next_odometry_++]);
+  if (odometry_left &&
+      (!scans_left || log_->odometry[next_odometry_].stamp <= log_->scans[next_scan_].stamp)) {
+    feed_odometry(log_->odometry[next_odometry_++]);
   } else {
     feed_scan();
   }
@@ -169,7 +179,7 @@ void CarmenSampleSource::feed_odometry(const CarmenOdometry& odometry) {
 }
 
 void CarmenSampleSource::feed_scan() {
-  const CarmenOdometry& scan = log_.scans[next_scan_];
+  const CarmenOdometry& scan = log_->scans[next_scan_];
   Reading reading;
   reading.stream = kScanStream;
   // Two different scans with one stamp are both used; the assembler requires ascending times.
@@ -181,14 +191,14 @@ void CarmenSampleSource::feed_scan() {
     reading.position_odom = scan.position;
     reading.yaw_odom_rad = wrap_angle(scan.yaw_rad);
   }
-  for (const float distance_m : log_.distances_of(next_scan_))
+  for (const float distance_m : log_->distances_of(next_scan_))
     static_cast<void>(reading.distance_m.try_push_back(distance_m));
   ++next_scan_;
   assembler_.add(reading);
 }
 
 std::optional<double> CarmenSampleSource::progress() const {
-  return static_cast<double>(next_scan_) / static_cast<double>(log_.scans.size());
+  return static_cast<double>(next_scan_) / static_cast<double>(log_->scans.size());
 }
 
 }  // namespace swiftlet

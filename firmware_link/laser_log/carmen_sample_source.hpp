@@ -27,20 +27,22 @@ class CarmenSampleSource final : public SampleSource {
                                                                   const SampleSourceOptions& options);
 
   [[nodiscard]] Result<ReceivedSample> next() override;
-  [[nodiscard]] const BeamLayout& beams() const override { return log_.beams; }
+  [[nodiscard]] const BeamLayout& beams() const override { return log_->beams; }
   [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
   [[nodiscard]] const InputReport& report() const override { return report_; }
   [[nodiscard]] std::optional<double> progress() const override;
+  [[nodiscard]] std::unique_ptr<SampleSource> again(std::optional<Duration> range_age) const override;
 
  private:
-  CarmenSampleSource(CarmenLog log, const SampleSourceOptions& options);
+  CarmenSampleSource(std::shared_ptr<const CarmenLog> log, const SampleSourceOptions& options);
   /// False at the end of the log.
   bool feed();
   void feed_odometry(const CarmenOdometry& odometry);
   void feed_scan();
   void finish_report();
 
-  CarmenLog log_;
+  std::shared_ptr<const CarmenLog> log_;
+  SampleSourceOptions options_;
   bool uses_odometry_lines_;
   std::vector<DeviceTime> scan_times_;  // of scans that carry their poses
   SensorModel sensor_;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,11 @@ class SampleSource {
   [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
   /// The next event of the vehicle or its link.
   [[nodiscard]] virtual std::optional<VehicleEvent> take_event() { return std::nullopt; }
+  /// The same input from its beginning, with another age of the ranges (nullopt: the sensor model's), if that
+  /// takes no second reading; else null.
+  [[nodiscard]] virtual std::unique_ptr<SampleSource> again(std::optional<Duration> /*range_age*/) const {
+    return nullptr;
+  }
   /// No more samples will be taken: events become notes in report() now. Allocates.
   virtual void end() {}
   /// T_world_body at every sample delivered so far, stamped like the sample; empty if the truth is unknown.

@@ -25,6 +25,10 @@ class SignMendingSource final : public SampleSource {
   [[nodiscard]] const InputReport& report() const override { return ended_ ? report_ : recording_->report(); }
   [[nodiscard]] std::optional<double> progress() const override { return recording_->progress(); }
   [[nodiscard]] std::optional<VehicleEvent> take_event() override { return recording_->take_event(); }
+  [[nodiscard]] std::unique_ptr<SampleSource> again(std::optional<Duration> range_age) const override {
+    std::unique_ptr<SampleSource> recording = recording_->again(range_age);
+    return recording ? std::make_unique<SignMendingSource>(std::move(recording)) : nullptr;
+  }
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return recording_->ground_truth(); }
   [[nodiscard]] std::vector<MendedPositions> mended() const override { return signs_.mended(); }

@@ -53,6 +53,31 @@ TEST(CarmenSampleSource, TakesOdometryLinesAtTheTimeOfTheRangesWhenTheirStampsAr
   EXPECT_EQ((*source)->progress(), 1.0);
 }
 
+TEST(CarmenSampleSource, BeginsAgainWithAnotherAgeAsIfItWereOpenedSo) {
+  const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + flaser_line(180, 7, "10.15") +
+                                        odometry_line(0.1, 0, 0.2, "10.1") + flaser_line(180, 7, "10.2") +
+                                        odometry_line(0.2, 0, 0.4, "10.2"));
+  SampleSourceOptions options;
+  options.max_range_m = 5.0;
+  const auto usual = CarmenSampleSource::open(file.path(), options);
+  ASSERT_TRUE(usual.ok());
+  const std::vector<RangeSample> before = read_all(**usual);
+  const std::unique_ptr<SampleSource> again = (*usual)->again(std::chrono::milliseconds(50));
+  options.range_age = std::chrono::milliseconds(50);
+  const auto opened = CarmenSampleSource::open(file.path(), options);
+  ASSERT_TRUE(again && opened.ok());
+  const std::vector<RangeSample> samples = read_all(*again);
+  const std::vector<RangeSample> expected = read_all(**opened);
+  ASSERT_EQ(samples.size(), expected.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].T_odom_body.x_m(), expected[i].T_odom_body.x_m());
+    EXPECT_EQ(samples[i].status, expected[i].status);
+  }
+  EXPECT_NE(samples[0].T_odom_body.x_m(), before[0].T_odom_body.x_m());
+  EXPECT_EQ(again->report().notes, (*opened)->report().notes);
+  EXPECT_EQ(again->sensor().max_range_m, 5.0);
+}
+
 TEST(CarmenSampleSource, TakesThePoseInTheScanWhenOdometryStampsGoBack) {
   const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + flaser_line(180, 7, "10.15") +
                                         odometry_line(0.1, 0, 0.2, "10.3") +
