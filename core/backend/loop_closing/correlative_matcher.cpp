@@ -5,15 +5,14 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <functional>
 
 namespace swiftlet {
 namespace {
 
-constexpr int kTileLevel = 3;  // blocks of which are tried pose by pose, for they are one tile
-static_assert(1 << kTileLevel == TiledByteGrid::kSide);
-constexpr int kSpreadStrideCells = 2;  // between positions evaluated: enough under a kernel of three
+constexpr int kTile = TiledByteGrid::kSide;  // positions a side: tried at once
+constexpr int kSpreadStrideCells = 2;        // between positions evaluated: enough under a kernel of three
 
 double farthest_m(std::span<const Point2> points, double at_least_m) {
   double farthest = at_least_m;
@@ -21,10 +20,11 @@ double farthest_m(std::span<const Point2> points, double at_least_m) {
   return farthest;
 }
 
-/// Enough that the whole search is a handful of blocks.
-int levels_for(int linear_steps) {
-  const auto farthest = static_cast<unsigned>(std::max(1, linear_steps - 1));
-  return 1 + static_cast<int>(std::bit_width(farthest));
+/// Of max_ahead(): wider and higher by what a tile reaches.
+GridGeometry grown(GridGeometry geometry) {
+  geometry.width += kTile - 1;
+  geometry.height += kTile - 1;
+  return geometry;
 }
 
 /// Of submap cells, which hold 255 times theirs.
@@ -89,13 +89,12 @@ void take_out_coverage(const Eigen::Matrix3d& coverage, double cell_m, double mi
 
 }  // namespace
 
-struct CorrelativeMatcher::Block {
-  int level = 0;
+/// Positions [x, x + kTile) x [y, y + kTile), with one heading.
+struct CorrelativeMatcher::Tile {
   int x = 0;
   int y = 0;
   int yaw = 0;
-  double score = 0.0;
-  double bound = 0.0;  ///< no pose in the block is preferred more
+  double bound = 0.0;  ///< no pose in the tile is preferred more
 };
 
 CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
@@ -105,8 +104,8 @@ CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Poi
       window_(window),
       tuning_(tuning),
       linear_steps_(static_cast<int>(std::ceil(window.radius_m / grid_.resolution_m))),
-      pyramid_(submap.geometry, submap.cells, levels_for(linear_steps_)),
-      tiles_(submap.geometry, submap.cells, 1) {
+      tiles_(submap.geometry, submap.cells, 1),
+      bounds_(grown(submap.geometry), max_ahead(submap.geometry, submap.cells, kTile), kTile) {
   // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
   const double ratio = grid_.resolution_m / farthest_m(points_scan, tuning.min_lever_m);
   angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
@@ -152,77 +151,58 @@ CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const DiscreteMat
   std::uint32_t known = 0;
   const auto& list = cells(at.steps_yaw);
   for (const CellIndex& c : list) {
-    const std::uint8_t value = pyramid_.max_at(0, c.x + at.steps_x, c.y + at.steps_y);
+    const std::uint8_t value = value_at({c.x + at.steps_x, c.y + at.steps_y});
     sum += value;
     known += value != 0 ? 1 : 0;
   }
   return known_cells(sum, known, list.size());
 }
 
-CorrelativeMatcher::Block CorrelativeMatcher::make_block(int level, int x, int y, int yaw,
-                                                         double min_score) const {
-  Block block{level, x, y, yaw, 0.0, 0.0};
+/// The tiles of `kTile` x `kTile` tiles from (x, y) on that hold a pose with that score.
+void CorrelativeMatcher::add_tiles(int x, int y, int yaw, double min_score, std::vector<Tile>& tiles) const {
   const auto& list = cells(yaw);
-  block.score = mean_probability(pyramid_.sum(level, list, x, y, least_sum(min_score)), list.size());
-  const int reach = (1 << level) - 1;
-  const int nearest_x = std::clamp(0, x, x + reach);
-  const int nearest_y = std::clamp(0, y, y + reach);
-  block.bound = block.score + preference(nearest_x, nearest_y, yaw);
-  return block;
+  // The grid of the bounds begins a tile less a cell before the submap's.
+  const TiledByteGrid::Sums sums = bounds_.sums(list, x + kTile - 1, y + kTile - 1, least_sum(min_score));
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const double score = mean_probability(sums[k], list.size());
+    Tile tile{x + kTile * (static_cast<int>(k) % kTile), y + kTile * (static_cast<int>(k) / kTile), yaw,
+              score};
+    if (score < min_score || tile.x > linear_steps_ || tile.y > linear_steps_) continue;
+    const int nearest_x = std::clamp(0, tile.x, tile.x + kTile - 1);
+    const int nearest_y = std::clamp(0, tile.y, tile.y + kTile - 1);
+    tile.bound += preference(nearest_x, nearest_y, yaw);
+    tiles.push_back(tile);
+  }
 }
 
-void CorrelativeMatcher::search(const Block& block, double min_score, DiscreteMatch& best) const {
-  if (block.bound <= best.preferred || block.score < min_score) return;
-  if (block.level <= kTileLevel) {
-    search_all_of(block, min_score, best);
-    return;
-  }
-  const int half = 1 << (block.level - 1);
-  const double least = std::max(min_score, best.preferred);  // no pose is preferred more than its score
-  Block children[4];
-  int count = 0;
-  for (const int dy : {0, half}) {
-    for (const int dx : {0, half}) {
-      if (block.x + dx > linear_steps_ || block.y + dy > linear_steps_) continue;
-      children[count++] = make_block(block.level - 1, block.x + dx, block.y + dy, block.yaw, least);
-    }
-  }
-  std::stable_sort(children, children + count,
-                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
-  for (int i = 0; i < count; ++i) search(children[i], min_score, best);
-}
-
-void CorrelativeMatcher::search_all_of(const Block& block, double min_score, DiscreteMatch& best) const {
-  const auto& list = cells(block.yaw);
+void CorrelativeMatcher::search(const Tile& tile, double min_score, DiscreteMatch& best) const {
+  const auto& list = cells(tile.yaw);
+  // No pose is preferred more than its score.
   const TiledByteGrid::Sums sums =
-      tiles_.sums(list, block.x, block.y, least_sum(std::max(min_score, best.preferred)));
-  const int side = 1 << block.level;
-  for (int y = block.y; y < block.y + side && y <= linear_steps_; ++y) {
-    for (int x = block.x; x < block.x + side && x <= linear_steps_; ++x) {
-      const int at = TiledByteGrid::kSide * (y - block.y) + x - block.x;
-      const double score = mean_probability(sums[static_cast<std::size_t>(at)], list.size());
-      const double preferred = score + preference(x, y, block.yaw);
-      if (score >= min_score && preferred > best.preferred) best = {x, y, block.yaw, score, preferred};
-    }
+      tiles_.sums(list, tile.x, tile.y, least_sum(std::max(min_score, best.preferred)));
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const int x = tile.x + static_cast<int>(k) % kTile;
+    const int y = tile.y + static_cast<int>(k) / kTile;
+    if (x > linear_steps_ || y > linear_steps_) continue;
+    const double score = mean_probability(sums[k], list.size());
+    const double preferred = score + preference(x, y, tile.yaw);
+    if (score >= min_score && preferred > best.preferred) best = {x, y, tile.yaw, score, preferred};
   }
 }
 
 std::optional<DiscreteMatch> CorrelativeMatcher::best_by_branch_and_bound(double min_score) const {
-  const int level = pyramid_.levels() - 1;
-  std::vector<Block> roots;
-  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
-    for (int y = -linear_steps_; y <= linear_steps_; y += 1 << level) {
-      for (int x = -linear_steps_; x <= linear_steps_; x += 1 << level) {
-        const Block root = make_block(level, x, y, yaw, min_score);
-        if (root.score >= min_score) roots.push_back(root);
-      }
-    }
-  }
-  std::stable_sort(roots.begin(), roots.end(),
-                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
+  std::vector<Tile> tiles;
+  for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw)
+    for (int y = -linear_steps_; y <= linear_steps_; y += kTile * kTile)
+      for (int x = -linear_steps_; x <= linear_steps_; x += kTile * kTile)
+        add_tiles(x, y, yaw, min_score, tiles);
+  std::ranges::stable_sort(tiles, std::greater(), &Tile::bound);
   DiscreteMatch best;
   best.score = best.preferred = -1.0;
-  for (const Block& root : roots) search(root, min_score, best);
+  for (const Tile& tile : tiles) {
+    if (tile.bound <= best.preferred) break;
+    search(tile, min_score, best);
+  }
   if (best.score < min_score) return std::nullopt;
   return best;
 }
@@ -233,8 +213,11 @@ std::optional<DiscreteMatch> CorrelativeMatcher::best_by_exhaustion(double min_s
   for (int yaw = -yaw_steps_; yaw <= yaw_steps_; ++yaw) {
     for (int y = -linear_steps_; y <= linear_steps_; ++y) {
       for (int x = -linear_steps_; x <= linear_steps_; ++x) {
-        const Block one = make_block(0, x, y, yaw, min_score);
-        if (one.score >= min_score && one.bound > best.preferred) best = {x, y, yaw, one.score, one.bound};
+        std::uint32_t sum = 0;
+        for (const CellIndex& c : cells(yaw)) sum += value_at({c.x + x, c.y + y});
+        const double score = mean_probability(sum, cells(yaw).size());
+        const double preferred = score + preference(x, y, yaw);
+        if (score >= min_score && preferred > best.preferred) best = {x, y, yaw, score, preferred};
       }
     }
   }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/loop_closing/max_pyramid.hpp"
+#include "core/backend/loop_closing/max_filter.hpp"
 #include "core/backend/loop_closing/submap.hpp"
 #include "core/backend/loop_closing/tiled_byte_grid.hpp"
 #include "core/geometry/pose2.hpp"
@@ -40,9 +40,9 @@ struct DiscreteMatch {
 };
 
 /// Correlative scan-to-submap matching (eqs. 21-22; Olson 2009, "Real-time correlative scan matching") by
-/// branch and bound (Hess et al. 2016). Of equal scores the one nearest the prediction wins: along a bare
-/// corridor the scores are flat, and the covariance is wide. Allocates in the constructor. Views the submap,
-/// which must outlive it.
+/// branch and bound (Hess et al. 2016), on one level: the bounds of 64 tiles are added up at once. Of equal
+/// scores the one nearest the prediction wins: along a bare corridor the scores are flat, and the covariance
+/// is wide. Allocates in the constructor. Views the submap, which must outlive it.
 class CorrelativeMatcher {
  public:
   CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan, const SearchWindow& window,
@@ -59,7 +59,7 @@ class CorrelativeMatcher {
   [[nodiscard]] Pose2 T_submap_scan(const DiscreteMatch& match) const;
 
  private:
-  struct Block;
+  struct Tile;
   [[nodiscard]] double preference(int steps_x, int steps_y, int steps_yaw) const;
   /// No smaller sum of a list's cells has that score.
   [[nodiscard]] std::uint32_t least_sum(double score) const;
@@ -72,10 +72,12 @@ class CorrelativeMatcher {
   /// `sum` of the probabilities under all points, `known` of them on known cells.
   [[nodiscard]] static KnownCells known_cells(std::uint32_t sum, std::uint32_t known, std::size_t points);
   [[nodiscard]] KnownCells known_cells(const DiscreteMatch& at) const;
-  /// The score is the right one if it is at least `min_score`; else it is less than that.
-  [[nodiscard]] Block make_block(int level, int x, int y, int yaw, double min_score) const;
-  void search(const Block& block, double min_score, DiscreteMatch& best) const;
-  void search_all_of(const Block& block, double min_score, DiscreteMatch& best) const;
+  void add_tiles(int x, int y, int yaw, double min_score, std::vector<Tile>& tiles) const;
+  void search(const Tile& tile, double min_score, DiscreteMatch& best) const;
+  /// Of the submap; 0 outside.
+  [[nodiscard]] std::uint8_t value_at(CellIndex cell) const {
+    return grid_.contains(cell) ? submap_cells_[grid_.offset(cell)] : std::uint8_t{0};
+  }
   [[nodiscard]] const std::vector<CellIndex>& cells(int steps_yaw) const {
     return cells_by_yaw_[slot(steps_yaw)];
   }
@@ -93,8 +95,8 @@ class CorrelativeMatcher {
   double angle_step_rad_ = 0.0;
   int linear_steps_ = 0;
   int yaw_steps_ = 0;
-  MaxPyramid pyramid_;
   TiledByteGrid tiles_;
+  TiledByteGrid bounds_;                              // of tiles
   std::vector<std::vector<CellIndex>> cells_by_yaw_;  // points as cells, one list for each heading
 };
 

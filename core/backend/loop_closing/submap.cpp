@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/backend/loop_closing/max_pyramid.hpp"
+#include "core/backend/loop_closing/max_filter.hpp"
 #include "core/base/check.hpp"
 
 namespace swiftlet {

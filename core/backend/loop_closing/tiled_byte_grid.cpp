@@ -3,6 +3,7 @@
 #include "core/backend/loop_closing/tiled_byte_grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "core/base/check.hpp"
@@ -60,32 +61,32 @@ struct TileSums {
 }  // namespace
 
 TiledByteGrid::TiledByteGrid(const GridGeometry& geometry, std::span<const std::uint8_t> bytes, int stride)
-    : stride_(stride),
-      columns_((geometry.width + stride - 1) / stride + 2 * kMargin),
-      rows_((geometry.height + stride - 1) / stride + 2 * kMargin) {
-  SWIFTLET_CHECK(stride == 1 || stride == 2, "positions lie one or two cells apart");
+    : shift_(std::countr_zero(static_cast<unsigned>(stride))),
+      columns_(((geometry.width + stride - 1) >> shift_) + 2 * kMargin),
+      rows_(((geometry.height + stride - 1) >> shift_) + 2 * kMargin),
+      planes_((static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) << (2 * shift_), 0) {
+  SWIFTLET_CHECK(std::has_single_bit(static_cast<unsigned>(stride)), "positions lie 1, 2, 4 ... cells apart");
   SWIFTLET_CHECK(bytes.size() == geometry.cell_count(), "the bytes fill the grid");
-  planes_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
-  for (auto& plane : planes_)
-    plane.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
-  for (int y = 0; y < geometry.height; ++y) {
-    for (int x = 0; x < geometry.width; ++x) {
-      const int plane = stride * (y % stride) + x % stride;
-      const int at = (y / stride + kMargin) * columns_ + x / stride + kMargin;
-      planes_[static_cast<std::size_t>(plane)][static_cast<std::size_t>(at)] = bytes[geometry.offset({x, y})];
-    }
-  }
+  auto byte = bytes.begin();
+  for (int y = 0; y < geometry.height; ++y)
+    for (int x = 0; x < geometry.width; ++x) planes_[offset(x, y)] = *byte++;
+}
+
+/// Of a cell of the grid or of a margin; each plane holds the columns and rows that lie `stride` apart.
+std::size_t TiledByteGrid::offset(int x, int y) const {
+  const int mask = (1 << shift_) - 1;  // of negative numbers too: shifts round down, unlike divisions
+  const int plane = ((y & mask) << shift_) + (x & mask);
+  const int row = plane * rows_ + (y >> shift_) + kMargin;
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>((x >> shift_) + kMargin);
 }
 
 /// Where the tile that begins at a cell begins in its plane; null where it lies outside.
 const std::uint8_t* TiledByteGrid::tile_at(int x, int y) const {
-  const int shift = stride_ - 1;  // of negative numbers rounds down, unlike a division
-  const int column = (x >> shift) + kMargin;
-  const int row = (y >> shift) + kMargin;
+  const int column = (x >> shift_) + kMargin;
+  const int row = (y >> shift_) + kMargin;
   if (column < 0 || row < 0 || column > columns_ - kSide || row > rows_ - kSide) return nullptr;
-  const int plane = stride_ * (y & shift) + (x & shift);
-  const int at = row * columns_ + column;
-  return planes_[static_cast<std::size_t>(plane)].data() + at;
+  return planes_.data() + offset(x, y);
 }
 
 template <typename Rows>

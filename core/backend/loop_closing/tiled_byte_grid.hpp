@@ -19,8 +19,8 @@ class TiledByteGrid {
   static constexpr int kSide = 8;
   using Sums = std::array<std::uint32_t, std::size_t{kSide} * kSide>;  ///< row by row
 
-  /// `bytes` has geometry.cell_count() values, row by row. Positions lie `stride` cells apart, 1 or 2.
-  /// Allocates.
+  /// `bytes` has geometry.cell_count() values, row by row. Positions lie `stride` cells apart, a
+  /// power of two. Allocates.
   TiledByteGrid(const GridGeometry& geometry, std::span<const std::uint8_t> bytes, int stride);
 
   /// The sums with all of `cells` moved by (x + stride * column, y + stride * row). Outside the grid is 0.
@@ -36,10 +36,12 @@ class TiledByteGrid {
   [[nodiscard]] Sums sums_avx2(std::span<const CellIndex> cells, int x, int y, std::uint32_t at_least) const;
   [[nodiscard]] const std::uint8_t* tile_at(int x, int y) const;
 
-  int stride_;
+  [[nodiscard]] std::size_t offset(int x, int y) const;
+
+  int shift_;    // bits of the stride
   int columns_;  // of a plane, with a margin on both sides
   int rows_;
-  std::vector<std::vector<std::uint8_t>> planes_;  // every stride-th column and row, by where they begin
+  std::vector<std::uint8_t> planes_;  // every stride-th column and row, by where they begin
 };
 
 }  // namespace swiftlet

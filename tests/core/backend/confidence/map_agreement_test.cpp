@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/backend/loop_closing/max_pyramid.hpp"
+#include "core/backend/loop_closing/max_filter.hpp"
 #include "tests/support/drawn_submap.hpp"
 
 namespace swiftlet {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/backend/loop_closing/max_pyramid.hpp"
+#include "core/backend/loop_closing/max_filter.hpp"
 #include "tests/support/stored_run.hpp"
 #include "tests/support/test_vehicle.hpp"
 #include "tests/support/text_room.hpp"

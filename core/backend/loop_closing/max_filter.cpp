@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/backend/loop_closing/max_pyramid.hpp"
+#include "core/backend/loop_closing/max_filter.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -42,29 +42,13 @@ std::vector<std::uint8_t> widen(std::span<const std::uint8_t> in, Size size, int
 
 }  // namespace
 
-MaxPyramid::MaxPyramid(const GridGeometry& geometry, std::span<const std::uint8_t> cells, int levels)
-    : geometry_(geometry), base_(cells) {
-  SWIFTLET_CHECK(levels >= 1, "a pyramid has at least its base");
+std::vector<std::uint8_t> max_ahead(const GridGeometry& geometry, std::span<const std::uint8_t> cells,
+                                    int side) {
   SWIFTLET_CHECK(cells.size() == geometry.cell_count(), "the cells fill the grid");
-  std::span<const std::uint8_t> below = base_;
-  for (int level = 1; level < levels; ++level) {
-    const int reach = (1 << (level - 1)) - 1;
-    above_.push_back(widen(below, {geometry.width + reach, geometry.height + reach}, 1 << (level - 1)));
-    below = above_.back();
-  }
-}
-
-std::uint32_t MaxPyramid::sum(int level, std::span<const CellIndex> cells, int x, int y,
-                              std::uint32_t at_least) const {
-  constexpr std::size_t kCellsAtOnce = 16;
-  const Level grid(*this, level);
-  std::uint32_t sum = 0;
-  while (!cells.empty() && sum + 255 * cells.size() >= at_least) {
-    const auto some = cells.first(std::min(cells.size(), kCellsAtOnce));
-    cells = cells.subspan(some.size());
-    for (const CellIndex& c : some) sum += grid.max_at(c.x + x, c.y + y);
-  }
-  return sum;
+  std::vector<std::uint8_t> maxima(cells.begin(), cells.end());
+  for (int width = 1; width < side; width *= 2)  // of the squares so far
+    maxima = widen(maxima, {geometry.width + width - 1, geometry.height + width - 1}, width);
+  return maxima;
 }
 
 std::vector<std::uint8_t> max_kernel(const GridGeometry& geometry, const std::vector<std::uint8_t>& cells,
