@@ -115,8 +115,8 @@ CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Poi
     const Pose2 T(window.T_submap_scan.x_m(), window.T_submap_scan.y_m(),
                   window.T_submap_scan.yaw_rad() + yaw * angle_step_rad_);
     auto& list = cells_by_yaw_[slot(yaw)];
-    list.reserve(points_scan.size());
-    for (const Point2& p : points_scan) list.push_back(grid_.cell(T * p));
+    list.resize(points_scan.size());
+    std::ranges::transform(points_scan, list.begin(), [&](const Point2& p) { return grid_.cell(T * p); });
   }
 }
 
@@ -162,8 +162,10 @@ CorrelativeMatcher::KnownCells CorrelativeMatcher::known_cells(const DiscreteMat
 void CorrelativeMatcher::add_tiles(int x, int y, int yaw, double min_score, std::vector<Tile>& tiles) const {
   const auto& list = cells(yaw);
   // The grid of the bounds begins a tile less a cell before the submap's.
-  const TiledByteGrid::Sums sums = bounds_.sums(list, x + kTile - 1, y + kTile - 1, least_sum(min_score));
+  const std::uint32_t least = least_sum(min_score);
+  const TiledByteGrid::Sums sums = bounds_.sums(list, x + kTile - 1, y + kTile - 1, least);
   for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (sums[k] < least) continue;
     const double score = mean_probability(sums[k], list.size());
     Tile tile{x + kTile * (static_cast<int>(k) % kTile), y + kTile * (static_cast<int>(k) / kTile), yaw,
               score};
@@ -178,9 +180,10 @@ void CorrelativeMatcher::add_tiles(int x, int y, int yaw, double min_score, std:
 void CorrelativeMatcher::search(const Tile& tile, double min_score, DiscreteMatch& best) const {
   const auto& list = cells(tile.yaw);
   // No pose is preferred more than its score.
-  const TiledByteGrid::Sums sums =
-      tiles_.sums(list, tile.x, tile.y, least_sum(std::max(min_score, best.preferred)));
+  const std::uint32_t least = least_sum(std::max(min_score, best.preferred));
+  const TiledByteGrid::Sums sums = tiles_.sums(list, tile.x, tile.y, least);
   for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (sums[k] < least) continue;
     const int x = tile.x + static_cast<int>(k) % kTile;
     const int y = tile.y + static_cast<int>(k) / kTile;
     if (x > linear_steps_ || y > linear_steps_) continue;

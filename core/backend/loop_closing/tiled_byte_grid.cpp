@@ -94,10 +94,10 @@ template <typename Rows>
                                                                          int x, int y,
                                                                          std::uint32_t at_least) const {
   Sums sums{};
+  std::uint32_t before = 0;  // the largest
   while (!cells.empty()) {
     auto some = cells.first(std::min(cells.size(), kCellsOfWords));
     cells = cells.subspan(some.size());
-    const std::uint32_t before = *std::max_element(sums.begin(), sums.end());
     TileSums<Rows> partial;
     while (!some.empty()) {
       if (before + partial.largest() + 255 * (some.size() + cells.size()) < at_least) return {};
@@ -107,6 +107,7 @@ template <typename Rows>
         if (const std::uint8_t* tile = tile_at(cell.x + x, cell.y + y)) partial.add(tile, columns_);
     }
     partial.add_to(sums);
+    if (!cells.empty()) before = *std::max_element(sums.begin(), sums.end());
   }
   return sums;
 }
