@@ -13,8 +13,8 @@ namespace swiftlet {
 
 #if SWIFTLET_MAY_HAVE_AVX2
 inline bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2");
-  return has;
+  static const bool kHas = __builtin_cpu_supports("avx2");
+  return kHas;
 }
 #endif
 
