@@ -74,7 +74,7 @@ TEST_P(RecordedRun, TakesNothingFromTheHeapOnRadioAndFrontend) {
 INSTANTIATE_TEST_SUITE_P(Reference, RecordedRun,
                          testing::Values(KnownInput{"olsson", "flights/olsson.pcap", 1000},
                                          KnownInput{"rice", "flights/rice.pcap", 1000},
-                                         KnownInput{"killian", "radish/mit-killian.clf.gz", 10'000}),
+                                         KnownInput{"intel", "radish/intel.clf.gz", 10'000}),
                          [](const auto& input) { return std::string(input.param.name); });
 
 /// The simulated vehicle lives in the radio thread and may allocate; what receives from it may not.
