@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/backend/store/traversal.hpp"
+#include "core/geometry/grid.hpp"
 #include "core/sensing/keyframe.hpp"
 
 namespace swiftlet {
@@ -83,8 +84,7 @@ Traversal Coverage::make_traversal(TraversalId id) {
     for (const ScanReturn& beam : scans_.returns(scans[i])) {
       if (number_of_return++ % every != 0 || !beam.is_hit) continue;
       const Point2 p = T_map_body[i] * scans_.point_body(beam);
-      ++returns_in[{static_cast<std::int32_t>(std::floor(p.x_m / tuning_.tile_m)),
-                    static_cast<std::int32_t>(std::floor(p.y_m / tuning_.tile_m))}];
+      ++returns_in[{floor_to_int(p.x_m / tuning_.tile_m), floor_to_int(p.y_m / tuning_.tile_m)}];
     }
   }
   std::size_t all = 0;

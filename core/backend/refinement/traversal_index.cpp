@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/check.hpp"
+#include "core/geometry/grid.hpp"
 
 namespace swiftlet {
 namespace {
@@ -19,8 +20,7 @@ void sort_unique(std::vector<T>& values) {
 }  // namespace
 
 TraversalIndex::Tile TraversalIndex::tile_of(const Point2& p_map) const {
-  return {static_cast<std::int32_t>(std::floor(p_map.x_m / tuning_.tile_m)),
-          static_cast<std::int32_t>(std::floor(p_map.y_m / tuning_.tile_m))};
+  return {floor_to_int(p_map.x_m / tuning_.tile_m), floor_to_int(p_map.y_m / tuning_.tile_m)};
 }
 
 void TraversalIndex::set(TraversalId traversal, TraversalWalls walls, const Pose2& T_map_reference) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/geometry/cell_numbers.hpp"
+#include "core/geometry/grid.hpp"
 
 namespace swiftlet {
 
@@ -86,8 +86,8 @@ std::vector<TraversalPoint> WallMap::sorted_into_cells(const std::vector<Travers
 
 std::optional<LocalWall> WallMap::wall_near(const TraversalPoint& place) const {
   if (points_.size() == 0) return std::nullopt;
-  const int cx = static_cast<int>(std::floor((place.p_map.x_m - origin_m_.x_m) / radius_m_));
-  const int cy = static_cast<int>(std::floor((place.p_map.y_m - origin_m_.y_m) / radius_m_));
+  const int cx = floor_to_int((place.p_map.x_m - origin_m_.x_m) / radius_m_);
+  const int cy = floor_to_int((place.p_map.y_m - origin_m_.y_m) / radius_m_);
   const int first_x = std::max(0, cx - 1);
   const int last_x = std::min(width_ - 1, cx + 1);
   if (first_x > last_x) return std::nullopt;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -111,6 +113,15 @@ TEST(GridGeometry, AroundHoldsTheBoxAndItsMarginAndLittleMore) {
 TEST(CellOf, RoundsDownwardsBelowZero) {
   EXPECT_EQ(cell_of({-0.1, -1.0}), (CellIndex{-1, -1}));
   EXPECT_EQ(cell_of({-0.1, 0.7}, 0.5), (CellIndex{-1, 1}));
+}
+
+TEST(FloorToInt, IsTheFloorOnBothSidesOfIntegersAndAtTheEndsOfTheRange) {
+  for (const double value :
+       {-2147483648.0, -3.5, -1.0, -0.5, -0.0, 0.0, 0.5, 1.0, 7.25, 2147483647.0, 2147483647.5}) {
+    for (const double near : {std::max(-2147483648.0, std::nextafter(value, -HUGE_VAL)), value,
+                              std::min(2147483647.75, std::nextafter(value, HUGE_VAL))})
+      EXPECT_EQ(floor_to_int(near), static_cast<std::int32_t>(std::floor(near))) << near;
+  }
 }
 
 TEST(WalkRay, LeavesOutTheLastCell) {
