@@ -101,8 +101,9 @@ TEST_F(WholeRun, OfASimulatedFlightTakesNothingFromTheHeapOnRadioAndFrontend) {
   LinkInput input;
   input.name = "sim://office";
   input.starts_logging = true;
-  input.truth.emplace([simulated = vehicle->get()](DeviceTime at) { return simulated->T_world_body(at); },
-                      std::move(PoseFile::open()).value());
+  input.truth =
+      KnownTruth{[simulated = vehicle->get()](DeviceTime at) { return simulated->T_world_body(at); },
+                 PoseFile::open().value()};
   input.link = std::make_unique<UncountedVehicle>(std::move(vehicle).value(), radio);
   LinkSampleSource source(std::move(input));
   expect_no_heap_calls(source, radio, kAsked, 1000);
