@@ -24,6 +24,9 @@ std::string describe_other_program(Kind kind, const std::string& value) {
     return "a client has connected from port " + value + " and has the vehicle";
   if (kind == Kind::kClientGone)
     return "the client is gone; its setpoints end with it, and the vehicle's own watchdog acts";
+  if (kind == Kind::kClientBlocksLost)
+    return "the client's log blocks are gone, because the vehicle's log had to begin anew: let the client "
+           "connect again";
   return "a second client, from port " + value + ", is refused: one at a time";
 }
 
@@ -66,6 +69,7 @@ std::string describe(const VehicleEvent& event) {
     case Kind::kClientConnected:
     case Kind::kClientGone:
     case Kind::kClientRefused:
+    case Kind::kClientBlocksLost:
       return describe_other_program(event.kind, value);
   }
   return {};

@@ -20,14 +20,15 @@ struct VehicleEvent {
     kRefused,        ///< after a reconnection, it cannot be used (the session tries again)
     kNoMultiranger,
     kNoFlowDeck,
-    kYawTrap,          ///< it is carried or pushed with its motors off
-    kBatteryLow,       ///< value: millivolts
-    kRangesFrozen,     ///< in flight none of them has changed for seconds
-    kOtherProgram,     ///< the vehicle answers questions that were not asked here, or its log is stopped
-    kDoubledData,      ///< log data arrives twice
-    kClientConnected,  ///< another program shares the link; value: its port
-    kClientGone,       ///< it has left, or has sent nothing for seconds
-    kClientRefused,    ///< a second one; value: its port
+    kYawTrap,           ///< it is carried or pushed with its motors off
+    kBatteryLow,        ///< value: millivolts
+    kRangesFrozen,      ///< in flight none of them has changed for seconds
+    kOtherProgram,      ///< the vehicle answers questions that were not asked here, or its log is stopped
+    kDoubledData,       ///< log data arrives twice
+    kClientConnected,   ///< another program shares the link; value: its port
+    kClientGone,        ///< it has left, or has sent nothing for seconds
+    kClientRefused,     ///< a second one; value: its port
+    kClientBlocksLost,  ///< the vehicle's log had to begin anew
   };
   Kind kind = Kind::kConnected;
   std::int32_t value = 0;

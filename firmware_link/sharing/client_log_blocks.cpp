@@ -120,6 +120,12 @@ void ClientLogBlocks::abandon() {
   for (Block& block : blocks_) block.is_doomed = true;
 }
 
+bool ClientLogBlocks::forget_all() {
+  const bool has_lost_one = !std::ranges::all_of(blocks_, &Block::is_doomed);
+  blocks_.clear();
+  return has_lost_one;
+}
+
 ClientLogBlocks::Block* ClientLogBlocks::find(std::uint8_t clients) {
   const auto found = std::ranges::find_if(
       blocks_, [clients](const Block& block) { return !block.is_doomed && block.clients == clients; });

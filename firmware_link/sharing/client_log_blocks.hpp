@@ -52,8 +52,8 @@ class ClientLogBlocks {
 
   /// The client is gone: so are its blocks, once the vehicle is reached.
   void abandon();
-  /// The vehicle has reset its log: there are none.
-  void forget_all() { blocks_.clear(); }
+  /// The vehicle has reset its log: there are none. Whether the client has lost one that way.
+  [[nodiscard]] bool forget_all();
 
  private:
   struct Block {

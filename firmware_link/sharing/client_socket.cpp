@@ -9,8 +9,6 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <string_view>
-#include <vector>
 
 #include "firmware_link/crtp/crtp_packet.hpp"
 #include "firmware_link/link/link_packet.hpp"
@@ -22,7 +20,7 @@ using Kind = VehicleEvent::Kind;
 
 constexpr std::array<std::uint8_t, 1> kHello{0xF3};  // also the answer to a null packet
 constexpr std::array<std::uint8_t, 1> kGoodbye{0xF4};
-constexpr std::string_view kFarewell = "swiftletd has ended\n";
+constexpr std::uint8_t kConsoleHeader = 0x00;
 
 sockaddr* generic(sockaddr_in* address) { return std::bit_cast<sockaddr*>(address); }
 const sockaddr* generic(const sockaddr_in* address) { return std::bit_cast<const sockaddr*>(address); }
@@ -62,9 +60,7 @@ Result<std::unique_ptr<ClientSocket>> ClientSocket::open(const UdpAddress& addre
 
 void ClientSocket::close() {
   if (socket_ < 0) return;
-  std::vector<std::uint8_t> text{0x00};  // the console's header
-  text.insert(text.end(), kFarewell.begin(), kFarewell.end());
-  send(text);
+  print("swiftletd has ended\n");
   client_.reset();
   ::close(socket_);
   socket_ = -1;
@@ -134,6 +130,23 @@ void ClientSocket::lose_client() {
   client_.reset();
   refused_.reset();
   report(Kind::kClientGone);
+}
+
+void ClientSocket::report_lost_blocks() {
+  if (!client_) return;
+  print("swiftletd: the log had to begin anew, your blocks are gone; connect again\n");
+  report(Kind::kClientBlocksLost);
+}
+
+/// In pieces, as the vehicle does.
+void ClientSocket::print(std::string_view line) {
+  while (!line.empty()) {
+    CrtpPacket packet;
+    static_cast<void>(packet.try_push_back(kConsoleHeader));
+    while (!line.empty() && packet.try_push_back(static_cast<std::uint8_t>(line.front())))
+      line.remove_prefix(1);
+    send(bytes_of(packet));
+  }
 }
 
 void ClientSocket::send(std::span<const std::uint8_t> packet) {

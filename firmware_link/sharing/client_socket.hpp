@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/base/fixed_vector.hpp"
 #include "core/base/result.hpp"
@@ -35,7 +36,7 @@ class ClientSocket {
   ClientSocket& operator=(const ClientSocket&) = delete;
 
   /// Notifies the client by a line of console text; the system refuses its next packet. There is no client
-  /// from now on. Allocates.
+  /// from now on.
   void close();
 
   [[nodiscard]] int file() const { return socket_; }
@@ -54,8 +55,10 @@ class ClientSocket {
   [[nodiscard]] bool has_fallen_silent(HostTime now);
   /// To the client, if there is one. What the system does not take is lost.
   void send(std::span<const std::uint8_t> packet);
+  /// Notifies the client by a line of console text that it has no log blocks any more.
+  void report_lost_blocks();
 
-  /// kClientConnected, kClientGone, kClientRefused.
+  /// kClientConnected, kClientGone, kClientRefused, kClientBlocksLost.
   [[nodiscard]] std::optional<VehicleEvent> take_event();
 
  private:
@@ -65,6 +68,7 @@ class ClientSocket {
                                      HostTime now, bool is_connected);
   void refuse(const sockaddr_in& from);
   void lose_client();
+  void print(std::string_view line);
   void send(std::span<const std::uint8_t> packet, const sockaddr_in& to) const;
   void report(VehicleEvent::Kind kind, std::int32_t value = 0);
 

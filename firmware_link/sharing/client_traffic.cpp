@@ -110,7 +110,7 @@ std::optional<CrtpPacket> ClientTraffic::on_log_control(LinkFrame& frame) {
   const std::span<const std::uint8_t> packet = frame.packet();
   if (is_reset(packet)) {
     log_was_reset_ = true;
-    blocks_.forget_all();
+    has_lost_blocks_ = blocks_.forget_all() || has_lost_blocks_;
     return std::nullopt;
   }
   frame.is_ours = packet.size() < 3 || !ClientLogBlocks::has_number(packet[2]);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/base/time.hpp"
 #include "firmware_link/crtp/crtp_packet.hpp"
@@ -47,6 +48,8 @@ class ClientTraffic {
   [[nodiscard]] std::optional<CrtpPacket> on_frame(LinkFrame& frame);
   /// Answers that the vehicle is not asked for. Call until empty after next_packet() and on_frame().
   [[nodiscard]] std::optional<CrtpPacket> take_answer();
+  /// Whether the client has lost log blocks since the last call, because the owner reset the vehicle's log.
+  [[nodiscard]] bool take_loss_of_blocks() { return std::exchange(has_lost_blocks_, false); }
 
   /// The client is gone: nothing of it is sent any more, its log blocks are deleted.
   void abandon();
@@ -68,6 +71,7 @@ class ClientTraffic {
   int steering_in_a_row_ = 0;
   bool was_clients_ = false;  ///< the last packet that did not steer
   bool log_was_reset_ = false;
+  bool has_lost_blocks_ = false;
   ClientLogBlocks blocks_;
   OpenRequests open_;
   OpenRequests owners_open_;

@@ -25,6 +25,7 @@ Result<LinkFrame> SharedLink::receive(Duration timeout) {
   if (!frame) return frame;
   if (const std::optional<CrtpPacket> packet = traffic_.on_frame(*frame)) deliver(*packet);
   send_answers();
+  if (traffic_.take_loss_of_blocks()) socket_->report_lost_blocks();
   return frame;
 }
 

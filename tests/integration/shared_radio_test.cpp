@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "firmware_link/crtp/crtp_packet.hpp"
@@ -307,6 +308,27 @@ TEST(SharedRadioTest, SetpointsThatCannotBeSentAreNotSentLate) {
   ASSERT_GT(packets.size(), received + 100);
   const std::uint32_t first = packets[received][1] + 256U * packets[received][2];
   EXPECT_GE(first + 10, then);
+}
+
+TEST(SharedRadioTest, AClientWhoseLogBlocksAreGoneIsToldOnce) {
+  SharedRadio shared;
+  shared.begin();
+  FlightClient& client = shared.add_client();
+  client.start_block(1, kVariables, 10);
+  shared.fly(seconds(2));
+  shared.flight.receiver.in_range = false;
+  shared.fly(seconds(2));
+  EXPECT_EQ(client.console().find("swiftletd: "), std::string::npos);
+  shared.flight.receiver.in_range = true;
+  shared.fly(seconds(5));
+  EXPECT_NE(
+      client.console().find("swiftletd: the log had to begin anew, your blocks are gone; connect again\n"),
+      std::string::npos);
+  EXPECT_EQ(shared.count(Kind::kClientBlocksLost), 1);
+  const std::size_t before = client.data().at(1).size();
+  client.start_block(1, kVariables, 10);
+  shared.fly(seconds(2));
+  EXPECT_GT(client.data().at(1).size(), before + 15);
 }
 
 TEST(SharedRadioTest, AClientThatLogsMoreThanTheLinkCarriesDoesNotEndTheMap) {

@@ -15,7 +15,7 @@ TEST(VehicleEvent, DescribesTheEventAndARemedy) {
   EXPECT_THAT(describe({Kind::kConnected, 12}), HasSubstr("protocol 12"));
   EXPECT_THAT(describe({Kind::kNoMultiranger, 0}), HasSubstr("deck.bcMultiranger is 0"));
   EXPECT_THAT(describe({Kind::kBatteryLow, 3150}), HasSubstr("3150 mV"));
-  for (int kind = 0; kind <= static_cast<int>(Kind::kRangesFrozen); ++kind)
+  for (int kind = 0; kind <= static_cast<int>(Kind::kClientBlocksLost); ++kind)
     EXPECT_FALSE(describe({static_cast<Kind>(kind), 0}).empty());
 }
 

@@ -113,7 +113,7 @@ TEST_F(ClientLogBlocksTest, ALeftBlockIsDeletedAndItsDataIsNobodys) {
 TEST_F(ClientLogBlocksTest, AResetByTheOwnerEndsThemAll) {
   static_cast<void>(make(1));
   static_cast<void>(ask({0x5D, 5}));
-  blocks_.forget_all();
+  EXPECT_FALSE(blocks_.forget_all()) << "it has asked for that itself";
   EXPECT_EQ(packet_bytes(blocks_.take_reset_answer()), (Bytes{0x5D, 5, 0, 0}));
   EXPECT_EQ(packet_bytes(ask({0x5D, 3, 1, 10}).answer), (Bytes{0x5D, 3, 1, 2}));
 }

@@ -153,6 +153,20 @@ TEST_F(ClientTrafficTest, AResetWithoutBlocksIsAnsweredAtOnceAndSendsNothing) {
   EXPECT_EQ(next(), (Bytes{0x2D, 1, 0}));
 }
 
+TEST_F(ClientTrafficTest, ALogThatTheOwnerResetsCostsTheClientItsBlocks) {
+  EXPECT_FALSE(traffic_.take_loss_of_blocks()) << "it had none";
+  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  EXPECT_FALSE(next().empty());
+  reset_log();
+  EXPECT_TRUE(traffic_.take_loss_of_blocks());
+  EXPECT_FALSE(traffic_.take_loss_of_blocks()) << "once";
+  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  EXPECT_FALSE(next().empty());
+  traffic_.abandon();
+  reset_log();
+  EXPECT_FALSE(traffic_.take_loss_of_blocks()) << "nobody wants them any more";
+}
+
 TEST_F(ClientTrafficTest, AClientThatIsGoneLeavesDeletionsOnly) {
   traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
   const std::uint8_t number = next()[2];
