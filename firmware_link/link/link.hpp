@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-class ClientUplink;
+class UplinkQueue;
 
 enum class LinkDirection : std::uint8_t { kToVehicle, kFromVehicle };
 
@@ -47,9 +47,8 @@ class Link {
   /// sent; a packet without room is dropped: requests are repeated anyway. A recording ignores it.
   [[nodiscard]] virtual Status send(std::span<const std::uint8_t> packet) = 0;
   [[nodiscard]] virtual LinkStatistics statistics() const { return {}; }
-  /// From now on sends another program's packets, too. False: it is no live link. `client` must outlive the
-  /// link's next receive().
-  [[nodiscard]] virtual bool share_with(ClientUplink& /*client*/) { return false; }
+  /// What it has to send, which a client may share; nullptr: it is no live link.
+  [[nodiscard]] virtual UplinkQueue* uplink() { return nullptr; }
 };
 
 }  // namespace swiftlet

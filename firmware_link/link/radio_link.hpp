@@ -45,10 +45,7 @@ class RadioLink final : public Link {
   /// Error: kInvalidInput: not 1 to 31 bytes, or a null packet (those switch the vehicle's radio, also off).
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
   [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
-  [[nodiscard]] bool share_with(ClientUplink& client) override {
-    uplink_.share_with(client);
-    return true;
-  }
+  [[nodiscard]] UplinkQueue* uplink() override { return &uplink_; }
 
  private:
   enum class Mode { kPlain, kAsking, kSafelink };

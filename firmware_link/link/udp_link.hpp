@@ -41,10 +41,7 @@ class UdpLink final : public Link {
   [[nodiscard]] Status send(std::span<const std::uint8_t> packet) override;
   /// As of the last receive().
   [[nodiscard]] LinkStatistics statistics() const override { return statistics_; }
-  [[nodiscard]] bool share_with(ClientUplink& client) override {
-    uplink_.share_with(client);
-    return true;
-  }
+  [[nodiscard]] UplinkQueue* uplink() override { return &uplink_; }
 
  private:
   struct Peer {

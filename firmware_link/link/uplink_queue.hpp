@@ -24,6 +24,7 @@ class UplinkQueue {
 
   /// As RequestQueue::push().
   Status push(std::span<const std::uint8_t> packet) { return requests_.push(packet); }
+  /// From now on sends another program's packets, too. `client` must outlive the link's next receive().
   void share_with(ClientUplink& client) { client_ = &client; }
   [[nodiscard]] bool is_shared() const { return client_ != nullptr; }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "firmware_link/link/uplink_queue.hpp"
 
 namespace swiftlet {
 namespace {
@@ -16,8 +17,9 @@ constexpr int kMaxAtOnce = 64;
 
 SharedLink::SharedLink(std::unique_ptr<Link> link, std::unique_ptr<ClientSocket> socket, LinkClock& clock)
     : link_(std::move(link)), socket_(std::move(socket)), clock_(clock) {
-  const bool is_live = link_->share_with(*this);
-  SWIFTLET_CHECK(is_live, "a live link is shared");
+  UplinkQueue* const uplink = link_->uplink();
+  SWIFTLET_CHECK(uplink != nullptr, "a live link is shared");
+  uplink->share_with(*this);
 }
 
 Result<LinkFrame> SharedLink::receive(Duration timeout) {

@@ -128,7 +128,7 @@ TEST_F(RadioLinkTest, AClientsPacketIsTheNextOneAndAnUnacknowledgedOneIsRepeated
   connect();
   ASSERT_TRUE(link().send(Bytes{0x5D, 5}).ok());
   ScriptedUplink client({0x3C, 1}, 1);
-  ASSERT_TRUE(link().share_with(client));
+  link().uplink()->share_with(client);
   dongle_.fates = {Fate::kPacketLost, Fate::kPacketLost};
   const std::vector<LinkFrame> frames = listen(milliseconds(10));
   ASSERT_GE(frames.size(), 2U);

@@ -102,7 +102,7 @@ TEST(UdpLink, AClientsPacketsGoFirstAndDoNotKeepTheVehiclesWaiting) {
   Pair pair;
   pair.connect();
   ScriptedUplink client({0x3C, 1}, 1000);
-  ASSERT_TRUE(pair.link->share_with(client));
+  pair.link->uplink()->share_with(client);
   ASSERT_TRUE(pair.link->send(hex("5d 05")).ok());
   for (int i = 0; i < 5; ++i) pair.peer.send(hex("52 01 00 00 00"));
   for (int i = 0; i < 10; ++i) {

@@ -139,7 +139,7 @@ class UsbCableLinkTest : public testing::Test {
 
 TEST_F(UsbCableLinkTest, AClientsPacketsGoFirstAndDoNotKeepTheVehiclesWaiting) {
   ScriptedUplink client({0x3C, 1}, 1000);
-  ASSERT_TRUE(link_->share_with(client));
+  link_->uplink()->share_with(client);
   ASSERT_TRUE(link_->send(hex("5d 05")).ok());
   for (int i = 0; i < 20; ++i) cable_.waiting.push_back(hex("52 01 00 00 00"));
   const std::vector<LinkFrame> frames = listen(milliseconds(20));

@@ -29,25 +29,22 @@ class EchoLink final : public Link {
   Result<LinkFrame> receive(Duration /*timeout*/) override {
     if (echo_)
       return frame_of(LinkDirection::kFromVehicle, {}, bytes_of(*std::exchange(echo_, std::nullopt)));
-    static_cast<void>(uplink.client_waits());
-    const std::optional<UplinkQueue::Packet> packet = uplink.next();
+    static_cast<void>(uplink_.client_waits());
+    const std::optional<UplinkQueue::Packet> packet = uplink_.next();
     if (!packet) return Error{ErrorCode::kTimeout, "nothing"};
     echo_ = packet->bytes;
     LinkFrame frame = frame_of(LinkDirection::kToVehicle, {}, bytes_of(packet->bytes));
     frame.is_ours = packet->is_ours;
     return frame;
   }
-  Status send(std::span<const std::uint8_t> packet) override { return uplink.push(packet); }
+  Status send(std::span<const std::uint8_t> packet) override { return uplink_.push(packet); }
   LinkStatistics statistics() const override { return {.condition = condition}; }
-  bool share_with(ClientUplink& client) override {
-    uplink.share_with(client);
-    return true;
-  }
+  UplinkQueue* uplink() override { return &uplink_; }
 
-  UplinkQueue uplink;
   LinkCondition condition = LinkCondition::kConnected;
 
  private:
+  UplinkQueue uplink_;
   std::optional<CrtpPacket> echo_;
 };
 
