@@ -5,6 +5,7 @@
 // of `swiftlet doctor`: it has found a problem.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -275,10 +276,12 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> named = app.get_subcommands();
   if (named.empty() && app.remaining_size() > 0)
     return "no command '" + app.remaining().front() + "'; see swiftlet --help";
+  const bool lacks_something = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (named.empty() && lacks_something) return "no command given; see swiftlet --help";
   if (named.empty()) return std::string(error.what()) + "; see swiftlet --help";
   const std::string command = named.front()->get_name();
   const auto example = kExamples.find(command);
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && example != kExamples.end())
+  if (lacks_something && example != kExamples.end())
     return command + ": " + error.what() + "; for example: " + example->second;
   return command + ": " + error.what() + "; see swiftlet help " + command;
 }
@@ -363,9 +366,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return refuse(fault_of(app, error));
   }
-  for (const Choice& choice : choices)
-    if (choice.command->parsed()) return choice.run();
-  return refuse("no command given; see swiftlet --help");
+  const auto is_chosen = [](const Choice& choice) { return choice.command->parsed(); };
+  return std::ranges::find_if(choices, is_chosen)->run();  // there is one: it is required
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST_F(SwiftletCommand, ShowsHowToWriteACommandThatLacksSomething) {
 }
 
 TEST_F(SwiftletCommand, RefusesWhatItDoesNotKnow) {
-  EXPECT_THAT(run(""), refuses_with("swiftlet --help"));
+  EXPECT_THAT(run(""), refuses_with("no command given; see swiftlet --help"));
   EXPECT_THAT(run("fly"), refuses_with("no command 'fly'; see swiftlet --help"));
   EXPECT_THAT(run("map in.pcap -o {}/out --frobnicate"), refuses_with("--frobnicate"));
   write("run.clf", small_log());
