@@ -8,33 +8,16 @@
 
 #include "firmware_link/crtp/crtp_packet.hpp"
 #include "firmware_link/link/link_packet.hpp"
+#include "firmware_link/sample/flight_assembly.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
 constexpr Duration kTimeoutWhileAsking = RepeatTimer::kShortest;
-// After a second without the radio the vehicle gives up the link, and so does the source: the motion
-// meanwhile is a guess. The estimate runs on aboard, so the guess is good if the vehicle can have flown the
-// step across the hole; after longer than a battery lasts it has landed and may have been carried.
-constexpr Duration kUnwatched = std::chrono::seconds(1);
-constexpr Duration kBatteryLasts = std::chrono::minutes(10);
-// Ten times as far as the firmware's estimator lets its position go.
-constexpr double kMaxFromBeginningM = 1000.0;
 // A vehicle that sends without end, but nothing that samples need, must not block the caller; who rests for a
 // millisecond after each call still reads 100 000 useless packets a second.
 constexpr int kMaxFramesAtOnce = 256;
-constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
-
-AssemblyConfig assembly_config(const SensorModel& sensor) {
-  AssemblyConfig config;
-  config.beams = BeamLayout::multiranger();
-  config.sensor = sensor;
-  config.continuity.longest_silence = kBatteryLasts;
-  config.continuity.farthest_m = kMaxFromBeginningM;
-  config.unwatched_after = kUnwatched;
-  return config;
-}
 
 }  // namespace
 
@@ -42,7 +25,7 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
     : input_(std::move(input)),
       cache_(input_.cache_directory),
       extractor_(session_),
-      assembler_(assembly_config(input_.sensor), report_.counters) {
+      assembler_(flight_assembly(input_.sensor), report_.counters) {
   report_.notes = input_.notes;
   if (input_.description) session_.describe(*input_.description);
   if (input_.starts_logging) live_.emplace(session_, cache_, input_.shared != nullptr);

@@ -14,6 +14,7 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
+#include "firmware_link/sample_table/flight_table_source.hpp"
 #include "firmware_link/sample_table/sample_table_source.hpp"
 #include "firmware_link/sharing/client_socket.hpp"
 #include "firmware_link/sharing/shared_link.hpp"
@@ -102,11 +103,18 @@ Result<std::unique_ptr<SampleSource>> open_followed(const std::string& path,
   return std::unique_ptr<SampleSource>(std::make_unique<LinkSampleSource>(std::move(input)));
 }
 
+Result<std::unique_ptr<SampleSource>> open_flight_table(const std::string& path,
+                                                        const SampleSourceOptions& options) {
+  if (const Status limits = check_limits(options, SensorModel::crazyflie()); !limits) return limits.error();
+  return FlightTableSource::open(path, options);
+}
+
 Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const SampleSourceOptions& options) {
   const Result<std::uint64_t> size = size_of_input_file(path);
   if (!size) return size.error();
   if (begins_like_capture(path) || path.ends_with(".pcap") || path.ends_with(".pcap.gz"))
     return open_capture(path, options);
+  if (is_flight_table(path)) return open_flight_table(path, options);
   if (is_taken_for_sample_table(path)) return SampleTableSource::open(path, options);
   const Status limits = check_limits(options, SensorModel::carmen_laser());
   if (!limits) return limits.error();

@@ -18,6 +18,9 @@ namespace swiftlet {
 namespace {
 
 constexpr std::size_t kMaxNamedLines = 10;
+constexpr std::size_t kMaxReadings = 10'000;  // of any laser
+constexpr const char* kOtherGeometry =
+    "scan whose beams lie otherwise than the first one's, or are fewer than are to be kept";
 
 /// The numbers of a line, one after the other.
 class Numbers {
@@ -52,10 +55,54 @@ bool read_stamp(Numbers& numbers, HostTime& stamp) {
   return true;
 }
 
-std::optional<double> step_between_readings_rad(std::size_t readings) {
-  if (readings == 180 || readings == 181) return radians(1.0);
-  if (readings == 360 || readings == 361) return radians(0.5);
+/// How the readings of a scan lie.
+struct ScanGeometry {
+  std::size_t readings = 0;
+  double start_rad = 0.0;
+  double step_rad = 0.0;
+
+  bool operator==(const ScanGeometry&) const = default;
+};
+
+/// Of a FLASER line, which does not say it.
+std::optional<ScanGeometry> usual_geometry(std::size_t readings) {
+  if (readings == 180 || readings == 181) return ScanGeometry{readings, -kPi / 2.0, radians(1.0)};
+  if (readings == 360 || readings == 361) return ScanGeometry{readings, -kPi / 2.0, radians(0.5)};
   return std::nullopt;
+}
+
+/// What stands before the readings of ROBOTLASER1 and RAWLASER1 lines.
+std::optional<ScanGeometry> read_geometry(Numbers& numbers) {
+  ScanGeometry geometry;
+  double ignored = 0.0;
+  const bool is_complete = numbers.read(ignored) && numbers.read(geometry.start_rad) &&
+                           numbers.read(ignored) && numbers.read(geometry.step_rad) &&
+                           numbers.read(ignored) && numbers.read(ignored) && numbers.read(ignored) &&
+                           numbers.read(geometry.readings);
+  const bool is_possible = std::abs(geometry.start_rad) <= 2.0 * kPi && geometry.step_rad > 0.0 &&
+                           geometry.readings <= kMaxReadings &&
+                           geometry.step_rad * static_cast<double>(geometry.readings) <= 2.1 * kPi;
+  return is_complete && is_possible ? std::optional(geometry) : std::nullopt;
+}
+
+bool skip_counted(Numbers& numbers) {
+  std::size_t count = 0;
+  double ignored = 0.0;
+  bool is_complete = numbers.read(count);
+  for (; is_complete && count > 0; --count) is_complete = numbers.read(ignored);
+  return is_complete;
+}
+
+Pose2 pose_of(const CarmenOdometry& odometry) {
+  return {odometry.position.x_m, odometry.position.y_m, odometry.yaw_rad};
+}
+
+/// From the least to the most telling.
+enum class ScanLine : std::uint8_t { kNone, kRawLaser, kRobotLaser, kFlaser };
+
+const char* name_of(ScanLine kind) {
+  static constexpr std::array<const char*, 4> kNames{"", "RAWLASER1", "ROBOTLASER1", "FLASER"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 /// Collects the lines of one log.
@@ -66,7 +113,9 @@ class CarmenParser {
   void parse_line(std::string_view line, std::uint64_t number) {
     log_.lines = number;
     const char* fault = nullptr;
-    if (line.starts_with("FLASER ")) fault = parse_scan(Numbers(line.substr(7)));
+    if (line.starts_with("FLASER ")) fault = parse_flaser(Numbers(line.substr(7)));
+    if (line.starts_with("ROBOTLASER1 ")) fault = parse_robot_laser(Numbers(line.substr(12)));
+    if (line.starts_with("RAWLASER1 ")) fault = parse_raw_laser(Numbers(line.substr(10)));
     if (line.starts_with("ODOM ")) fault = parse_odometry(Numbers(line.substr(5)));
     if (fault == nullptr) return;
     if (++malformed_ <= kMaxNamedLines)
@@ -80,7 +129,9 @@ class CarmenParser {
       log_.problems.push_back(path_ + ": " + std::to_string(malformed_ - kMaxNamedLines) +
                               " more malformed lines were left out");
     log_.beams = beams_;
+    log_.scans_have_poses = kind_ != ScanLine::kRawLaser;
     sort_scans();
+    if (T_robot_laser_) move_odometry_to_laser();
     std::stable_sort(log_.odometry.begin(), log_.odometry.end(), earlier);
     return std::move(log_);
   }
@@ -88,29 +139,83 @@ class CarmenParser {
  private:
   static bool earlier(const CarmenOdometry& a, const CarmenOdometry& b) { return a.stamp < b.stamp; }
 
-  /// What is wrong with the line, or nullptr.
-  const char* parse_scan(Numbers numbers) {
+  /// What is wrong with the line, or nullptr; likewise below.
+  const char* parse_flaser(Numbers numbers) {
     std::size_t readings = 0;
-    const bool counted = numbers.read(readings);
-    if (counted && picked_.empty()) choose_beams(readings);
-    if (!counted || readings != readings_)
+    const bool is_counted = numbers.read(readings);
+    const std::optional<ScanGeometry> geometry = usual_geometry(readings);
+    if (!is_counted || !geometry || !is_usable(ScanLine::kFlaser, *geometry))
       return "FLASER with another number of readings than 180, 181, 360 or 361";
-    scratch_m_.resize(readings);
-    for (float& distance_m : scratch_m_)
-      if (!numbers.read(distance_m)) return "FLASER line cut off or garbled";
     CarmenOdometry corrected;  // another program's estimate: not used
     CarmenOdometry scan;
-    if (!read_odometry_pose(numbers, corrected) || !read_odometry_pose(numbers, scan) ||
-        !read_stamp(numbers, scan.stamp))
+    if (!read_distances(numbers, *geometry) || !read_odometry_pose(numbers, corrected) ||
+        !read_odometry_pose(numbers, scan) || !read_stamp(numbers, scan.stamp))
       return "FLASER line cut off or garbled";
+    add_scan(ScanLine::kFlaser, *geometry, scan);
+    return nullptr;
+  }
+
+  const char* parse_robot_laser(Numbers numbers) {
+    if (kind_ > ScanLine::kRobotLaser) return nullptr;
+    const std::optional<ScanGeometry> geometry = read_geometry(numbers);
+    if (!geometry) return "ROBOTLASER1 line cut off or garbled";
+    if (!is_usable(ScanLine::kRobotLaser, *geometry)) return kOtherGeometry;
+    CarmenOdometry laser;
+    CarmenOdometry robot;
+    double ignored = 0.0;
+    bool is_complete = read_distances(numbers, *geometry) && skip_counted(numbers) &&
+                       read_odometry_pose(numbers, laser) && read_odometry_pose(numbers, robot);
+    for (int i = 0; i < 5; ++i) is_complete = is_complete && numbers.read(ignored);
+    if (!is_complete || !read_stamp(numbers, laser.stamp)) return "ROBOTLASER1 line cut off or garbled";
+    add_scan(ScanLine::kRobotLaser, *geometry, laser);
+    if (!T_robot_laser_) T_robot_laser_ = pose_of(robot).inverse() * pose_of(laser);
+    return nullptr;
+  }
+
+  const char* parse_raw_laser(Numbers numbers) {
+    if (kind_ > ScanLine::kRawLaser) return nullptr;
+    const std::optional<ScanGeometry> geometry = read_geometry(numbers);
+    if (!geometry) return "RAWLASER1 line cut off or garbled";
+    if (!is_usable(ScanLine::kRawLaser, *geometry)) return kOtherGeometry;
+    CarmenOdometry scan;
+    if (!read_distances(numbers, *geometry) || !skip_counted(numbers) || !read_stamp(numbers, scan.stamp))
+      return "RAWLASER1 line cut off or garbled";
+    add_scan(ScanLine::kRawLaser, *geometry, scan);
+    return nullptr;
+  }
+
+  /// Of a more telling kind than the scans so far, or like them.
+  [[nodiscard]] bool is_usable(ScanLine kind, const ScanGeometry& geometry) const {
+    return kind > kind_ ? geometry.readings >= beam_count_ : kind == kind_ && geometry == geometry_;
+  }
+
+  bool read_distances(Numbers& numbers, const ScanGeometry& geometry) {
+    scratch_m_.resize(geometry.readings);
+    return std::all_of(scratch_m_.begin(), scratch_m_.end(),
+                       [&numbers](float& distance_m) { return numbers.read(distance_m); });
+  }
+
+  /// Of the distances that were read. The first of a more telling kind replaces what came before.
+  void add_scan(ScanLine kind, const ScanGeometry& geometry, const CarmenOdometry& scan) {
+    if (kind > kind_) begin_with(kind, geometry);
     if (!log_.scans.empty() && scan.stamp < log_.scans.back().stamp) {
       ++log_.scan_reversals;
       log_.pose_scan_lag.interrupt();
     }
-    log_.pose_scan_lag.add(scratch_m_, scan.yaw_rad, step_rad_);
+    if (kind != ScanLine::kRawLaser) log_.pose_scan_lag.add(scratch_m_, scan.yaw_rad, geometry.step_rad);
     log_.scans.push_back(scan);
     for (const std::size_t i : picked_) log_.distances_m.push_back(scratch_m_[i]);
-    return nullptr;
+  }
+
+  void begin_with(ScanLine kind, const ScanGeometry& geometry) {
+    kind_ = kind;
+    log_.scan_line = name_of(kind);
+    log_.scans.clear();
+    log_.distances_m.clear();
+    log_.scan_reversals = 0;
+    log_.pose_scan_lag = {};
+    T_robot_laser_.reset();
+    choose_beams(geometry);
   }
 
   const char* parse_odometry(Numbers numbers) {
@@ -124,15 +229,21 @@ class CarmenParser {
     return nullptr;
   }
 
-  void choose_beams(std::size_t readings) {
-    const std::optional<double> step_rad = step_between_readings_rad(readings);
-    if (!step_rad) return;
-    readings_ = readings;
-    step_rad_ = *step_rad;
-    picked_ = pick_beams(readings, beam_count_);
+  void choose_beams(const ScanGeometry& geometry) {
+    geometry_ = geometry;
+    picked_ = pick_beams(geometry.readings, beam_count_);
     beams_.count = static_cast<std::uint8_t>(picked_.size());
     for (std::size_t i = 0; i < picked_.size(); ++i)
-      beams_.bearing_rad[i] = -kPi / 2.0 + static_cast<double>(picked_[i]) * *step_rad;
+      beams_.bearing_rad[i] =
+          wrap_angle(geometry.start_rad + static_cast<double>(picked_[i]) * geometry.step_rad);
+  }
+
+  void move_odometry_to_laser() {
+    for (CarmenOdometry& odometry : log_.odometry) {
+      const Pose2 laser = pose_of(odometry) * *T_robot_laser_;
+      odometry.position = laser.position();
+      odometry.yaw_rad = laser.yaw_rad();
+    }
   }
 
   void sort_scans() {
@@ -163,8 +274,9 @@ class CarmenParser {
   std::size_t beam_count_;
   CarmenLog log_;
   BeamLayout beams_;
-  std::size_t readings_ = 0;
-  double step_rad_ = 0.0;
+  ScanLine kind_ = ScanLine::kNone;
+  ScanGeometry geometry_;
+  std::optional<Pose2> T_robot_laser_;
   std::vector<std::size_t> picked_;
   std::vector<float> scratch_m_;
   std::uint64_t malformed_ = 0;
@@ -195,8 +307,9 @@ Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_coun
   if (damaged) return line.error();
   if (!log.problems.empty())
     return Error{ErrorCode::kInvalidInput, log.problems.front() + "; no usable scan"};
-  return Error{ErrorCode::kInvalidInput,
-               path + ": neither a capture (pcap) nor a CARMEN laser log (no FLASER line)"};
+  return Error{
+      ErrorCode::kInvalidInput,
+      path + ": neither a capture (pcap) nor a CARMEN laser log (no FLASER, ROBOTLASER1 or RAWLASER1 line)"};
 }
 
 }  // namespace swiftlet

@@ -24,22 +24,31 @@ struct CarmenOdometry {
   double yaw_rad = 0.0;
 };
 
-/// A laser log of the CARMEN toolkit, thinned to a few beams: the FLASER and ODOM lines
+/// A laser log of the CARMEN toolkit, thinned to a few beams: the ODOM lines and those of one kind of scan,
 ///
 ///     FLASER n r_1 .. r_n x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp
+///     ROBOTLASER1 SCAN laser_x laser_y laser_theta x y theta tv rv front side axis ipc_timestamp host ..
+///     RAWLASER1 SCAN ipc_timestamp host logger_timestamp
 ///     ODOM x y theta tv rv accel ipc_timestamp host logger_timestamp
+///
+/// where SCAN is: type start_angle field_of_view step max_range accuracy remission_mode n r_1 .. r_n m s_1 ..
+/// s_m. A log that has several kinds tells of the same scans in each: the first of this list counts.
+///
+/// All poses are those of the laser, as far as the log says where on the robot it is (ROBOTLASER1).
 ///
 /// Scans and odometry are in the order of their stamps, lines with equal stamps in the order of the file.
 struct CarmenLog {
   BeamLayout beams;
+  const char* scan_line = "";            ///< the kind: "FLASER"
+  bool scans_have_poses = true;          ///< RAWLASER1 lines have none
   std::vector<CarmenOdometry> scans;     ///< stamp of each scan and the odometry in its line (odom_*)
   std::vector<float> distances_m;        ///< beams.count a scan, as logged
   std::vector<CarmenOdometry> odometry;  ///< of the ODOM lines
   std::uint64_t odometry_reversals =
       0;  ///< ODOM lines with a stamp before that of the line before, in file order
-  std::uint64_t scan_reversals = 0;   ///< the same of FLASER lines
+  std::uint64_t scan_reversals = 0;   ///< the same of scans
   std::uint64_t duplicate_scans = 0;  ///< same stamp, same distances: dropped
-  PoseScanLag pose_scan_lag;          ///< of the FLASER lines' odometry, from all their readings
+  PoseScanLag pose_scan_lag;          ///< of the odometry in scans' lines, from all their readings
   std::uint64_t lines = 0;
   std::vector<std::string> problems;  ///< malformed lines and damage, by line number or byte offset
 
@@ -52,8 +61,9 @@ struct CarmenLog {
 /// / (beam_count - 1) in whole numbers, and the last one. Precondition: 2 <= beam_count <= readings.
 [[nodiscard]] std::vector<std::size_t> pick_beams(std::size_t readings, std::size_t beam_count);
 
-/// Reads a whole log, plain or gzip. Scans have 180 or 181 readings 1 degree apart, or 360 or 361 readings
-/// half a degree apart, the first at -90 degrees; all the same as the first. Other lines are ignored. Errors:
+/// Reads a whole log, plain or gzip. FLASER lines have 180 or 181 readings 1 degree apart, or 360 or 361
+/// readings half a degree apart, the first at -90 degrees; the others say how theirs lie. All are the same as
+/// the first. Other lines are ignored. Errors:
 /// kNotFound, kInvalidInput: no such log; kDamaged: damaged before the first scan. Precondition: 2 <=
 /// beam_count <= kMaxBeams.
 [[nodiscard]] Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_count);

@@ -76,7 +76,7 @@ std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Du
     return "dead reckoning from the ODOM lines, " +
            std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(range_age).count()) +
            " ms before each scan";
-  const std::string choice = "dead reckoning from the FLASER lines: ";
+  const std::string choice = std::string("dead reckoning from the ") + log.scan_line + " lines: ";
   if (log.odometry.empty()) return choice + "there are no ODOM lines";
   if (log.odometry_reversals > 0)
     return choice + "the stamps of the ODOM lines go back " + std::to_string(log.odometry_reversals) +
@@ -100,6 +100,9 @@ Result<std::unique_ptr<SampleSource>> CarmenSampleSource::open(const std::string
   const auto beam_count = static_cast<std::size_t>(options.beam_count.value_or(kUsualBeamCount));
   Result<CarmenLog> log = read_carmen_log(path, beam_count);
   if (!log) return log.error();
+  if (!log->scans_have_poses && log->odometry.size() < 2)
+    return Error{ErrorCode::kInvalidInput,
+                 path + ": its RAWLASER1 lines have no poses, and there are no ODOM lines"};
   return std::unique_ptr<SampleSource>(
       new CarmenSampleSource(std::make_shared<const CarmenLog>(std::move(log).value()), options));
 }
@@ -114,7 +117,7 @@ CarmenSampleSource::CarmenSampleSource(std::shared_ptr<const CarmenLog> log,
                                        const SampleSourceOptions& options)
     : log_(std::move(log)),
       options_(options),
-      uses_odometry_lines_(trusts_odometry_lines(*log_)),
+      uses_odometry_lines_(!log_->scans_have_poses || trusts_odometry_lines(*log_)),
       scan_times_(uses_odometry_lines_ ? std::vector<DeviceTime>() : regular_times(log_->scans)),
       sensor_(sensor_model(*log_, scan_times_, options)),
       assembler_(assembly_config(*log_, sensor_), report_.counters) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "firmware_link/sample/sample_assembler.hpp"
+#include "firmware_link/sample_table/table_fields.hpp"
 
 namespace swiftlet {
 namespace {
@@ -29,22 +30,6 @@ void append_number(std::string& text, Number number) {
   std::array<char, 32> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
   text.append(digits.data(), end);
-}
-
-template <typename Number>
-std::optional<Number> parse_number(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-/// Cuts off what stands before the next `separator`.
-std::string_view next_field(std::string_view& rest, char separator) {
-  const std::size_t end = rest.find(separator);
-  const std::string_view field = rest.substr(0, end);
-  rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-  return field;
 }
 
 Error cannot_be(std::string_view what, std::string_view text) {

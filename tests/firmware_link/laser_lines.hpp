@@ -25,4 +25,17 @@ inline std::string odometry_line(double x_m, double y_m, double yaw_rad, const s
   return pose + stamp + " host " + stamp + "\n";
 }
 
+/// A ROBOTLASER1 or RAWLASER1 line: what stands before the readings, readings from 1 m up in steps of 1 cm,
+/// what stands behind them.
+inline std::string scan_line(const std::string& kind, const std::string& before, int readings,
+                             const std::string& behind, const std::string& stamp) {
+  std::string line = kind + " " + before;
+  char number[32];
+  for (int i = 0; i < readings; ++i) {
+    std::snprintf(number, sizeof number, " %.2f", 1.0 + 0.01 * i);
+    line += number;
+  }
+  return line + " " + behind + " " + stamp + " host " + stamp + "\n";
+}
+
 }  // namespace swiftlet

@@ -46,6 +46,7 @@ SILENT_TEXTS = {
         …: end of the log
         end of the laser log
         end of the table of samples
+        end of the table of log blocks
         the writer has closed the FIFO
         the simulated flight is over
         ends early

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <string>
 
 #include "tests/firmware_link/laser_lines.hpp"
@@ -104,6 +105,67 @@ TEST(CarmenLog, ReportsWhyThereIsNothingToRead) {
   const TemporaryFile odd("b.clf", flaser_line(90, 0.0, "1"));
   EXPECT_THAT(read_carmen_log(odd.path(), 4).error().message, HasSubstr(":1: FLASER with another number"));
   EXPECT_EQ(read_carmen_log("/nonexistent/a.clf", 4).error().code, ErrorCode::kNotFound);
+}
+
+TEST(CarmenLog, ReadsScansThatSayHowTheirBeamsLie) {
+  const TemporaryFile file("a.clf", scan_line("ROBOTLASER1", "1 -2.0 4.0 0.5 30 0.1 0 9", 9,
+                                              "2 7 8 1.5 2.0 0.5 1.0 2.0 0.5 0.1 0.2 9 9 9", "10.5") +
+                                        odometry_line(4.0, 0.0, 0.0, "10.4"));
+  const auto log = read_carmen_log(file.path(), 3);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_TRUE(log->problems.empty());
+  EXPECT_STREQ(log->scan_line, "ROBOTLASER1");
+  ASSERT_EQ(log->scans.size(), 1U);
+  EXPECT_EQ(log->scans[0].stamp, at_us(10'500'000));
+  EXPECT_DOUBLE_EQ(log->scans[0].position.x_m, 1.5);
+  EXPECT_DOUBLE_EQ(log->scans[0].yaw_rad, 0.5);
+  EXPECT_NEAR(log->beams.bearing_rad[0], -2.0, 1e-12);
+  EXPECT_NEAR(log->beams.bearing_rad[1], 0.0, 1e-12);
+  EXPECT_NEAR(log->beams.bearing_rad[2], 2.0, 1e-12);
+  EXPECT_THAT(log->distances_of(0), ElementsAre(1.0F, 1.04F, 1.08F));
+  // The ODOM lines are the robot's: its laser is 0.5 m away, cos(0.5) of it ahead.
+  EXPECT_NEAR(log->odometry.at(0).position.x_m, 4.0 + 0.5 * std::cos(0.5), 1e-9);
+  EXPECT_NEAR(log->odometry.at(0).position.y_m, -0.5 * std::sin(0.5), 1e-9);
+}
+
+TEST(CarmenLog, RawScansHaveNoPoses) {
+  const TemporaryFile file("a.clf", scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "10.5"));
+  const auto log = read_carmen_log(file.path(), 2);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_FALSE(log->scans_have_poses);
+  EXPECT_EQ(log->scans.size(), 1U);
+}
+
+TEST(CarmenLog, OfScansThatAreThereInSeveralKindsTheMostTellingCounts) {
+  const std::string raw = scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "10.5");
+  const std::string robot =
+      scan_line("ROBOTLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0 1 2 3 1 2 3 0 0 0 0 0", "10.5");
+  const TemporaryFile both("a.clf", raw + robot + raw + robot);
+  const auto log = read_carmen_log(both.path(), 2);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_STREQ(log->scan_line, "ROBOTLASER1");
+  EXPECT_TRUE(log->scans_have_poses);
+  EXPECT_EQ(log->duplicate_scans, 1U);
+  EXPECT_EQ(log->scans.size(), 1U);
+  const TemporaryFile all("b.clf", robot + flaser_line(180, 0.0, "11") + raw + robot);
+  EXPECT_STREQ(read_carmen_log(all.path(), 2)->scan_line, "FLASER");
+  EXPECT_EQ(read_carmen_log(all.path(), 2)->scans.size(), 1U);
+}
+
+TEST(CarmenLog, ReportsScansThatCannotBeUsed) {
+  const std::string good = scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "1");
+  const TemporaryFile file("a.clf", good + scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 6, "0", "2") +
+                                        scan_line("RAWLASER1", "0 -1 2.0 0.5 80 0.1 0 5", 5, "0", "3") +
+                                        scan_line("RAWLASER1", "0 -1.5 3.0 0 80 0.1 0 7", 7, "0", "4") +
+                                        scan_line("ROBOTLASER1", "0 -1.5 3.0 0.5 80 0.1 0 1", 1, "0", "5"));
+  const auto log = read_carmen_log(file.path(), 2);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_EQ(log->scans.size(), 1U);
+  ASSERT_EQ(log->problems.size(), 4U);
+  EXPECT_THAT(log->problems[0], HasSubstr("RAWLASER1 line cut off or garbled"));
+  EXPECT_THAT(log->problems[1], HasSubstr("beams lie otherwise"));
+  EXPECT_THAT(log->problems[2], HasSubstr("RAWLASER1 line cut off or garbled"));
+  EXPECT_THAT(log->problems[3], HasSubstr("fewer than are to be kept"));
 }
 
 }  // namespace

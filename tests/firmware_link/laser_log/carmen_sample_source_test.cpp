@@ -53,6 +53,21 @@ TEST(CarmenSampleSource, TakesOdometryLinesAtTheTimeOfTheRangesWhenTheirStampsAr
   EXPECT_EQ((*source)->progress(), 1.0);
 }
 
+TEST(CarmenSampleSource, RawScansTakeTheirPosesFromTheOdometryLines) {
+  const std::string scan = scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "10.2");
+  const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + scan + odometry_line(0.2, 0, 0, "10.2"));
+  SampleSourceOptions options;
+  options.beam_count = 3;
+  const auto source = CarmenSampleSource::open(file.path(), options);
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  const std::vector<RangeSample> samples = read_all(**source);
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_NEAR(samples[0].T_odom_body.x_m(), 0.1, 1e-9);
+  const TemporaryFile alone("b.clf", scan);
+  EXPECT_THAT(CarmenSampleSource::open(alone.path(), options).error().message,
+              HasSubstr("RAWLASER1 lines have no poses"));
+}
+
 TEST(CarmenSampleSource, BeginsAgainWithAnotherAgeAsIfItWereOpenedSo) {
   const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + flaser_line(180, 7, "10.15") +
                                         odometry_line(0.1, 0, 0.2, "10.1") + flaser_line(180, 7, "10.2") +

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#pragma once
+
+#include <chrono>
+
+#include "firmware_link/sample/sample_assembler.hpp"
+
+namespace swiftlet {
+
+/// Of log blocks that do not say theirs.
+inline constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
+
+/// Ten times as far as the firmware's estimator lets its position go.
+inline constexpr double kMaxFromBeginningM = 1000.0;
+
+/// How the readings of a Crazyflie become samples.
+[[nodiscard]] inline AssemblyConfig flight_assembly(const SensorModel& sensor) {
+  // After a second without the radio the vehicle gives up the link, and so does the source: the motion
+  // meanwhile is a guess. The estimate runs on aboard, so the guess is good if the vehicle can have flown the
+  // step across the hole; after longer than a battery lasts it has landed and may have been carried.
+  constexpr Duration kUnwatched = std::chrono::seconds(1);
+  constexpr Duration kBatteryLasts = std::chrono::minutes(10);
+  AssemblyConfig config;
+  config.beams = BeamLayout::multiranger();
+  config.sensor = sensor;
+  config.continuity.longest_silence = kBatteryLasts;
+  config.continuity.farthest_m = kMaxFromBeginningM;
+  config.unwatched_after = kUnwatched;
+  return config;
+}
+
+}  // namespace swiftlet
