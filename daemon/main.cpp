@@ -50,6 +50,7 @@ struct Options {
   std::string config_path;
   std::string input_uri;
   std::string lcm_url = kDefaultLcmUrl;
+  std::string compat;
   double rate = 1.0;
   std::optional<int> beams;
   std::optional<std::string> output_directory;
@@ -70,6 +71,8 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str();
+  app.add_option("--compat", options.compat, "publish pose, beams and map as these programs have them, too")
+      ->check(CLI::IsMember({"mbot"}));
   app.add_option("--rate", options.rate, "replay this many times as fast as recorded")
       ->check(number_from(0.001, 1e6))
       ->capture_default_str();
@@ -224,7 +227,9 @@ Result<std::unique_ptr<Publisher>> open_publisher(const Options& options, const 
       view->take(channel, message);
       return true;
     };
-  return open_lcm_publisher(options.lcm_url, config.publish.channel_prefix, new_map_id(), std::move(also));
+  const Compatibility compatibility = options.compat == "mbot" ? Compatibility::kMbot : Compatibility::kNone;
+  return open_lcm_publisher(options.lcm_url, config.publish.channel_prefix, new_map_id(), std::move(also),
+                            compatibility);
 }
 
 /// nullptr: the log goes to stderr.

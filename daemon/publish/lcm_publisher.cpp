@@ -14,21 +14,18 @@
 
 #include "core/base/check.hpp"
 #include "daemon/publish/lcm_transport.hpp"
+#include "daemon/publish/mbot_publisher.hpp"
+#include "daemon/publish/message_parts.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_info_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
-#include "swiftlet/pose2d_t.hpp"
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
 
 namespace swiftlet {
 namespace {
-
-std::int64_t to_utime(HostTime at) {
-  return std::chrono::duration_cast<std::chrono::microseconds>(at.time_since_epoch()).count();
-}
 
 void copy_point(const Point2& from, double (&to)[2]) {
   to[0] = from.x_m;
@@ -47,15 +44,6 @@ std::int64_t i64(T value) {
 template <typename T>
 std::int32_t i32(T value) {
   return static_cast<std::int32_t>(value);
-}
-
-pose2d_t pose2d_message(std::int64_t utime, const Pose2& pose) {
-  pose2d_t message;
-  message.utime = utime;
-  message.x = static_cast<float>(pose.x_m());
-  message.y = static_cast<float>(pose.y_m());
-  message.theta = static_cast<float>(pose.yaw_rad());
-  return message;
 }
 
 void fill_input(const InputStatus& input, status_t& message) {
@@ -309,13 +297,12 @@ void LcmPublisher::send_ranges(const PoseUpdate& update) {
 }
 
 void LcmPublisher::publish_pose(const PoseUpdate& pose) {
-  const std::int64_t utime = to_utime(pose.stamp);
   send_pose(pose_map_, pose_t::FRAME_MAP, pose.T_map_body, pose);
   send_pose(pose_local_, pose_t::FRAME_LOCAL, pose.T_local_body, pose);
   send_ranges(pose);
   send_pose(pose_odom_, pose_t::FRAME_ODOM, pose.T_odom_body, pose);
-  send(pose2d_map_, pose2d_message(utime, pose.T_map_body));
-  send(pose2d_odom_, pose2d_message(utime, pose.T_odom_body));
+  send(pose2d_map_, pose2d_message(pose.stamp, pose.T_map_body));
+  send(pose2d_odom_, pose2d_message(pose.stamp, pose.T_odom_body));
 }
 
 void LcmPublisher::publish_tile(HostTime now, const MapTile& tile, double resolution_m) {
@@ -409,19 +396,25 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
 
 Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
                                                       const std::string& channel_prefix, std::int64_t map_id,
-                                                      MessageSink also) {
+                                                      MessageSink also, Compatibility compatibility) {
   Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
   if (!transport) return transport.error();
-  const std::shared_ptr<LcmTransport> lcm = std::move(transport).value();
+  const std::shared_ptr<LcmTransport> transport_of_all = std::move(transport).value();
+  const MessageSink lcm = [transport_of_all](const std::string& channel,
+                                             std::span<const std::uint8_t> message) {
+    return transport_of_all->publish(channel, message);
+  };
   const auto sink = [lcm, also = std::move(also)](const std::string& channel,
                                                   std::span<const std::uint8_t> message) {
-    const bool is_taken = lcm->publish(channel, message);
+    const bool is_taken = lcm(channel, message);
     const int why = errno;
     if (also) static_cast<void>(also(channel, message));
     errno = why;
     return is_taken;
   };
-  return make_message_publisher(sink, channel_prefix, map_id);
+  std::unique_ptr<Publisher> own = make_message_publisher(sink, channel_prefix, map_id);
+  if (compatibility == Compatibility::kMbot) return make_mbot_publisher(std::move(own), lcm);
+  return own;
 }
 
 std::unique_ptr<Publisher> make_message_publisher(MessageSink sink, const std::string& channel_prefix,

@@ -21,14 +21,21 @@ using MessageSink = std::function<bool(const std::string& channel, std::span<con
 inline constexpr std::size_t kMaxLcmMessageBytes = 65'499;
 inline constexpr std::size_t kMaxWallsPerMessage = 1000;
 
+/// Whose messages are published besides swiftlet's own.
+enum class Compatibility : std::uint8_t {
+  kNone,
+  kMbot,  ///< as make_mbot_publisher()
+};
+
 /// Publishes over LCM with the types in proto/; docs/lcm.md lists the channels. Every message fits one
 /// datagram. `map_id` names the run. kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or
 /// memq://). A message that LCM does not take is lost; the first one is logged. `also`, where it is set, is
-/// given each message after LCM, whether LCM took it or not.
+/// given each message of swiftlet's own after LCM, whether LCM took it or not.
 [[nodiscard]] Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
                                                                     const std::string& channel_prefix,
                                                                     std::int64_t map_id,
-                                                                    MessageSink also = {});
+                                                                    MessageSink also = {},
+                                                                    Compatibility compatibility = {});
 
 /// The same messages for `sink`, without LCM.
 [[nodiscard]] std::unique_ptr<Publisher> make_message_publisher(MessageSink sink,

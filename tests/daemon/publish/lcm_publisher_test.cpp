@@ -13,6 +13,8 @@
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_info_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
+#include "swiftlet/mbot_lidar_t.hpp"
+#include "swiftlet/mbot_occupancy_grid_t.hpp"
 #include "swiftlet/pose2d_t.hpp"
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
@@ -35,8 +37,8 @@ class LcmPublisherTest : public testing::Test {
   LcmPublisherTest& operator=(const LcmPublisherTest&) = delete;
 
   template <typename Publish>
-  void publish(Publish&& publish_some, const std::string& prefix = "T_") {
-    auto publisher = open_lcm_publisher("file://" + path_ + "?mode=w", prefix, kMapId);
+  void publish(Publish&& publish_some, const std::string& prefix = "T_", Compatibility compatibility = {}) {
+    auto publisher = open_lcm_publisher("file://" + path_ + "?mode=w", prefix, kMapId, {}, compatibility);
     ASSERT_TRUE(publisher) << publisher.error().message;
     publish_some(**publisher);
   }
@@ -265,6 +267,15 @@ TEST_F(LcmPublisherTest, TheLargestMessagesFitOneDatagramEvenOnTheLongestChannel
   EXPECT_EQ(received<landmarks_t>(prefix + "LANDMARKS").size(), 1U);
 }
 
+TEST_F(LcmPublisherTest, PublishesForMbotOnlyWhereItIsAskedTo) {
+  const auto publish_pose = [](Publisher& publisher) { publisher.publish_pose({.stamp = kNow}); };
+  publish(publish_pose);
+  EXPECT_TRUE(received<pose2d_t>("SLAM_POSE").empty());
+  publish(publish_pose, "T_", Compatibility::kMbot);
+  EXPECT_EQ(received<pose2d_t>("SLAM_POSE").size(), 1U);
+  EXPECT_EQ(received<pose_t>("T_POSE").size(), 1U);
+}
+
 TEST(LcmPublisherOpen, RefusesUrlsThatLcmDoesNotKnow) {
   const auto publisher = open_lcm_publisher("mqtt://somewhere", "T_", kMapId);
   ASSERT_FALSE(publisher);
@@ -293,6 +304,13 @@ TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x256ce7175baea2abU);
   EXPECT_EQ(fingerprint<status_t>(), 0x23d9dc6dec508b6fU);
+}
+
+// A fingerprint is made of the fields' names and types alone. These are what lcm-gen makes of mbot_lcm_msgs.
+TEST(LcmTypes, ForMbotHaveTheFingerprintsOfItsOwn) {
+  EXPECT_EQ(fingerprint<pose2d_t>(), 0x1f317af1246276acU);               // pose2D_t
+  EXPECT_EQ(fingerprint<mbot_lidar_t>(), 0x89dc5b879a5056cfU);           // lidar_t
+  EXPECT_EQ(fingerprint<mbot_occupancy_grid_t>(), 0xd5447e494a66cc92U);  // occupancy_grid_t
 }
 
 }  // namespace
