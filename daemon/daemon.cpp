@@ -121,6 +121,7 @@ void Daemon::run_publisher() {
     if (service_)
       service_->look(clock_.now(), {.radio_steps = pipeline_.radio_worker().steps(),
                                     .input_is_over = input_is_over_,
+                                    .is_followed = is_followed_,
                                     .statuses = publisher_worker_.statuses(),
                                     .status = publisher_worker_.status()});
     const MonotonicTime next_tick = clock_.now() + PublisherWorker::kTick;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 #include "core/base/result.hpp"
 #include "daemon/config/configuration.hpp"
@@ -28,6 +29,12 @@ class Daemon {
 
   /// As Pipeline::keep_pruned(). Before run().
   void keep_pruned(PrunedScans& pruned) { pipeline_.keep_pruned(pruned); }
+  /// As Pipeline::obey(). Before run().
+  void obey(CommandHandler handler) { pipeline_.obey(std::move(handler)); }
+  /// As Pipeline::command(), also while run() does.
+  [[nodiscard]] bool command(const Command& command) { return pipeline_.command(command); }
+  /// Another run follows: the service manager is not told that the daemon stops. Any thread.
+  void announce_next_run() { is_followed_ = true; }
   /// Readiness, progress and the end are reported to the service manager, if there is one. Before run(); must
   /// outlive the daemon.
   void report_to(const ServiceManager& manager) { service_.emplace(manager, clock_.now()); }
@@ -46,6 +53,7 @@ class Daemon {
   PublisherWorker publisher_worker_;
   std::optional<ServiceWatch> service_;
   std::atomic<bool> input_is_over_{false};
+  std::atomic<bool> is_followed_{false};
 
   /// A thread that carries `name` (at most 15 characters) and runs `work`.
   template <typename Work>

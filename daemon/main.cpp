@@ -16,8 +16,11 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "daemon/command_line.hpp"
+#include "daemon/commands/command_executor.hpp"
+#include "daemon/commands/command_listener.hpp"
 #include "daemon/config/configuration.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/manual/page_option.hpp"
@@ -45,6 +48,7 @@ constexpr int kBadInput = 2;
 constexpr std::string_view kUdpScheme = "udp://";
 constexpr const char* kShareHere = "udp://127.0.0.1:19850";
 constexpr const char* kViewHere = "127.0.0.1:8440";
+constexpr const char* kCommandsHere = "127.0.0.1:8450";
 
 struct Options {
   std::string config_path;
@@ -59,6 +63,7 @@ struct Options {
   RecordingWish record;
   std::optional<std::string> share;
   std::optional<std::string> view;
+  std::optional<std::string> commands;
   bool print_reference = false;
   bool print_tuning = false;
   bool verbose = false;
@@ -98,6 +103,11 @@ void declare(CLI::App& app, Options& options) {
          "--view", options.view,
          "show the map while it grows, to browsers; without ADDRESS:PORT to those on this machine, on "
          "http://127.0.0.1:8440")
+      ->type_name("[ADDRESS:PORT]")
+      ->expected(0, 1);
+  app.add_option("--commands", options.commands,
+                 "take commands from programs on this machine: save the map, mark a place, begin a new map; "
+                 "without ADDRESS:PORT on 127.0.0.1:8450")
       ->type_name("[ADDRESS:PORT]")
       ->expected(0, 1);
   app.add_option("--log-file", options.log_file,
@@ -212,6 +222,15 @@ Result<std::unique_ptr<LiveView>> open_view(const Options& options, const Config
   return view;
 }
 
+/// The way in for commands; nullptr: they are not asked for. Errors: as CommandListener::open.
+Result<std::unique_ptr<CommandListener>> open_commands(const Options& options, const Configuration& config) {
+  if (!options.commands) return std::unique_ptr<CommandListener>();
+  Result<std::unique_ptr<CommandListener>> listener =
+      CommandListener::open(*options.commands, config.publish.channel_prefix + "COMMAND");
+  if (listener) spdlog::info("commands are taken on {}", (*listener)->url());
+  return listener;
+}
+
 /// Names the run for consumers: the time it began, in microseconds since 1970.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -293,7 +312,8 @@ Result<std::unique_ptr<Outputs>> prepare_outputs(const Options& options) {
 }
 
 Status write_outputs(const Outputs* outputs, const Options& options, const Configuration& config,
-                     const Daemon& daemon, const SampleSource& source) {
+                     const Daemon& daemon, const SampleSource& source,
+                     const std::vector<MarkedPlace>& places) {
   if (outputs == nullptr || daemon.pipeline().backend().scans().size() == 0) return {};
   const std::filesystem::path& directory = outputs->directory.path();
   spdlog::info("writing {}", directory.string());
@@ -306,7 +326,8 @@ Status write_outputs(const Outputs* outputs, const Options& options, const Confi
                                     .truth = source.ground_truth(),
                                     .input_uri = options.input_uri,
                                     .sensor = config.sensor.applied_to(source.sensor()),
-                                    .pruned = &outputs->pruned});
+                                    .pruned = &outputs->pruned,
+                                    .places = places});
   if (!written) return written.error();
   if (const auto note = replacement_note(directory, *written)) spdlog::info("{}", *note);
   return {};
@@ -322,41 +343,114 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
   return daemon.run(stop);
 }
 
+/// What a run reads, writes and serves, in the order in which it is opened.
+struct RunParts {
+  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<SampleSource> source;
+  std::unique_ptr<Outputs> outputs;
+  std::unique_ptr<LiveView> view;
+  std::unique_ptr<Publisher> publisher;
+  std::unique_ptr<CommandListener> commands;
+};
+
+template <typename Part>
+Status take(Result<Part> opened, Part& part) {
+  if (!opened) return opened.error();
+  part = std::move(opened).value();
+  return {};
+}
+
+Status open_parts(const Options& options, const Configuration& config, RunParts& run) {
+  Status opened = take(open_recorder(options, config), run.recorder);
+  if (opened)
+    opened = take(open_input(options, config, run.recorder ? &run.recorder->sink() : nullptr), run.source);
+  if (opened) opened = take(prepare_outputs(options), run.outputs);
+  if (opened) opened = take(open_view(options, config), run.view);
+  if (opened) opened = take(open_publisher(options, config, run.view.get()), run.publisher);
+  if (opened) opened = take(open_commands(options, config), run.commands);
+  return opened;
+}
+
+/// What becomes of commands; `over` ends the run.
+CommandExecutor make_executor(const RunParts& run, Daemon& daemon, std::stop_source& over) {
+  CommandExecutor::Run of_commands{.directory = {}, .is_live = run.source->is_live(), .end = [&] {
+                                     daemon.announce_next_run();
+                                     over.request_stop();
+                                   }};
+  if (run.outputs) of_commands.directory = run.outputs->directory.path();
+  return CommandExecutor(std::move(of_commands));
+}
+
+/// How a run ended.
+struct RunEnd {
+  int exit_code = 0;
+  bool wants_new_map = false;
+};
+
+/// Writes down what is left of the run when its threads have ended.
+int finish_run(const Options& options, const Configuration& config, const RunParts& run, const Daemon& daemon,
+               const std::vector<MarkedPlace>& places, const Status& outcome) {
+  const BackendCounters& counters = daemon.pipeline().backend().counters();
+  spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
+               counters.keyframes, counters.closures_accepted, counters.closures_dropped);
+  const Status written = write_outputs(run.outputs.get(), options, config, daemon, *run.source, places);
+  // A live vehicle's notes are the events that were logged when they happened.
+  const InputReport& report = run.source->report();
+  const std::size_t first_note = run.source->is_live() ? report.notes.size() : 0;
+  const int exit_code = log_problems(options, daemon, report, first_note, outcome);
+  return written ? exit_code : refuse(written.error().message);
+}
+
+RunEnd run_once(const Options& options, const Configuration& config, const std::stop_token& signalled) {
+  RunParts run;
+  if (const Status opened = open_parts(options, config, run); !opened)
+    return {.exit_code = refuse(opened.error().message)};
+  SteadyClock clock;
+  Daemon daemon(config, *run.source, clock, input_policy(options, *run.source), *run.publisher);
+  if (run.outputs) daemon.keep_pruned(run.outputs->pruned);
+  spdlog::info("{}, publishing on {}", input_text(options, *run.source), options.lcm_url);
+  const ServiceManager service_manager;
+  daemon.report_to(service_manager);
+  std::stop_source over;
+  const std::stop_callback at_signal(signalled, [&over] { over.request_stop(); });
+  CommandExecutor executor = make_executor(run, daemon, over);
+  daemon.obey([&executor](const Command& command, const MapBuilder& map, std::optional<HostTime> newest) {
+    executor.execute(command, map, newest);
+  });
+  if (run.commands)
+    run.commands->start([&daemon](const Command& command) { return daemon.command(command); });
+  const Status outcome = run_recorded(daemon, run.recorder.get(), over.get_token());
+  if (run.commands) run.commands->stop();
+  if (signalled.stop_requested()) spdlog::info("stopped by a signal");
+  return {.exit_code = finish_run(options, config, run, daemon, executor.places(), outcome),
+          .wants_new_map = executor.wants_new_map()};
+}
+
+/// Beside what the runs before it wrote: out_2, flight_2.pcap.
+std::string numbered(const std::string& path, int number) {
+  const std::filesystem::path first(path);
+  const std::string name = first.stem().string() + "_" + std::to_string(number) + first.extension().string();
+  return (first.parent_path() / name).string();
+}
+
+Options options_of_run(const Options& options, int number) {
+  Options of_run = options;
+  if (number == 1) return of_run;
+  if (options.output_directory) of_run.output_directory = numbered(*options.output_directory, number);
+  if (!options.record.file.empty()) of_run.record.file = numbered(options.record.file, number);
+  return of_run;
+}
+
 int run(const Options& options) {
   const Result<Configuration> config = read_configuration(options);
   if (!config) return refuse(config.error().message);
   const Result<std::unique_ptr<LogFile>> log = open_log(options);
   if (!log) return refuse(log.error().message);
   const SignalWatcher signals = watch_signals(log->get());  // before the threads, libusb's too
-  const Result<std::unique_ptr<Recorder>> recorder = open_recorder(options, *config);
-  if (!recorder) return refuse(recorder.error().message);
-  const Result<std::unique_ptr<SampleSource>> source =
-      open_input(options, *config, *recorder ? &(*recorder)->sink() : nullptr);
-  if (!source) return refuse(source.error().message);
-  const Result<std::unique_ptr<Outputs>> outputs = prepare_outputs(options);
-  if (!outputs) return refuse(outputs.error().message);
-  const Result<std::unique_ptr<LiveView>> view = open_view(options, *config);
-  if (!view) return refuse(view.error().message);
-  const Result<std::unique_ptr<Publisher>> publisher = open_publisher(options, *config, view->get());
-  if (!publisher) return refuse(publisher.error().message);
-
-  SteadyClock clock;
-  Daemon daemon(*config, **source, clock, input_policy(options, **source), **publisher);
-  if (*outputs) daemon.keep_pruned((*outputs)->pruned);
-  spdlog::info("{}, publishing on {}", input_text(options, **source), options.lcm_url);
-  const ServiceManager service_manager;
-  daemon.report_to(service_manager);
-  const Status outcome = run_recorded(daemon, recorder->get(), signals.token());
-  if (signals.token().stop_requested()) spdlog::info("stopped by a signal");
-  const BackendCounters& counters = daemon.pipeline().backend().counters();
-  spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
-               counters.keyframes, counters.closures_accepted, counters.closures_dropped);
-  const Status written = write_outputs(outputs->get(), options, *config, daemon, **source);
-  // A live vehicle's notes are the events that were logged when they happened.
-  const InputReport& report = (*source)->report();
-  const std::size_t first_note = (*source)->is_live() ? report.notes.size() : 0;
-  const int exit_code = log_problems(options, daemon, report, first_note, outcome);
-  return written ? exit_code : refuse(written.error().message);
+  for (int number = 1;; ++number) {
+    const RunEnd end = run_once(options_of_run(options, number), *config, signals.token());
+    if (!end.wants_new_map || signals.token().stop_requested()) return end.exit_code;
+  }
 }
 
 int main_without_exceptions(int argc, char** argv) {
@@ -372,6 +466,8 @@ int main_without_exceptions(int argc, char** argv) {
     app.parse(argc, argv);
     options.record.asked = app.count("--record") > 0;
     if (app.count("--share") > 0 && options.share.value_or("").empty()) options.share = kShareHere;
+    if (app.count("--commands") > 0 && options.commands.value_or("").empty())
+      options.commands = kCommandsHere;
     if (app.count("--view") > 0 && options.view.value_or("").empty()) options.view = kViewHere;
   } catch (const CLI::Success& question) {
     return answer(app, question);

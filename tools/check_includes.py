@@ -23,7 +23,8 @@ SAMPLE = SESSION + ["firmware_link/sample", "firmware_link/file"]
 FIRMWARE_LINK = SAMPLE + ["firmware_link/sharing", "firmware_link/capture", "firmware_link/laser_log",
                           "firmware_link/sample_table", "firmware_link/simulation", "firmware_link/input"]
 STAGES = ["daemon/config", "daemon/system", "daemon/workers"]
-DAEMON = STAGES + ["daemon/manual", "daemon/publish", "daemon/view", "daemon/recording", "daemon/outputs", "daemon"]
+DAEMON = STAGES + ["daemon/manual", "daemon/publish", "daemon/view", "daemon/recording", "daemon/outputs",
+                   "daemon/commands", "daemon"]
 ALLOWED = {  # folder: folders it may include from, besides itself; the longest matching folder counts
     "core/base": [],
     "core/geometry": ["core/base"],
@@ -60,6 +61,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "daemon/view": CORE + FIRMWARE_LINK + STAGES + ["daemon/publish", "proto"],
     "daemon/recording": CORE + FIRMWARE_LINK + STAGES,
     "daemon/outputs": CORE + FIRMWARE_LINK + STAGES,
+    "daemon/commands": CORE + FIRMWARE_LINK + STAGES + ["daemon/publish", "daemon/outputs", "proto"],
     "daemon": CORE + FIRMWARE_LINK + DAEMON,
     "tools": CORE + FIRMWARE_LINK + DAEMON + ["proto"],
     "tools/python": CORE + FIRMWARE_LINK + DAEMON + ["proto", "tools"],

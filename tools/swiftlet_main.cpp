@@ -31,6 +31,7 @@
 #include "tools/map_command.hpp"
 #include "tools/record_command.hpp"
 #include "tools/sim_command.hpp"
+#include "tools/tell_command.hpp"
 #include "tools/view_command.hpp"
 
 namespace {
@@ -245,6 +246,18 @@ CLI::App* add_view_command(CLI::App& app, swiftlet::ViewCommand& command) {
   return view;
 }
 
+CLI::App* add_tell_command(CLI::App& app, swiftlet::TellCommand& command) {
+  CLI::App* tell = app.add_subcommand("tell", "Send a command to a running swiftletd --commands");
+  tell->add_option("WHAT", command.what, "save-map, mark-place or new-map")
+      ->check(CLI::IsMember({"save-map", "mark-place", "new-map"}))
+      ->required();
+  tell->add_option("NAME", command.name, "Of the place to mark");
+  tell->add_option("--to", command.to, "ADDRESS:PORT where swiftletd takes commands")->capture_default_str();
+  tell->add_option("--channel-prefix", command.channel_prefix, "As in swiftletd's configuration")
+      ->capture_default_str();
+  return tell;
+}
+
 CLI::App* add_help_command(CLI::App& app, std::string& command) {
   CLI::App* help = app.add_subcommand("help", "Print the options of a command");
   help->add_option("COMMAND", command, "One of those that swiftlet --help lists");
@@ -272,7 +285,8 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
       {"record", "swiftlet record radio://0/80/2M/E7E7E7E7E7 -o flight.pcap"},
       {"eval", "swiftlet eval out/trajectory.tum truth.tum"},
       {"calibrate", "swiftlet calibrate flight.pcap"},
-      {"convert", "swiftlet convert flight.pcap flight.csv"}};
+      {"convert", "swiftlet convert flight.pcap flight.csv"},
+      {"tell", "swiftlet tell mark-place kitchen"}};
   const std::vector<CLI::App*> named = app.get_subcommands();
   if (named.empty() && app.remaining_size() > 0)
     return "no command '" + app.remaining().front() + "'; see swiftlet --help";
@@ -304,6 +318,7 @@ struct Commands {
   swiftlet::FlightsCommand flights;
   swiftlet::LatencyCommand latency;
   swiftlet::ViewCommand view;
+  swiftlet::TellCommand tell;
   std::string help;  ///< of this command; empty: of all
 };
 
@@ -333,6 +348,7 @@ std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
           {add_latency_command(app, c.latency),
            [&c, done] { return done(swiftlet::run_latency_command(c.latency)); }},
           {add_view_command(app, c.view), [&c, done] { return done(swiftlet::run_view_command(c.view)); }},
+          {add_tell_command(app, c.tell), [&c, done] { return done(swiftlet::run_tell_command(c.tell)); }},
           {add_help_command(app, c.help), [&c, &app] { return run_help(app, c.help); }}};
 }
 

@@ -11,6 +11,7 @@
 #include "core/mapping/picture/map_raster.hpp"
 #include "core/mapping/picture/thumbnail.hpp"
 #include "daemon/outputs/file_writer.hpp"
+#include "daemon/outputs/places_file.hpp"
 #include "daemon/outputs/png_file.hpp"
 #include "daemon/outputs/ros_map.hpp"
 #include "daemon/outputs/run_report.hpp"
@@ -21,19 +22,9 @@ namespace swiftlet {
 namespace {
 
 constexpr const char* kTruth = "ground_truth.tum";
+constexpr const char* kPlaces = "places.csv";
 constexpr const char* kReport = "report.json";
 constexpr int kThumbnailPx = 256;
-
-Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map) {
-  const std::vector<TileIndex> tiles = map.tiles();
-  Status written = write_file(directory / "map.pgm", [&](const FileSink& write) {
-    write_pgm(
-        tiles, [&map](TileIndex index) { return map.tile(index); }, write);
-    return Status();
-  });
-  if (!written) return written;
-  return write_file(directory / "map.yaml", ros_map_yaml(tiles, map.config().resolution_m, "map.pgm"));
-}
 
 Status write_picture(const std::filesystem::path& path, const RgbImage& picture) {
   const Result<std::string> png = encode_png(picture);
@@ -75,6 +66,13 @@ Status write_trajectories(const std::filesystem::path& directory, const RunView&
   });
 }
 
+Status write_places(const std::filesystem::path& directory, const RunView& run) {
+  if (run.places.empty()) return {};
+  const Result<std::string> text = places_csv(run);
+  if (!text) return text.error();
+  return write_file(directory / kPlaces, *text);
+}
+
 /// Those that its report lists; of a report that lists none, itself. Nothing else is taken for a run's.
 std::vector<std::string> files_of_earlier_run(const std::filesystem::path& directory) {
   std::ifstream stream(directory / kReport);
@@ -90,6 +88,17 @@ std::vector<std::string> files_of_earlier_run(const std::filesystem::path& direc
 }
 
 }  // namespace
+
+Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map) {
+  const std::vector<TileIndex> tiles = map.tiles();
+  Status written = write_file(directory / "map.pgm", [&](const FileSink& write) {
+    write_pgm(
+        tiles, [&map](TileIndex index) { return map.tile(index); }, write);
+    return Status();
+  });
+  if (!written) return written;
+  return write_file(directory / "map.yaml", ros_map_yaml(tiles, map.config().resolution_m, "map.pgm"));
+}
 
 Status for_each_scan(const RunView& run, const std::function<void(const TrajectoryPoint&)>& visit) {
   return for_each_scan(run.backend, run.pruned, [&](TrajectoryPoint at) {
@@ -120,6 +129,7 @@ std::optional<RunError> run_error(const RunView& run) {
 std::vector<std::string> output_names(const RunView& run) {
   std::vector<std::string> names{"trajectory.tum", "odometry.tum", "live.tum"};
   if (!run.truth.empty()) names.emplace_back(kTruth);
+  if (!run.places.empty()) names.emplace_back(kPlaces);
   names.insert(names.end(), {"map.pgm", "map.yaml", "map.png", "thumbnail.png", kReport});
   return names;
 }
@@ -128,6 +138,7 @@ Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory,
   if (Status ready = prepare_output_directory(directory); !ready) return ready.error();
   const std::vector<std::string> earlier = files_of_earlier_run(directory);
   if (Status written = write_trajectories(directory, run); !written) return written.error();
+  if (Status written = write_places(directory, run); !written) return written.error();
   if (Status written = write_map_files(directory, run.map); !written) return written.error();
   if (Status written = write_pictures(directory, run); !written) return written.error();
   WrittenOutputs outputs{.files = output_names(run), .replaced = !earlier.empty(), .removed = {}};

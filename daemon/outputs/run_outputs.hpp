@@ -29,6 +29,12 @@ struct RunConsistency {
   AlarmCounts alarms;
 };
 
+/// Where the vehicle was when somebody asked to mark the place: at the sample of that stamp.
+struct MarkedPlace {
+  HostTime stamp{};
+  std::string name;  ///< without control characters, commas and quotes
+};
+
 /// A finished run, as seen by whoever writes it down. The references must outlive it.
 struct RunView {
   const Backend& backend;
@@ -44,6 +50,7 @@ struct RunView {
   const PrunedScans* pruned = nullptr;            ///< where the backend may have pruned scans
   std::optional<KnownPlaceError> known_places{};  ///< of the poses published, where somebody kept them
   std::optional<RunConsistency> consistency{};    ///< likewise
+  std::vector<MarkedPlace> places{};
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 
@@ -62,8 +69,12 @@ struct RunError {
 /// nullopt when the truth knows none of the scans.
 [[nodiscard]] std::optional<RunError> run_error(const RunView& run);
 
+/// map.pgm and map.yaml.
+[[nodiscard]] Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map);
+
 /// The names of the files that write_run_outputs() writes of this run, in that order: trajectories (the true
-/// one where it is known), map, pictures, at last report.json, which lists them.
+/// one where it is known), marked places if there are any, map, pictures, at
+/// last report.json, which lists them.
 [[nodiscard]] std::vector<std::string> output_names(const RunView& run);
 
 struct WrittenOutputs {

@@ -10,8 +10,9 @@ void ServiceWatch::look(MonotonicTime now, const Progress& progress) {
   feed(now, progress);
   if (progress.statuses > statuses_told_) manager_.report_status(status_text(progress.status));
   statuses_told_ = progress.statuses;
-  if (progress.input_is_over && !has_told_stopping_) manager_.report_stopping();
-  has_told_stopping_ = progress.input_is_over;
+  const bool stops = progress.input_is_over && !progress.is_followed;
+  if (stops && !has_told_stopping_) manager_.report_stopping();
+  has_told_stopping_ = stops;
 }
 
 void ServiceWatch::feed(MonotonicTime now, const Progress& progress) {

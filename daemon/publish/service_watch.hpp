@@ -18,6 +18,7 @@ class ServiceWatch {
   struct Progress {
     std::uint64_t radio_steps = 0;  ///< counts while samples are taken or a vehicle is polled
     bool input_is_over = false;     ///< the radio thread is done, rightly
+    bool is_followed = false;       ///< by another run of the daemon, which does not stop
     std::uint64_t statuses = 0;     ///< published so far
     const DaemonStatus& status;     ///< the newest
   };

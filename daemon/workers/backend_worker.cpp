@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/workers/backend_worker.hpp"
 
+#include <utility>
+
 namespace swiftlet {
 
 BackendWorker::BackendWorker(Backend& backend, MapBuilder& map, const Clock& clock, StepQueue::Consumer steps,
@@ -11,7 +13,13 @@ BackendWorker::BackendWorker(Backend& backend, MapBuilder& map, const Clock& clo
   if (publisher) feed_.emplace(*publisher);
 }
 
+void BackendWorker::obey(CommandQueue::Consumer commands, CommandHandler handler) {
+  commands_ = commands;
+  handler_ = std::move(handler);
+}
+
 StepResult BackendWorker::step() {
+  obey_commands();
   const bool ended = steps_.closed();
   if (steps_.try_pop(step_)) {
     add_step();
@@ -23,6 +31,15 @@ StepResult BackendWorker::step() {
   if (!final_pass_done_) return StepResult::kIdle;
   if (feed_) feed_->close();
   return StepResult::kFinished;
+}
+
+void BackendWorker::obey_commands() {
+  Command command;
+  while (commands_ && commands_->try_pop(command)) {
+    std::optional<HostTime> newest;
+    if (backend_.scans().size() > 0) newest = step_.sample.stamp;
+    handler_(command, map_, newest);
+  }
 }
 
 void BackendWorker::add_step() {

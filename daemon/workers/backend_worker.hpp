@@ -7,6 +7,7 @@
 #include "core/backend/backend.hpp"
 #include "core/mapping/map_builder.hpp"
 #include "daemon/system/clock.hpp"
+#include "daemon/workers/command_handler.hpp"
 #include "daemon/workers/map_feed.hpp"
 #include "daemon/workers/pipeline_queues.hpp"
 #include "daemon/workers/pruned_scans.hpp"
@@ -28,10 +29,15 @@ class BackendWorker {
   /// Trajectories will be written: what is pruned is kept there, which must outlive the worker.
   void keep_pruned(PrunedScans& pruned) { pruned_ = &pruned; }
 
+  /// Each command is given to `handler` before the next step. Before the first step.
+  void obey(CommandQueue::Consumer commands, CommandHandler handler);
+
   /// kBlocked: only the publisher's queues stand in the way; call again in a moment.
   StepResult step();
-  /// Sleeps until a step waits or no more will come.
-  void wait() const noexcept { steps_.wait(); }
+  /// Sleeps until a step or a command waits or no more will come.
+  void wait() const noexcept {
+    steps_.wait_unless([this] { return commands_ && commands_->size() > 0; });
+  }
 
  private:
   Backend& backend_;
@@ -42,10 +48,13 @@ class BackendWorker {
   std::optional<MapFeed> feed_;
   StageTimes& times_;
   PrunedScans* pruned_ = nullptr;
+  std::optional<CommandQueue::Consumer> commands_;
+  CommandHandler handler_;
   FrontendStep step_;
   std::uint32_t correction_version_ = 0;
   bool final_pass_done_ = false;
 
+  void obey_commands();
   void add_step();
   void prune();
   void run_final_pass();

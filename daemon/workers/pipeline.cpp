@@ -3,6 +3,7 @@
 #include "daemon/workers/pipeline.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "core/base/check.hpp"
 #include "daemon/system/clock.hpp"
@@ -73,6 +74,16 @@ Pipeline::Pipeline(const Configuration& config, SampleSource& source, const Cloc
 Pipeline::~Pipeline() = default;
 
 void Pipeline::keep_pruned(PrunedScans& pruned) { state_->backend_worker.keep_pruned(pruned); }
+
+void Pipeline::obey(CommandHandler handler) {
+  state_->backend_worker.obey(state_->queues.commands.consumer(), std::move(handler));
+}
+
+bool Pipeline::command(const Command& command) {
+  const bool is_taken = state_->queues.commands.producer().try_push(command);
+  state_->queues.steps.wake();
+  return is_taken;
+}
 
 Result<bool> Pipeline::step() {
   state_->radio_worker.step();

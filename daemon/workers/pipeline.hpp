@@ -8,6 +8,7 @@
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_builder.hpp"
 #include "daemon/config/configuration.hpp"
+#include "daemon/workers/command_handler.hpp"
 #include "daemon/workers/run_timing.hpp"
 #include "firmware_link/sample/sample_source.hpp"
 
@@ -37,6 +38,11 @@ class Pipeline {
 
   /// As BackendWorker::keep_pruned(). Before the first step.
   void keep_pruned(PrunedScans& pruned);
+
+  /// As BackendWorker::obey(). Before the first step.
+  void obey(CommandHandler handler);
+  /// For the backend, which is woken. False: too many wait. One thread at a time.
+  [[nodiscard]] bool command(const Command& command);
 
   /// Lockstep: takes the next sample through all stages in the calling thread. False when the input has ended
   /// and the backend's final pass is done. Errors: whatever ended the input before its time, returned once

@@ -13,6 +13,7 @@
 #include "core/frontend/frontend.hpp"
 #include "core/mapping/map_tile.hpp"
 #include "core/sensing/keyframe.hpp"
+#include "daemon/workers/command.hpp"
 #include "daemon/workers/pipeline_messages.hpp"
 #include "daemon/workers/run_timing.hpp"
 #include "daemon/workers/stage_queue.hpp"
@@ -30,6 +31,8 @@ using SampleQueue = StageQueue<ReceivedSample, 256>;
 /// frontend -> backend: 25 s at 10 Hz, many times its longest step. Full: the frontend waits, so no keyframe
 /// is ever missing from the graph; the samples wait (or are refused) in the queue before it.
 using StepQueue = StageQueue<FrontendStep, 256>;
+/// commands -> backend, with `--commands`. Full: the newest is refused, which the log says.
+using CommandQueue = SpscQueue<Command, 16>;
 /// backend -> frontend: newest wins.
 using CorrectionValue = LatestValue<MapCorrection>;
 
@@ -117,6 +120,7 @@ using RecordingQueue = StageQueue<LinkFrame, 8192>;
 struct PipelineQueues {
   SampleQueue samples;
   StepQueue steps;
+  CommandQueue commands;
   CorrectionValue correction;
   PublisherQueues to_publisher;
 

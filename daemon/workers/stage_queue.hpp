@@ -48,8 +48,13 @@ class StageQueue {
     [[nodiscard]] bool closed() const noexcept { return queue_->closed_.load(std::memory_order_acquire); }
     /// Sleeps until something waits or the queue is closed.
     void wait() const noexcept {
+      wait_unless([] { return false; });
+    }
+    /// The same; does not sleep where `has_other_work`, for which wake() wakes it.
+    template <typename OtherWork>
+    void wait_unless(OtherWork has_other_work) const noexcept {
       const std::uint32_t epoch = queue_->event_count_.epoch();
-      if (end_.size() > 0 || closed()) return;
+      if (end_.size() > 0 || closed() || has_other_work()) return;
       queue_->event_count_.wait(epoch);
     }
     /// Sleeps until something waits, the queue is closed, or `wake_at`. Whether something waits.
@@ -68,6 +73,9 @@ class StageQueue {
 
   Producer producer() noexcept { return Producer(this); }
   Consumer consumer() noexcept { return Consumer(this); }
+
+  /// Wakes the consumer as if something had come. Any thread.
+  void wake() noexcept { event_count_.notify(); }
 
   static constexpr std::size_t capacity() { return kCapacity; }
   /// Any thread.

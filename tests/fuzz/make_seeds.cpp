@@ -18,6 +18,7 @@
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/link/frame_sink.hpp"
 #include "firmware_link/sample_table/sample_table.hpp"
+#include "swiftlet/command_t.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
@@ -216,6 +217,22 @@ constexpr std::string_view kFoxgloveLines =
     "{\"op\":\"unsubscribe\",\"subscriptionIds\":[7]}\n"
     "{\"op\":\"subscribe\",\"subscriptions\":[{\"id\":7,\"channelId\":9},{\"id\":9,\"channelId\":7}]}";
 
+/// As command_client_fuzz.cpp has it: LCM's greeting, then a place to mark.
+std::vector<std::uint8_t> command_client() {
+  std::vector<std::uint8_t> bytes{64, 0x28, 0x76, 0x17, 0xFB, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 16};
+  for (const char letter : std::string_view("SWIFTLET_COMMAND"))
+    bytes.push_back(static_cast<std::uint8_t>(letter));
+  command_t command;
+  command.action = command_t::ACTION_MARK_PLACE;
+  command.name = "kitchen";
+  const auto size = static_cast<std::size_t>(command.getEncodedSize());
+  bytes.insert(bytes.end(), {0, 0, 0, static_cast<std::uint8_t>(size)});
+  const std::size_t at = bytes.size();
+  bytes.resize(at + size);
+  command.encode(bytes.data() + at, 0, static_cast<int>(size));
+  return bytes;
+}
+
 /// As published_messages_fuzz.cpp has it.
 template <typename Message>
 void append_message(std::vector<std::uint8_t>& bytes, std::uint8_t channel, Message message) {
@@ -270,6 +287,7 @@ bool write_view(const std::filesystem::path& folder) {
          write(folder / "web_connection/foxglove",
                socket_conversation("Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n",
                                    R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":2}]})")) &&
+         write(folder / "command_client/place", command_client()) &&
          write(folder / "page_client/lines", kPageLines) &&
          write(folder / "foxglove_client/lines", kFoxgloveLines) &&
          write(folder / "published_messages/run", published_messages());

@@ -61,8 +61,8 @@ class Bench:
     def vehicle(self, *options, port=0):
         return Simulation(self.swiftlet, "--world", "loop", *options, port=port)
 
-    def flight(self, port):
-        return Flight(self, port)
+    def flight(self, port, *options):
+        return Flight(self, port, *options)
 
 
 def run_case(cases, case, swiftletd, swiftlet):

@@ -153,6 +153,11 @@ SILENT_TEXTS = {
         listening on …; Ctrl-C ends
         …: open … in a browser; Ctrl-C ends
         the live map: open … in a browser
+        commands are taken on …
+        map saved: …
+        place … marked
+        a new map: this run ends
+        sent to …; the log of swiftletd says what became of it
         file: …: for --config of swiftlet map and swiftletd
         kind of building: …
         …: … samples in … s; … m forward and back, … m sideways, … turns
@@ -183,7 +188,8 @@ SILENT_TEXTS = {
         swiftlet record radio://0/80/2M/E7E7E7E7E7 -o flight.pcap
         swiftlet eval out/trajectory.tum truth.tum
         swiftlet calibrate flight.pcap
-        swiftlet convert flight.pcap flight.csv""",
+        swiftlet convert flight.pcap flight.csv
+        swiftlet tell mark-place kitchen""",
 }
 
 

@@ -45,6 +45,24 @@ TEST(RunOutputs, WritesTheTruthWhereItIsKnown) {
   EXPECT_EQ(lines_of(directory.path() / "ground_truth.tum").size(), 81U);
 }
 
+TEST(RunOutputs, MarkedPlacesStandWhereTheFinalMapHasThem) {
+  const TemporaryDirectory directory;
+  const FinishedRun run;
+  RunView view = run.view(true);
+  view.places = {{.stamp = run.truth[20].stamp, .name = "kitchen"},
+                 {.stamp = run.truth[13].stamp, .name = "door"},
+                 {.stamp = run.truth[13].stamp, .name = "threshold"}};
+  const auto written = write_run_outputs(directory.path(), view);
+  ASSERT_TRUE(written.ok());
+  EXPECT_THAT(written->files, testing::Contains("places.csv"));
+  const std::vector<std::string> lines = lines_of(directory.path() / "places.csv");
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0], "name,time_s,x_m,y_m,yaw_rad");
+  EXPECT_THAT(lines[1], testing::StartsWith("door,1600000001.423000,1.300000,"));
+  EXPECT_THAT(lines[2], testing::StartsWith("threshold,1600000001.423000,1.300000,"));
+  EXPECT_THAT(lines[3], testing::StartsWith("kitchen,"));
+}
+
 TEST(RunOutputs, TrajectoriesHaveOneLineASample) {
   const TemporaryDirectory directory;
   const FinishedRun run;

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/commands/command_listener.hpp"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "daemon/commands/command_message.hpp"
+#include "daemon/commands/tcpq_conversation.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr int kStopWaitMs = 100;  // the longest a stop goes unnoticed
+constexpr std::size_t kMostComplaints = 10;
+constexpr std::uint32_t kLoopbackNet = 127;
+
+class Connection {
+ public:
+  Connection(int socket, TcpqConversation conversation)
+      : socket_(socket), conversation_(std::move(conversation)) {}
+  Connection(Connection&& other) noexcept
+      : socket_(std::exchange(other.socket_, -1)), conversation_(std::move(other.conversation_)) {}
+  Connection& operator=(Connection&& other) noexcept {
+    std::swap(socket_, other.socket_);
+    std::swap(conversation_, other.conversation_);
+    return *this;
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection() {
+    if (socket_ >= 0) ::close(socket_);
+  }
+
+  [[nodiscard]] int socket() const { return socket_; }
+  /// False: it is over.
+  bool read() {
+    std::array<std::uint8_t, 4096> bytes{};
+    const ssize_t size = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    if (size < 0) return errno == EINTR || errno == EAGAIN;
+    if (size == 0 || !conversation_.receive(std::span(bytes).first(static_cast<std::size_t>(size))))
+      return false;
+    const std::vector<std::uint8_t> answer = conversation_.take_answer();
+    return answer.empty() || ::send(socket_, answer.data(), answer.size(), MSG_NOSIGNAL) > 0;
+  }
+
+ private:
+  int socket_;
+  TcpqConversation conversation_;
+};
+
+Error refused(std::string_view address, const std::string& why) {
+  return {ErrorCode::kInvalidInput, "commands on " + std::string(address) + ": " + why};
+}
+
+Result<sockaddr_in> loopback_address(std::string_view text) {
+  const Error no_address = refused(text, "no address; write 127.0.0.1:8450");
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return no_address;
+  std::uint16_t port = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, port);
+  if (error != std::errc() || rest != end) return no_address;
+  const std::string named(text.substr(0, colon));
+  const std::string host = named == "localhost" ? "127.0.0.1" : named;
+  sockaddr_in bound{};
+  bound.sin_family = AF_INET;
+  bound.sin_port = htons(port);
+  const bool is_address = inet_pton(AF_INET, host.c_str(), &bound.sin_addr) == 1;
+  if (!is_address || ntohl(bound.sin_addr.s_addr) >> 24U != kLoopbackNet)
+    return refused(text, "they are taken from this machine alone; write 127.0.0.1:8450");
+  return bound;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CommandListener>> CommandListener::open(std::string_view address,
+                                                               std::string channel) {
+  const Result<sockaddr_in> bound = loopback_address(address);
+  if (!bound) return bound.error();
+  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  if (socket >= 0 && ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
+      ::bind(socket, std::bit_cast<const sockaddr*>(&*bound), sizeof(sockaddr_in)) == 0 &&
+      ::listen(socket, kMaxConnections) == 0)
+    return std::unique_ptr<CommandListener>(new CommandListener(socket, std::move(channel)));
+  const std::string why = std::strerror(errno);
+  if (socket >= 0) ::close(socket);
+  return refused(address, why + "; name another port");
+}
+
+CommandListener::~CommandListener() {
+  stop();
+  ::close(socket_);
+}
+
+void CommandListener::start(Sink sink) {
+  sink_ = std::move(sink);
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    pthread_setname_np(pthread_self(), "commands");
+    run(stop);
+  });
+}
+
+void CommandListener::stop() {
+  if (thread_.joinable()) thread_ = {};
+}
+
+std::string CommandListener::url() const {
+  sockaddr_in bound{};
+  socklen_t size = sizeof bound;
+  ::getsockname(socket_, std::bit_cast<sockaddr*>(&bound), &size);
+  std::array<char, INET_ADDRSTRLEN> host{};
+  ::inet_ntop(AF_INET, &bound.sin_addr, host.data(), host.size());
+  return "tcpq://" + std::string(host.data()) + ":" + std::to_string(ntohs(bound.sin_port));
+}
+
+void CommandListener::run(const std::stop_token& stop) {
+  std::vector<Connection> connections;
+  while (!stop.stop_requested()) {
+    const bool has_room = connections.size() < kMaxConnections;
+    std::vector<pollfd> waits{{.fd = has_room ? socket_ : -1, .events = POLLIN, .revents = 0}};
+    for (const Connection& connection : connections)
+      waits.push_back({.fd = connection.socket(), .events = POLLIN, .revents = 0});
+    if (::poll(waits.data(), waits.size(), kStopWaitMs) <= 0) continue;
+    for (std::size_t i = connections.size(); i-- > 0;)
+      if (waits[i + 1].revents != 0 && !connections[i].read())
+        connections.erase(connections.begin() + static_cast<std::ptrdiff_t>(i));
+    if (waits.front().revents == 0) continue;
+    const int accepted = ::accept4(socket_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (accepted < 0) continue;
+    connections.emplace_back(
+        accepted,
+        TcpqConversation(channel_, [this](std::span<const std::uint8_t> message) { on_message(message); }));
+  }
+}
+
+void CommandListener::on_message(std::span<const std::uint8_t> message) {
+  const Result<Command> command = read_command(message);
+  if (!command) return complain("a command was not understood: " + command.error().message);
+  if (!sink_(*command)) complain("a command was refused: too many came before it");
+}
+
+void CommandListener::complain(const std::string& why) {
+  if (++complaints_ <= kMostComplaints) spdlog::warn("{}", why);
+}
+
+}  // namespace swiftlet

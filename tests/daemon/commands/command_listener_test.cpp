@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/commands/command_listener.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+
+#include "daemon/publish/lcm_transport.hpp"
+#include "tests/daemon/commands/encoded_command.hpp"
+
+namespace swiftlet {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(CommandListener, HearsWhatLcmPublishes) {
+  const auto listener = CommandListener::open("127.0.0.1:0", "T_COMMAND");
+  ASSERT_TRUE(listener) << listener.error().message;
+  std::promise<std::string> heard;
+  (*listener)->start([&heard](const Command& command) {
+    heard.set_value(std::string(command.name_text()));
+    return true;
+  });
+  const auto lcm = LcmTransport::open((*listener)->url());
+  ASSERT_TRUE(lcm) << lcm.error().message;
+  EXPECT_TRUE((*lcm)->publish("T_COMMAND", encoded_command(9)));
+  EXPECT_TRUE((*lcm)->publish("T_COMMAND", encoded_command(command_t::ACTION_MARK_PLACE, "kitchen")));
+  std::future<std::string> name = heard.get_future();
+  ASSERT_EQ(name.wait_for(std::chrono::seconds(30)), std::future_status::ready);
+  EXPECT_EQ(name.get(), "kitchen");
+  (*listener)->stop();
+}
+
+TEST(CommandListener, ListensWithinThisMachineOnly) {
+  for (const char* address : {"0.0.0.0:8450", "192.0.2.1:8450", "[::1]:8450", "example:8450"})
+    EXPECT_THAT(CommandListener::open(address, "T").error().message, HasSubstr("from this machine alone"))
+        << address;
+  EXPECT_THAT(CommandListener::open("127.0.0.1:x", "T").error().message, HasSubstr("no address"));
+}
+
+TEST(CommandListener, SaysWhenAnotherProgramHasThePort) {
+  const auto first = CommandListener::open("127.0.0.1:0", "T");
+  ASSERT_TRUE(first);
+  const std::string address = (*first)->url().substr(std::string("tcpq://").size());
+  EXPECT_THAT(CommandListener::open(address, "T").error().message, HasSubstr("name another port"));
+}
+
+}  // namespace
+}  // namespace swiftlet
