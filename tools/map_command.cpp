@@ -57,7 +57,8 @@ Status run_map_command(const MapCommand& command) {
   const Result<std::unique_ptr<MappedRun>> run =
       map_with_progress_bar(command, std::move(prepared).value(), output->path());
   if (!run) return run.error();
-  const RunView view = (*run)->view();
+  RunView view = (*run)->view();
+  view.has_plan = command.plan;
   const Result<WrittenOutputs> written = write_run_outputs(output->path(), view);
   if (!written) return written.error();
   print_summary(*output, *written, view);

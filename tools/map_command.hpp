@@ -19,6 +19,7 @@ struct MapCommand {
   bool calibrate = true;       ///< estimate age of the ranges and scales of the odometry first
   bool odometry_only = false;  ///< baseline: dead reckoning, nothing corrected
   bool frontend_only = false;  ///< baseline: walls, but no loop closures
+  bool plan = false;           ///< also a picture of the walls alone
 };
 
 /// Takes the whole input through the pipeline at full speed in this thread and writes the outputs. A summary

@@ -75,6 +75,7 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
       map->add_flag("--odometry-only", command.odometry_only, "Correct nothing: a baseline");
   map->add_flag("--frontend-only", command.frontend_only, "Walls but no loop closures: a baseline")
       ->excludes(odometry);
+  map->add_flag("--plan", command.plan, "Also draw the walls alone: plan.png");
   map->footer(worlds_text());
   return map;
 }

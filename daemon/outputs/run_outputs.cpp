@@ -23,6 +23,7 @@ namespace {
 
 constexpr const char* kTruth = "ground_truth.tum";
 constexpr const char* kPlaces = "places.csv";
+constexpr const char* kPlan = "plan.png";
 constexpr const char* kReport = "report.json";
 constexpr int kThumbnailPx = 256;
 
@@ -33,7 +34,11 @@ Status write_picture(const std::filesystem::path& path, const RgbImage& picture)
 }
 
 Status write_pictures(const std::filesystem::path& directory, const RunView& run) {
-  const RgbImage picture = draw_map(make_map_scene(run.backend, run.map));
+  MapScene scene = make_map_scene(run.backend, run.map);
+  scene.title = std::filesystem::path(run.input_uri).filename().string();
+  if (run.has_plan)
+    if (Status written = write_picture(directory / kPlan, draw_plan(scene)); !written) return written;
+  const RgbImage picture = draw_map(scene);
   if (Status written = write_picture(directory / "map.png", picture); !written) return written;
   return write_picture(directory / "thumbnail.png", thumbnail_of(picture, kThumbnailPx));
 }
@@ -130,6 +135,7 @@ std::vector<std::string> output_names(const RunView& run) {
   std::vector<std::string> names{"trajectory.tum", "odometry.tum", "live.tum"};
   if (!run.truth.empty()) names.emplace_back(kTruth);
   if (!run.places.empty()) names.emplace_back(kPlaces);
+  if (run.has_plan) names.emplace_back(kPlan);
   names.insert(names.end(), {"map.pgm", "map.yaml", "map.png", "thumbnail.png", kReport});
   return names;
 }

@@ -51,6 +51,7 @@ struct RunView {
   std::optional<KnownPlaceError> known_places{};  ///< of the poses published, where somebody kept them
   std::optional<RunConsistency> consistency{};    ///< likewise
   std::vector<MarkedPlace> places{};
+  bool has_plan = false;        ///< a picture of the walls alone is wanted, too
   double peak_memory_mb = 0.0;  ///< of the program up to the end of the run, before anything was written
 };
 
@@ -73,7 +74,7 @@ struct RunError {
 [[nodiscard]] Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map);
 
 /// The names of the files that write_run_outputs() writes of this run, in that order: trajectories (the true
-/// one where it is known), marked places if there are any, map, pictures, at
+/// one where it is known), marked places if there are any, map, pictures (plan.png where it is wanted), at
 /// last report.json, which lists them.
 [[nodiscard]] std::vector<std::string> output_names(const RunView& run);
 

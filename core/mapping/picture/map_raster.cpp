@@ -62,6 +62,11 @@ void draw_path(RgbImage& image, const MapScene& scene, const MapView& view) {
   }
 }
 
+void draw_walls(RgbImage& image, const MapScene& scene, const MapView& view) {
+  for (const MapSegment& wall : scene.walls)
+    draw_line(image, view.pixel(wall.start_map), view.pixel(wall.end_map), map_style::kWall);
+}
+
 void draw_closures(RgbImage& image, const MapScene& scene, const MapView& view) {
   for (const MapSegment& closure : scene.closures)
     draw_line(image, view.pixel(closure.start_map), view.pixel(closure.end_map), map_style::kClosure);
@@ -92,17 +97,33 @@ void draw_marks(RgbImage& image, const PixelPoint& start, const PixelPoint& end)
 
 RgbImage draw_map(const MapScene& scene) {
   const MapView view(scene);
-  RgbImage image(view.width_px(), view.height_px() + kLegendHeightPx, map_style::kUnknown);
+  RgbImage image(view.width_px(), view.height_px() + kLegendHeightPx + kTitleHeightPx, map_style::kUnknown);
   draw_grid(image, scene, view);
   draw_odometry(image, scene, view);
-  for (const MapSegment& wall : scene.walls)
-    draw_line(image, view.pixel(wall.start_map), view.pixel(wall.end_map), map_style::kWall);
+  draw_walls(image, scene, view);
   draw_closures(image, scene, view);
   draw_path(image, scene, view);
   if (!scene.scans.empty())
     draw_marks(image, view.pixel(scene.scans.front().corrected_map),
                view.pixel(scene.scans.back().corrected_map));
+  draw_axes(image, view);
+  const bool cuts_odometry =
+      !std::all_of(scene.scans.begin(), scene.scans.end(),
+                   [&](const ScenePoint& scan) { return view.shows(scan.odometry_map); });
   draw_legend(image, view.height_px(), view.px_per_m(), scene);
+  draw_title(image, view.height_px() + kLegendHeightPx, scene, cuts_odometry);
+  return image;
+}
+
+RgbImage draw_plan(const MapScene& scene) {
+  const MapView view(scene);
+  RgbImage image(view.width_px(), view.height_px() + kLegendHeightPx + kTitleHeightPx, map_style::kPaper);
+  draw_walls(image, scene, view);
+  draw_axes(image, view);
+  MapScene key;
+  key.walls = scene.walls;
+  draw_legend(image, view.height_px(), view.px_per_m(), key);
+  draw_title(image, view.height_px() + kLegendHeightPx, scene, false);
   return image;
 }
 

@@ -49,6 +49,14 @@ void add_walls(MapScene& scene, const Backend& backend, const WallSupportTuning&
 
 }  // namespace
 
+double path_length_m(const MapScene& scene) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < scene.scans.size(); ++i)
+    if (!scene.scans[i].starts_segment)
+      length_m += distance_m(scene.scans[i - 1].corrected_map, scene.scans[i].corrected_map);
+  return length_m;
+}
+
 MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
   MapScene scene;
   scene.resolution_m = map.config().resolution_m;
@@ -65,6 +73,7 @@ MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
     if (starts_segment) T_map_odom = T_map_body * scan.T_odom_body.inverse();
     scene.scans.push_back({T_map_body.position(), T_map_odom * scan.T_odom_body.position(), starts_segment});
   }
+  if (scans.size() > 0) scene.began = scans.all().values().front().stamp;
   if (scans.size() > 0)
     scene.duration = scans.all().values().back().stamp - scans.all().values().front().stamp;
   add_walls(scene, backend, map.config().tuning.walls);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/base/time.hpp"
@@ -33,10 +34,15 @@ struct MapScene {
   std::vector<MapSegment> walls;     ///< as far as the grid bears them out
   std::vector<MapSegment> closures;  ///< accepted, from keyframe to keyframe
   std::vector<MapSegment> dropped_closures;
+  std::string title;     ///< of the run; empty: it has none
+  HostTime began{};      ///< stamp of the first scan
   Duration duration{0};  ///< from the first scan to the last
 };
 
-/// The present state of a run. Allocates.
+/// Metres along the corrected path, without breaks.
+[[nodiscard]] double path_length_m(const MapScene& scene);
+
+/// The present state of a run, without a title. Allocates.
 [[nodiscard]] MapScene make_map_scene(const Backend& backend, const MapBuilder& map);
 
 }  // namespace swiftlet

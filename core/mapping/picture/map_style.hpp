@@ -12,7 +12,7 @@ inline constexpr Colour kUnknown{226, 229, 233};
 inline constexpr Colour kInk{44, 50, 58};
 inline constexpr Pen kOdometry{{150, 157, 166}, 1.3, 0.85};
 inline constexpr Pen kWall{{23, 62, 108}, 2.0, 0.8};
-inline constexpr Pen kClosure{{22, 150, 80}, 1.1, 0.6};
+inline constexpr Pen kClosure{{22, 150, 80}, 1.1, 0.35};
 inline constexpr Pen kDropped{{205, 52, 52}, 1.3, 0.8};
 inline constexpr double kPathWidthPx = 2.6;
 inline constexpr double kStartRadiusPx = 9.0;

@@ -77,6 +77,11 @@ MapView::MapView(const MapScene& scene) : resolution_m_(scene.resolution_m) {
   height_px_ = ((high.y - first_.y) / cells_in_px_ + 1) * px_in_cell_;
 }
 
+bool MapView::shows(const Point2& p_map) const {
+  const PixelPoint at = pixel(p_map);
+  return at.x >= 0.0 && at.y >= 0.0 && at.x <= width_px_ && at.y <= height_px_;
+}
+
 PixelPoint MapView::pixel(const Point2& p_map) const {
   return {(p_map.x_m / resolution_m_ - first_.x) * px_per_cell_,
           height_px_ - (p_map.y_m / resolution_m_ - first_.y) * px_per_cell_};

@@ -24,6 +24,7 @@ class MapView {
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
   [[nodiscard]] double px_per_m() const { return px_per_cell_ / resolution_m_; }
+  [[nodiscard]] bool shows(const Point2& p_map) const;
   [[nodiscard]] PixelPoint pixel(const Point2& p_map) const;
   /// The pixels of a cell; where a pixel holds several cells, that pixel.
   [[nodiscard]] PixelRectangle cell_rectangle(CellIndex cell) const;

@@ -50,6 +50,33 @@ TEST(MapLegend, FitsOnANarrowPicture) {
   EXPECT_EQ(count_of(image, map_style::kUnknown), 0);
 }
 
+TEST(MapLegend, TheTitleNamesRunDateAndLength) {
+  MapScene scene;
+  scene.title = "olsson.pcap";
+  EXPECT_EQ(title_text(scene), "olsson.pcap");
+  scene.began = HostTime(std::chrono::seconds(1'600'000'000));
+  scene.duration = std::chrono::seconds(83);
+  scene.scans = {{{0.0, 0.0}, {}, true}, {{3.0, 4.0}, {}, false}, {{50.0, 4.0}, {}, true}};
+  EXPECT_EQ(title_text(scene), "olsson.pcap   2020-09-13 12:26 utc, 1:23 min, 5 m");
+  scene.title.clear();
+  EXPECT_EQ(title_text(scene), "2020-09-13 12:26 utc, 1:23 min, 5 m");
+}
+
+TEST(MapLegend, AxesStandAtTheMetresThatTheySay) {
+  MapScene scene;
+  scene.scans = {{{-3.0, -1.0}, {-3.0, -1.0}, true}, {{7.0, 4.0}, {7.0, 4.0}, true}};
+  const MapView view(scene);
+  RgbImage image(view.width_px(), view.height_px(), map_style::kPaper);
+  draw_axes(image, view);
+  const auto is_inked = [&](const PixelPoint& at, int x, int y) {
+    return image.at(static_cast<int>(at.x) + x, static_cast<int>(at.y) + y).red < 200;
+  };
+  const int last_row = view.height_px() - 2;
+  EXPECT_TRUE(is_inked({view.pixel({0.0, 0.0}).x, 0.0}, 0, last_row));
+  EXPECT_TRUE(is_inked({0.0, view.pixel({0.0, 0.0}).y}, 2, 0));
+  EXPECT_FALSE(is_inked({view.pixel({0.37, 0.0}).x, 0.0}, 0, 5));
+}
+
 TEST(MapLegend, ExplainsOnlyWhatIsThere) {
   RgbImage bare(1500, kLegendHeightPx, map_style::kUnknown);
   RgbImage full(1500, kLegendHeightPx, map_style::kUnknown);

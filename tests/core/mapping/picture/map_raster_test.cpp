@@ -38,7 +38,7 @@ TEST(MapRaster, ShowsFreeWallAndUnknownApart) {
   EXPECT_EQ(colour_at(scene, image, {1.52, 2.52}), map_style::kPaper);
   EXPECT_EQ(colour_at(scene, image, {1.52, 3.17}), map_style::kInk);
   EXPECT_EQ(colour_at(scene, image, {1.52, 3.42}), map_style::kUnknown);
-  EXPECT_EQ(image.height(), MapView(scene).height_px() + kLegendHeightPx);
+  EXPECT_EQ(image.height(), MapView(scene).height_px() + kLegendHeightPx + kTitleHeightPx);
 }
 
 TEST(MapRaster, ColoursThePathByTime) {
@@ -72,7 +72,7 @@ TEST(MapRaster, DrawsClosuresAndWalls) {
 
 TEST(MapRaster, KeepsThinWallsVisibleAtSmallScales) {
   MapScene scene = small_scene();
-  scene.scans = {{{400.0, 300.0}, {400.0, 300.0}, true}, {{-400.0, 300.0}, {-400.0, 300.0}, true}};
+  scene.scans = {{{400.0, 300.0}, {400.0, 300.0}, true}, {{-400.0, -300.0}, {-400.0, -300.0}, true}};
   const RgbImage image = draw_map(scene);
   EXPECT_EQ(colour_at(scene, image, {1.52, 3.17}), map_style::kInk);
 }
@@ -81,6 +81,34 @@ TEST(MapRaster, GivesTheSamePictureForTheSameScene) {
   const RgbImage a = draw_map(small_scene());
   const RgbImage b = draw_map(small_scene());
   EXPECT_TRUE(std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(), b.pixels().end()));
+}
+
+TEST(MapRaster, APlanHasTheWallsAlone) {
+  MapScene scene = small_scene();
+  scene.closures.push_back({{0.5, 2.0}, {2.5, 2.0}});
+  scene.walls.push_back({{0.5, 0.3}, {2.5, 0.3}});
+  const RgbImage plan = draw_plan(scene);
+  EXPECT_GT(colour_at(scene, plan, {1.5, 0.3}).blue, colour_at(scene, plan, {1.5, 0.3}).red + 50);
+  EXPECT_EQ(colour_at(scene, plan, {1.5, 2.0}), map_style::kPaper);
+  EXPECT_EQ(colour_at(scene, plan, {1.5, 1.0}), map_style::kPaper);
+  EXPECT_EQ(colour_at(scene, plan, {1.52, 3.17}), map_style::kPaper);
+  EXPECT_EQ(plan.width(), draw_map(scene).width());
+  EXPECT_EQ(plan.height(), draw_map(scene).height());
+}
+
+TEST(MapRaster, SaysWhereOdometryIsCutOff) {
+  const MapScene whole = small_scene();
+  MapScene strays = small_scene();
+  strays.scans.back().odometry_map = {50.0, 1.0};
+  EXPECT_TRUE(MapView(whole).shows(whole.scans.back().odometry_map));
+  EXPECT_FALSE(MapView(strays).shows(strays.scans.back().odometry_map));
+  const RgbImage cut = draw_map(strays);
+  const int title_px = MapView(strays).height_px() + kLegendHeightPx;
+  for (const bool cuts_odometry : {true, false}) {
+    RgbImage again = cut;
+    draw_title(again, title_px, strays, cuts_odometry);
+    EXPECT_EQ(std::equal(cut.pixels().begin(), cut.pixels().end(), again.pixels().begin()), cuts_odometry);
+  }
 }
 
 TEST(MapRaster, DrawsARunOfNothing) {
