@@ -16,6 +16,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 INSIDE = "--inside"
 NETWORK = ["unshare", "--user", "--map-root-user", "--net", "--", "sh", "-c",
@@ -24,9 +25,16 @@ LCM_URL = "udpm://239.255.76.67:7667?ttl=0"
 FLIGHT = "sim://loop?seed=1"
 PATIENCE_S = 60
 SKIPPED = 77
+MEASURE_LINES = 7  # width and height, their ends, the scale bar
 DRIVER = "/usr/bin/chromedriver"
 PGM_OF_PAGE = """const done = arguments[0];
 swiftletPage.save.file('PGM').then((file) => file.arrayBuffer()).then((bytes) => done([...new Uint8Array(bytes)]));"""
+# Of PNG, SVG, the SVG of walls alone, and PDF.
+SAVED_FILES = """const done = arguments[0], save = swiftletPage.save, bytes = async (format, content) => {
+  save.content.value = content;
+  return [...new Uint8Array(await (await save.file(format)).arrayBuffer())];
+};
+(async () => done([await bytes('PNG', 'all'), await bytes('SVG', 'all'), await bytes('SVG', 'plan'), await bytes('PDF', 'all')]))();"""
 # Of the cells that are surely occupied or free: the share whose pixel on the canvas is dark or light accordingly.
 PICTURE_AGREES = """const page = swiftletPage, [good, all] = [[], []];
 for (const name of Object.keys(page.layers)) page.layers[name] = name === 'map';
@@ -264,6 +272,21 @@ class PageTest(unittest.TestCase):
             daemon.terminate()
             daemon.communicate(timeout=PATIENCE_S)
         self.wait_until("document.getElementById('notice').textContent.startsWith('swiftletd has ended')")
+
+    def test_9_sheets_have_measures_and_a_plan_has_walls_alone(self):
+        self.open_finished()
+        walls = self.js("swiftletPage.model.walls.length")
+        png, svg, plan, pdf = map(bytes, self.browser.execute_async_script(SAVED_FILES))
+        self.assertTrue(png.startswith(b"\x89PNG"))
+        self.assertTrue(pdf.startswith(b"%PDF-") and pdf.rstrip().endswith(b"%%EOF"))
+        svg, plan = (ElementTree.fromstring(text) for text in (svg, plan))
+        count = lambda sheet, name: len(sheet.findall("{http://www.w3.org/2000/svg}" + name))  # noqa: E731
+        self.assertEqual((count(svg, "image"), count(plan, "image")), (1, 0))
+        self.assertGreater(count(svg, "polyline"), count(plan, "polyline"))
+        self.assertEqual(count(plan, "polyline"), walls + MEASURE_LINES)
+        texts = [text.text for text in plan.iter("{http://www.w3.org/2000/svg}text")]
+        self.assertEqual(len([text for text in texts if re.fullmatch(r"\d+\.\d\d m", text)]), 2)
+        self.assertTrue(any(re.search(r"UTC, .* flown, 1:\d+ on A3", text) for text in texts), texts)
 
 
 def skip(why):
