@@ -3,6 +3,7 @@
 #include "daemon/commands/command_message.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,14 @@
 #include "swiftlet/command_t.hpp"
 
 namespace swiftlet {
+
+/// LCM's own code takes a negative length of the name for 2 GB.
+template <>
+bool can_hold_its_counts<command_t>(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kNameAt = 9;
+  return ClaimedCounts(bytes, kNameAt).next().has_value();
+}
+
 namespace {
 
 Error unusable(const std::string& why) { return {ErrorCode::kInvalidInput, why}; }

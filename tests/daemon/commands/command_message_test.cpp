@@ -45,6 +45,8 @@ TEST(CommandMessage, WhatIsNoCommandIsRefused) {
   auto claims_more = encoded_command(command_t::ACTION_MARK_PLACE, "kitchen");
   claims_more[9] = 0x7F;  // the highest byte of the length of the name
   EXPECT_FALSE(read_command(claims_more));
+  claims_more[9] = 0x80;  // less than nothing
+  EXPECT_FALSE(read_command(claims_more));
 }
 
 }  // namespace
