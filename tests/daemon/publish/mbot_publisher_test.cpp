@@ -17,8 +17,8 @@
 namespace swiftlet {
 namespace {
 
-const HostTime kNow{std::chrono::seconds(1'700'000'001)};
-constexpr std::int64_t kNowUtime = 1'700'000'001'000'000;
+const HostTime kMbotTime{std::chrono::seconds(1'700'000'001)};
+constexpr std::int64_t kMbotUtime = 1'700'000'001'000'000;
 
 /// The newest message of each channel.
 class MbotPublisherTest : public testing::Test {
@@ -35,7 +35,7 @@ class MbotPublisherTest : public testing::Test {
   void publish_tile(TileIndex index, std::int8_t percent) {
     MapTile tile{.index = index, .version = 1};
     tile.occupancy_percent.fill(percent);
-    publisher_->publish_tile(kNow, tile, 0.05);
+    publisher_->publish_tile(kMbotTime, tile, 0.05);
   }
 
   std::map<std::string, std::vector<std::uint8_t>> messages_;
@@ -49,9 +49,9 @@ class MbotPublisherTest : public testing::Test {
 
 TEST_F(MbotPublisherTest, SaysWhereTheVehicleIs) {
   publisher_->publish_pose(
-      {.stamp = kNow, .T_map_body = Pose2(1.0, 2.0, 0.5), .T_odom_body = Pose2(-1.0, -2.0, -0.5)});
+      {.stamp = kMbotTime, .T_map_body = Pose2(1.0, 2.0, 0.5), .T_odom_body = Pose2(-1.0, -2.0, -0.5)});
   const auto pose = received<pose2d_t>("SLAM_POSE");
-  EXPECT_EQ(pose.utime, kNowUtime);
+  EXPECT_EQ(pose.utime, kMbotUtime);
   EXPECT_EQ(pose.x, 1.0F);
   EXPECT_EQ(pose.y, 2.0F);
   EXPECT_EQ(pose.theta, 0.5F);
@@ -62,13 +62,13 @@ TEST_F(MbotPublisherTest, ABeamWithoutAReturnHasNoRange) {
   BeamReadings beams = BeamReadings::of({3, {0.0, 0.5, -0.5}}, SensorModel::crazyflie());
   beams.distance_m = {1.5F, 3.0F, 1.0F};
   beams.status = {RangeStatus::kHit, RangeStatus::kNoReturn, RangeStatus::kInvalid};
-  publisher_->publish_pose({.stamp = kNow, .beams = beams});
+  publisher_->publish_pose({.stamp = kMbotTime, .beams = beams});
   const auto lidar = received<mbot_lidar_t>("LIDAR");
-  EXPECT_EQ(lidar.utime, kNowUtime);
+  EXPECT_EQ(lidar.utime, kMbotUtime);
   EXPECT_EQ(lidar.num_ranges, 3);
   EXPECT_THAT(lidar.ranges, testing::ElementsAre(1.5F, 0.0F, 0.0F));
   EXPECT_THAT(lidar.thetas, testing::ElementsAre(0.0F, 0.5F, testing::FloatNear(5.783F, 0.001F)));
-  EXPECT_THAT(lidar.times, testing::Each(kNowUtime));
+  EXPECT_THAT(lidar.times, testing::Each(kMbotUtime));
   EXPECT_EQ(lidar.intensities.size(), 3U);
 }
 
@@ -77,10 +77,11 @@ TEST_F(MbotPublisherTest, TheGridHoldsTheTilesInTheirPlaces) {
   MapTile tile{.index = {0, 3}, .version = 1};
   tile.occupancy_percent.fill(-1);
   tile.occupancy_percent[2 * kTileCells + 5] = 2;
-  publisher_->publish_tile(kNow, tile, 0.05);
-  publisher_->publish_map(kNow, {.resolution_m = 0.05, .tiles = 2, .lowest = {-1, 2}, .highest = {0, 3}});
+  publisher_->publish_tile(kMbotTime, tile, 0.05);
+  publisher_->publish_map(kMbotTime,
+                          {.resolution_m = 0.05, .tiles = 2, .lowest = {-1, 2}, .highest = {0, 3}});
   const auto grid = received<mbot_occupancy_grid_t>("SLAM_MAP");
-  EXPECT_EQ(grid.utime, kNowUtime);
+  EXPECT_EQ(grid.utime, kMbotUtime);
   EXPECT_FLOAT_EQ(grid.origin_x, -3.2F);
   EXPECT_FLOAT_EQ(grid.origin_y, 6.4F);
   EXPECT_FLOAT_EQ(grid.meters_per_cell, 0.05F);
@@ -97,7 +98,7 @@ TEST_F(MbotPublisherTest, WhatWasErasedIsUnknownAgain) {
   publish_tile({0, 0}, 98);
   publish_tile({1, 0}, 98);
   publish_tile({1, 0}, -1);
-  publisher_->publish_map(kNow, {.resolution_m = 0.05, .tiles = 2});
+  publisher_->publish_map(kMbotTime, {.resolution_m = 0.05, .tiles = 2});
   EXPECT_EQ(received<mbot_occupancy_grid_t>("SLAM_MAP").num_cells, 64 * 64);
 }
 
@@ -106,8 +107,8 @@ TEST_F(MbotPublisherTest, AMapTooLargeForOneMessageIsMadeCoarser) {
   MapTile wall{.index = {9, 0}, .version = 1};
   wall.occupancy_percent.fill(2);
   wall.occupancy_percent[0] = 98;
-  publisher_->publish_tile(kNow, wall, 0.05);
-  publisher_->publish_map(kNow, {.resolution_m = 0.05, .tiles = 2, .lowest = {0, 0}, .highest = {9, 9}});
+  publisher_->publish_tile(kMbotTime, wall, 0.05);
+  publisher_->publish_map(kMbotTime, {.resolution_m = 0.05, .tiles = 2, .lowest = {0, 0}, .highest = {9, 9}});
   const auto grid = received<mbot_occupancy_grid_t>("SLAM_MAP");
   EXPECT_EQ(grid.width, 320);
   EXPECT_LE(static_cast<std::size_t>(grid.num_cells), kMaxMbotCells);

@@ -26,7 +26,7 @@ std::vector<RangeSample> samples_of(SampleSource& source) {
   }
 }
 
-const std::string kHead =
+const std::string kFlightHead =
     "# block,host_time_s,device_ms,... block 1: x_m,y_m | block 2: qw,qx,qy,qz,front_m\n";
 /// At 0.1 s apart: position (0.1, 0.2) and (0.3, 0.2), yaw 0, ranges in between.
 const std::string kFlight =
@@ -38,7 +38,7 @@ const std::string kFlight =
     "2,1600000000.200001,15200,1,0,0,0,1.25,32.766,0,0.75,2\n";
 
 TEST(FlightTableSource, ReadsTheBlocksOfAFlight) {
-  const TemporaryFile file("a.csv", kHead + kFlight);
+  const TemporaryFile file("a.csv", kFlightHead + kFlight);
   const auto source = open_sample_source(file.path(), {});
   ASSERT_TRUE(source.ok()) << source.error().message;
   const std::vector<RangeSample> samples = samples_of(**source);
@@ -51,7 +51,7 @@ TEST(FlightTableSource, ReadsTheBlocksOfAFlight) {
 }
 
 TEST(FlightTableSource, RangesGoToTheBeamsThatMeasuredThem) {
-  const TemporaryFile file("a.csv", kHead + kFlight);
+  const TemporaryFile file("a.csv", kFlightHead + kFlight);
   SampleSourceOptions options;
   options.range_age = Duration::zero();
   const auto source = open_sample_source(file.path(), options);
@@ -70,7 +70,7 @@ TEST(FlightTableSource, IsUsedUpToARowThatCannotBe) {
   for (const std::string& row :
        {std::string("3,1600000000.3,15300,1\n"), std::string("2,1600000000.3,15300,1,0,0\n"),
         std::string("1,1600000000.3,x,0,0\n"), std::string("\n")}) {
-    const TemporaryFile file("a.csv", kHead + kFlight + row + kFlight);
+    const TemporaryFile file("a.csv", kFlightHead + kFlight + row + kFlight);
     const auto source = open_sample_source(file.path(), {});
     ASSERT_TRUE(source.ok());
     EXPECT_EQ(samples_of(**source).size(), 2U) << row;
