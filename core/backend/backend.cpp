@@ -241,7 +241,8 @@ BackendCounters Backend::counters() const {
           .refined = refinement.refined,
           .held_out_before_m = refinement.held_out_before_m,
           .held_out_after_m = refinement.held_out_after_m,
-          .map_source = refinement.map_source};
+          .map_source = refinement.map_source,
+          .misfit = refinement.misfit};
 }
 
 }  // namespace swiftlet

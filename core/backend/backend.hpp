@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/backend/confidence/pose_confidence.hpp"
@@ -45,6 +46,9 @@ struct BackendCounters {
   double held_out_before_m = 0.0;     ///< its criterion: distance of held-out returns from walls
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;  ///< what the final map follows
+  /// Minus the log likelihood of the final map but for a constant, comparable between runs of one input;
+  /// nothing where no final pass has refined it.
+  std::optional<double> misfit;
 };
 
 /// What one step did, for whoever publishes.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -184,6 +185,7 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
   counters_.held_out_after_m = best->report.held_out_after_m;
   counters_.refined = best->report.accepted;
   counters_.map_source = best->source;
+  counters_.misfit = std::accumulate(best->report.misfit.begin(), best->report.misfit.end(), 0.0);
   const bool has_moved = best->report.accepted || best->source != MapSource::kPoseGraph;
   if (has_moved) T_map_refined_ = scans_->all().with(std::move(best->T_map_body));
   return has_moved;

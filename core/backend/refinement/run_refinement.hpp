@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/backend/config/backend_config.hpp"
@@ -23,6 +24,7 @@ struct RefinementCounters {
   double held_out_before_m = 0.0;
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;
+  std::optional<double> misfit;  ///< of that map: RefinementReport's, of all traversals
 };
 
 /// The poses of all scans: between the graph's keyframes, refined window by window while the run goes on, and
