@@ -37,6 +37,12 @@ Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp, const
   return {p.x_m, p.y_m, T_mended.yaw_rad()};
 }
 
+double prior_cost(std::span<const MendedPositions> mended, const LostSignTuning& tuning) {
+  const auto begins = static_cast<double>((mended.size() + 1) / 2);
+  const auto ends = static_cast<double>(mended.size() / 2);
+  return begins * tuning.begin_cost + ends * tuning.end_cost;
+}
+
 LostSign::LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning)
     : tuning_(tuning),
       variance2_m2_(2.0 * tuning.sigma_m * tuning.sigma_m),

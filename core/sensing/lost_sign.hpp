@@ -42,6 +42,13 @@ struct LostSignTuning {
   double min_evidence = 50.0;   ///< ... so that one or two are no evidence
   std::size_t max_paths = 8;    ///< hypotheses kept: three standstills within memory_m
   std::size_t look_ahead = 4096;  ///< samples: 7 minutes at 10 Hz, 1.6 MB
+
+  /// One clear stretch is enough: for who holds a map of the mended signs against one of those reported.
+  [[nodiscard]] static LostSignTuning for_a_trial() {
+    LostSignTuning tuning;
+    tuning.min_evidence = tuning.max_gain - tuning.stretch_doubt;
+    return tuning;
+  }
 };
 
 /// Positions of samples stamped `since` and later, up to the next record: mended = offset + sign * reported.
@@ -53,6 +60,9 @@ struct MendedPositions {
 /// The reverse: the pose as the odometry reported it. `mended` in order of time; empty where nothing was.
 [[nodiscard]] Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp,
                                 const Pose2& T_mended);
+/// What these changes of sign cost beforehand, nats: a map made with them has to explain that much more than
+/// one without.
+[[nodiscard]] double prior_cost(std::span<const MendedPositions> mended, const LostSignTuning& tuning = {});
 
 /// Mends odometry that reports every way as forward (wheel counters without a direction, firmware that takes
 /// the absolute value): decides from the ranges, with look-ahead, over which stretches each step (x, y, yaw)

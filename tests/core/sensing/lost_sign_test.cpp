@@ -210,6 +210,29 @@ TEST(LostSign, ChangesNothingAfterFewerThanThreeStretches) {
   EXPECT_TRUE(same_bytes(mend(reported).samples, reported));
 }
 
+TEST(LostSign, ForATrialOneClearStretchIsEnough) {
+  Drive drive(corridor_with_doors());
+  for (const double way_m : {4.2, -1.2, 2.5}) drive.go(way_m);
+  const Mending mending = mend(drive.with_lost_signs(), LostSignTuning::for_a_trial());
+  EXPECT_NEAR(mending.reversed_m, drive.reversed_m(), 0.2);
+  EXPECT_EQ(mending.mended.size(), 2U);
+
+  Drive forward(corridor_with_doors());
+  for (int i = 0; i < 22; ++i) forward.go(1.0);
+  EXPECT_TRUE(mend(forward.with_lost_signs(), LostSignTuning::for_a_trial()).mended.empty());
+}
+
+TEST(LostSign, EachChangeHasItsPrice) {
+  const LostSignTuning tuning{.begin_cost = 5.0, .end_cost = 2.0};
+  std::vector<MendedPositions> changes;
+  EXPECT_EQ(prior_cost(changes, tuning), 0.0);
+  changes.push_back({HostTime(milliseconds(1)), -1.0, {}});
+  EXPECT_EQ(prior_cost(changes, tuning), 5.0);
+  changes.push_back({HostTime(milliseconds(2)), 1.0, {}});
+  changes.push_back({HostTime(milliseconds(3)), -1.0, {}});
+  EXPECT_EQ(prior_cost(changes, tuning), 12.0);
+}
+
 TEST(LostSign, ABackwardStepShowsThatSignsAreReported) {
   Drive drive(corridor_with_doors());
   drive.to_and_fro();
