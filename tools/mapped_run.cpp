@@ -81,6 +81,7 @@ Status MappedRun::State::run(const MappingWatch& watch) {
 
 /// Before the outputs take their room.
 void MappedRun::State::conclude() {
+  report.notes.insert(report.notes.end(), prepared.notes.begin(), prepared.notes.end());
   if (prepared.calibration) report.notes.push_back(calibration_note(*prepared.calibration));
   peak_memory_mb = swiftlet::peak_memory_mb();
   truth = prepared.source->ground_truth();

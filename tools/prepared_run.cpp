@@ -3,7 +3,10 @@
 #include "tools/prepared_run.hpp"
 
 #include <utility>
+#include <vector>
 
+#include "core/sensing/lost_sign.hpp"
+#include "daemon/workers/pipeline.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
 #include "firmware_link/sample/sign_mending_source.hpp"
@@ -45,37 +48,102 @@ std::optional<InputCalibration> calibrate_first(SampleSource& source, Configurat
   return *calibration;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const Configuration& config) {
+Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const Configuration& config,
+                                                 LostSigns signs) {
   SampleSourceOptions options;
   options.beam_count = command.beams;
   options.max_range_m = config.sensor.max_range_m;
   options.min_range_m = config.sensor.min_range_m;
   options.range_age = range_age_of(config);
   Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
-  if (!source || command.odometry_only) return source;
-  return std::unique_ptr<SampleSource>(std::make_unique<SignMendingSource>(std::move(source).value()));
+  if (!source || signs == LostSigns::kAsReported) return source;
+  const LostSignTuning tuning =
+      signs == LostSigns::kMendedIfLikely ? LostSignTuning::for_a_trial() : LostSignTuning{};
+  return std::unique_ptr<SampleSource>(
+      std::make_unique<SignMendingSource>(std::move(source).value(), tuning));
+}
+
+/// From its beginning, with the settings that have been found since.
+Status reopen(const MapCommand& command, PreparedRun& run) {
+  if (std::unique_ptr<SampleSource> again = run.source->again(range_age_of(run.config))) {
+    run.source = std::move(again);
+    return {};
+  }
+  Result<std::unique_ptr<SampleSource>> opened = open_input(command, run);
+  if (!opened) return opened.error();
+  run.source = std::move(opened).value();
+  return {};
+}
+
+struct ReadRun {
+  PreparedRun run;
+  bool mends = false;  ///< as it was read for its calibration
+};
+
+Result<ReadRun> read_first(const MapCommand& command, const Configuration& config, LostSigns signs,
+                           const std::stop_token& stop) {
+  Result<std::unique_ptr<SampleSource>> opened = open_input(command, config, signs);
+  if (!opened) return opened.error();
+  ReadRun read{{config, std::move(opened).value(), {}, signs, {}}, false};
+  if (!command.calibrate || command.odometry_only) return read;
+  read.run.calibration = calibrate_first(*read.run.source, read.run.config, stop);
+  if (stop.stop_requested()) return stopped_error(command.input);
+  read.mends = !read.run.source->mended().empty();
+  if (Status again = reopen(command, read.run); !again) return again.error();
+  return read;
+}
+
+/// Of the final map; nothing where none was made. The input is at its end then. What damages it is reported
+/// when it is mapped for good.
+Result<std::optional<double>> misfit_of(const MapCommand& command, const PreparedRun& run,
+                                        const std::stop_token& stop) {
+  Pipeline pipeline(run.config, *run.source);
+  for (Result<bool> more = true; more && *more; more = pipeline.step())
+    if (stop.stop_requested()) return stopped_error(command.input);
+  return std::as_const(pipeline).backend().counters().misfit;
+}
+
+/// Mended signs are accepted where the map made with them explains the ranges better, by more than they cost
+/// beforehand.
+Result<PreparedRun> choose_signs(const MapCommand& command, PreparedRun mended, PreparedRun reported,
+                                 const std::stop_token& stop) {
+  const Result<std::optional<double>> with_mended = misfit_of(command, mended, stop);
+  if (!with_mended) return with_mended.error();
+  const Result<std::optional<double>> as_reported = misfit_of(command, reported, stop);
+  if (!as_reported) return as_reported.error();
+  const std::vector<MendedPositions> changes = mended.source->mended();
+  const double gain = as_reported->value_or(0.0) - with_mended->value_or(0.0);
+  const bool is_better = !changes.empty() && gain > prior_cost(changes);
+  PreparedRun chosen = std::move(is_better ? mended : reported);
+  if (!is_better)
+    chosen.notes.emplace_back(
+        "the odometry may report reverse driving as forward, but a map of that explains the ranges no "
+        "better; "
+        "it is taken as reported");
+  if (Status again = reopen(command, chosen); !again) return again.error();
+  return chosen;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const PreparedRun& run) {
+  return open_input(command, run.config, run.signs);
 }
 
 Result<PreparedRun> prepare_run(const MapCommand& command, const std::stop_token& stop) {
   if (Status finite = check_has_an_end(command.input); !finite) return finite.error();
-  Result<Configuration> config = configuration_for(command);
+  const Result<Configuration> config = configuration_for(command);
   if (!config) return config.error();
-  Result<std::unique_ptr<SampleSource>> opened = open_input(command, *config);
-  if (!opened) return opened.error();
-  PreparedRun run{std::move(config).value(), std::move(opened).value(), {}};
-  if (!command.calibrate || command.odometry_only) return run;
-  run.calibration = calibrate_first(*run.source, run.config, stop);
-  if (stop.stop_requested()) return stopped_error(command.input);
-  if (std::unique_ptr<SampleSource> again = run.source->again(range_age_of(run.config))) {
-    run.source = std::move(again);
-    return run;
-  }
-  opened = open_input(command, run.config);
-  if (!opened) return opened.error();
-  run.source = std::move(opened).value();
-  return run;
+  const bool is_judged = command.calibrate && config->backend.close_loops && config->backend.refine;
+  const LostSigns signs = command.odometry_only ? LostSigns::kAsReported
+                          : is_judged           ? LostSigns::kMendedIfLikely
+                                                : LostSigns::kMendedIfSure;
+  Result<ReadRun> read = read_first(command, *config, signs, stop);
+  if (!read) return read.error();
+  if (!is_judged || !read->mends) return std::move(read->run);
+  Result<ReadRun> as_reported = read_first(command, *config, LostSigns::kAsReported, stop);
+  if (!as_reported) return as_reported.error();
+  return choose_signs(command, std::move(read->run), std::move(as_reported->run), stop);
 }
 
 Status check_usable(const MapCommand& command, const InputReport& report, const Backend& backend) {

@@ -66,12 +66,12 @@ Result<StampedPath> true_path(const LiveEvalCommand& command, const SampleSource
 }
 
 /// The error of the newest pose when the run ends at the stamp.
-Result<std::optional<double>> error_of_batch(const MapCommand& map, const Configuration& config,
-                                             HostTime stamp, const StampedPath& truth) {
-  Result<std::unique_ptr<SampleSource>> whole = open_input(map, config);
+Result<std::optional<double>> error_of_batch(const MapCommand& map, const PreparedRun& run, HostTime stamp,
+                                             const StampedPath& truth) {
+  Result<std::unique_ptr<SampleSource>> whole = open_input(map, run);
   if (!whole) return whole.error();
   EarlyEnd source(std::move(whole).value(), stamp);
-  Pipeline pipeline(config, source);
+  Pipeline pipeline(run.config, source);
   if (Status ended = run_to_end(pipeline, nullptr); !ended) return ended.error();
   const KnownPlaceError error = newest_pose_error(pipeline.backend(), truth);
   return error.moments > 0 ? std::optional(error.rms_m) : std::nullopt;
@@ -95,7 +95,7 @@ class ErrorSum {
   double sum_m2_ = 0.0;
 };
 
-Result<BatchError> batch_error(const MapCommand& map, const Configuration& config, double every_s,
+Result<BatchError> batch_error(const MapCommand& map, const PreparedRun& run, double every_s,
                                std::span<const StampedError> live, const StampedPath& truth) {
   ErrorSum batch;
   ErrorSum published;
@@ -103,7 +103,7 @@ Result<BatchError> batch_error(const MapCommand& map, const Configuration& confi
   for (const StampedError& at : live) {
     if (last && to_seconds(at.stamp - *last) < every_s) continue;
     last = at.stamp;
-    const Result<std::optional<double>> error_m = error_of_batch(map, config, at.stamp, truth);
+    const Result<std::optional<double>> error_m = error_of_batch(map, run, at.stamp, truth);
     if (!error_m) return error_m.error();
     if (!*error_m) continue;
     batch.add(**error_m);
@@ -137,8 +137,7 @@ Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
                             count_alarms(observer.doubted_poses(), evaluation.live.errors)};
   evaluation.poses.assign(observer.doubted_poses().begin(), observer.doubted_poses().end());
   if (!command.batch_s) return evaluation;
-  Result<BatchError> batch =
-      batch_error(map, prepared->config, *command.batch_s, evaluation.live.errors, *truth);
+  Result<BatchError> batch = batch_error(map, *prepared, *command.batch_s, evaluation.live.errors, *truth);
   if (!batch) return batch.error();
   evaluation.batch = *batch;
   return evaluation;
