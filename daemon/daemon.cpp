@@ -49,7 +49,8 @@ Daemon::Daemon(const Configuration& config, SampleSource& source, Clock& clock, 
       publisher_worker_(config.publish, config.map.resolution_m, pipeline_.queues().to_publisher.inlet(),
                         {.queues = [this] { return pipeline_.queues().statistics(); },
                          .stages = [this] { return pipeline_.stage_times(); },
-                         .pose_latency = pipeline_.pose_latency()},
+                         .pose_latency = pipeline_.pose_latency(),
+                         .recording = [this] { return recording_(); }},
                         publisher, clock) {}
 
 Status Daemon::run(const std::stop_token& stop) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -29,12 +30,15 @@ class Daemon {
 
   /// As Pipeline::keep_pruned(). Before run().
   void keep_pruned(PrunedScans& pruned) { pipeline_.keep_pruned(pruned); }
-  /// As Pipeline::obey(). Before run().
-  void obey(CommandHandler handler) { pipeline_.obey(std::move(handler)); }
+  /// As Pipeline::execute_commands_by(). Before run().
+  void execute_commands_by(CommandHandler handler) { pipeline_.execute_commands_by(std::move(handler)); }
   /// As Pipeline::command(), also while run() does.
   [[nodiscard]] bool command(const Command& command) { return pipeline_.command(command); }
   /// Another run follows: the service manager is not told that the daemon stops. Any thread.
   void announce_next_run() { is_followed_ = true; }
+  /// What the status has of the run's recording: called in the publisher's thread while run() does. Before
+  /// run().
+  void report_recording(std::function<RecordingFigures()> recording) { recording_ = std::move(recording); }
   /// Readiness, progress and the end are reported to the service manager, if there is one. Before run(); must
   /// outlive the daemon.
   void report_to(const ServiceManager& manager) { service_.emplace(manager, clock_.now()); }
@@ -50,6 +54,7 @@ class Daemon {
   RealtimeConfig realtime_;
   Clock& clock_;
   Pipeline pipeline_;
+  std::function<RecordingFigures()> recording_ = [] { return RecordingFigures{}; };
   PublisherWorker publisher_worker_;
   std::optional<ServiceWatch> service_;
   std::atomic<bool> input_is_over_{false};

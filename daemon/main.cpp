@@ -339,6 +339,10 @@ Status run_recorded(Daemon& daemon, Recorder* recorder, const std::stop_token& s
   if (recorder != nullptr) {
     spdlog::info("recording to {}", recorder->path());
     thread.emplace(*recorder);
+    daemon.report_recording([recorder] {
+      return RecordingFigures{recorder->failed() ? RecordingState::kFailed : RecordingState::kRunning,
+                              recorder->bytes()};
+    });
   }
   return daemon.run(stop);
 }
@@ -414,9 +418,10 @@ RunEnd run_once(const Options& options, const Configuration& config, const std::
   std::stop_source over;
   const std::stop_callback at_signal(signalled, [&over] { over.request_stop(); });
   CommandExecutor executor = make_executor(run, daemon, over);
-  daemon.obey([&executor](const Command& command, const MapBuilder& map, std::optional<HostTime> newest) {
-    executor.execute(command, map, newest);
-  });
+  daemon.execute_commands_by(
+      [&executor](const Command& command, const MapBuilder& map, std::optional<HostTime> newest) {
+        executor.execute(command, map, newest);
+      });
   if (run.commands)
     run.commands->start([&daemon](const Command& command) { return daemon.command(command); });
   const Status outcome = run_recorded(daemon, run.recorder.get(), over.get_token());

@@ -26,7 +26,7 @@ namespace swiftlet {
 namespace {
 
 constexpr int kStopWaitMs = 100;  // the longest a stop goes unnoticed
-constexpr std::size_t kMostComplaints = 10;
+constexpr std::size_t kMaxWarnings = 10;
 constexpr std::uint32_t kLoopbackNet = 127;
 
 class Connection {
@@ -151,12 +151,12 @@ void CommandListener::run(const std::stop_token& stop) {
 
 void CommandListener::on_message(std::span<const std::uint8_t> message) {
   const Result<Command> command = read_command(message);
-  if (!command) return complain("a command was not understood: " + command.error().message);
-  if (!sink_(*command)) complain("a command was refused: too many came before it");
+  if (!command) return warn("a command was not understood: " + command.error().message);
+  if (!sink_(*command)) warn("a command was refused: too many came before it");
 }
 
-void CommandListener::complain(const std::string& why) {
-  if (++complaints_ <= kMostComplaints) spdlog::warn("{}", why);
+void CommandListener::warn(const std::string& why) {
+  if (++warnings_ <= kMaxWarnings) spdlog::warn("{}", why);
 }
 
 }  // namespace swiftlet

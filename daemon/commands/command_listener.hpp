@@ -45,12 +45,12 @@ class CommandListener {
   CommandListener(int socket, std::string channel) : socket_(socket), channel_(std::move(channel)) {}
   void run(const std::stop_token& stop);
   void on_message(std::span<const std::uint8_t> message);
-  void complain(const std::string& why);
+  void warn(const std::string& why);
 
   int socket_;
   std::string channel_;
   Sink sink_;
-  std::size_t complaints_ = 0;
+  std::size_t warnings_ = 0;
   std::jthread thread_;
 };
 

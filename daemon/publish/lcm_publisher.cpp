@@ -192,6 +192,18 @@ void fill_stages(std::span<const StageSummary> stages, status_t& message) {
   message.stage_count = i32(message.stages.size());
 }
 
+std::int8_t recording_code(RecordingState state) {
+  switch (state) {
+    case RecordingState::kNone:
+      return status_t::RECORDING_NONE;
+    case RecordingState::kRunning:
+      return status_t::RECORDING_RUNNING;
+    case RecordingState::kFailed:
+      break;
+  }
+  return status_t::RECORDING_FAILED;
+}
+
 std::int8_t state_code(DaemonState state) {
   switch (state) {
     case DaemonState::kRunning:
@@ -389,6 +401,8 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
   fill_queues(status.queues, message);
   fill_stages(status.stages, message);
   message.missed_deadlines = i64(status.missed_deadlines);
+  message.recording = recording_code(status.recording.state);
+  message.recorded_bytes = i64(status.recording.bytes);
   send(status_, message);
 }
 

@@ -39,6 +39,16 @@ struct LinkRates {
   double received_hz = 0.0;  ///< packets with content
 };
 
+enum class RecordingState : std::uint8_t {
+  kNone,     ///< the run is not recorded
+  kRunning,  ///< it is
+  kFailed,   ///< the recording has ended before its time
+};
+struct RecordingFigures {
+  RecordingState state = RecordingState::kNone;
+  std::uint64_t bytes = 0;  ///< of all its files so far
+};
+
 /// The content of a status message.
 struct DaemonStatus {
   DaemonState state = DaemonState::kRunning;
@@ -51,6 +61,7 @@ struct DaemonStatus {
   std::array<QueueStatistics, 7> queues;
   std::vector<StageSummary> stages;
   std::uint64_t missed_deadlines = 0;  ///< RunTiming::missed_deadlines
+  RecordingFigures recording;
   MapSummary map;
 };
 

@@ -101,6 +101,7 @@ void PublisherWorker::take_counters() {
   status_.queues = gauges_.queues();
   status_.stages = gauges_.stages();
   status_.missed_deadlines = gauges_.pose_latency.missed();
+  status_.recording = gauges_.recording();
 }
 
 std::size_t PublisherWorker::take_tiles() {

@@ -35,6 +35,7 @@ class PublisherWorker {
     std::function<std::array<QueueStatistics, 7>()> queues;
     std::function<std::vector<StageSummary>()> stages;
     PoseLatency& pose_latency;
+    std::function<RecordingFigures()> recording = [] { return RecordingFigures{}; };
   };
 
   /// References must outlive the worker.

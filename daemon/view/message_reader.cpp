@@ -72,7 +72,8 @@ bool is_sound(const status_t& status) {
   const std::array counts{status.samples,          status.gaps,
                           status.missing_packets,  status.segments,
                           status.keyframes,        status.closures_accepted,
-                          status.closures_dropped, status.missed_deadlines};
+                          status.closures_dropped, status.missed_deadlines,
+                          status.recorded_bytes};
   return std::all_of(counts.begin(), counts.end(), is_count) && std::isfinite(status.progress) &&
          std::isfinite(status.sample_rate) && std::isfinite(status.link.ack_rate) &&
          std::isfinite(status.link.round_trip_ms) && std::isfinite(status.link.battery_v);
@@ -103,6 +104,8 @@ RunStatus run_status(const status_t& message) {
           .rssi_dbm = message.link.rssi_dbm,
           .battery_v = message.link.battery_v,
           .flying = message.link.flying,
+          .recording = message.recording,
+          .recorded_bytes = message.recorded_bytes,
           .tile_count = message.tile_count,
           .version_sum = message.version_sum};
 }

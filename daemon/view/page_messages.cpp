@@ -95,6 +95,8 @@ WebMessage status_message(const RunStatus& status) {
                        {"rssi_dbm", status.rssi_dbm},
                        {"battery_v", status.battery_v},
                        {"flying", status.flying},
+                       {"recording", status.recording},
+                       {"recorded_bytes", status.recorded_bytes},
                        {"tile_count", status.tile_count},
                        {"version_sum", status.version_sum}});
 }

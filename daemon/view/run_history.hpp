@@ -75,6 +75,8 @@ struct RunStatus {
   std::int32_t rssi_dbm = 0;       ///< 0: unknown
   double battery_v = 0.0;          ///< 0: unknown
   std::int8_t flying = -1;         ///< 1, 0, or -1: unknown
+  std::int8_t recording = 0;       ///< status_t::RECORDING_...
+  std::int64_t recorded_bytes = 0;
   std::int32_t tile_count = 0;
   std::int64_t version_sum = 0;
 };

@@ -13,13 +13,13 @@ BackendWorker::BackendWorker(Backend& backend, MapBuilder& map, const Clock& clo
   if (publisher) feed_.emplace(*publisher);
 }
 
-void BackendWorker::obey(CommandQueue::Consumer commands, CommandHandler handler) {
+void BackendWorker::execute_commands_by(CommandQueue::Consumer commands, CommandHandler handler) {
   commands_ = commands;
   handler_ = std::move(handler);
 }
 
 StepResult BackendWorker::step() {
-  obey_commands();
+  execute_commands();
   const bool ended = steps_.closed();
   if (steps_.try_pop(step_)) {
     add_step();
@@ -33,7 +33,7 @@ StepResult BackendWorker::step() {
   return StepResult::kFinished;
 }
 
-void BackendWorker::obey_commands() {
+void BackendWorker::execute_commands() {
   Command command;
   while (commands_ && commands_->try_pop(command)) {
     std::optional<HostTime> newest;

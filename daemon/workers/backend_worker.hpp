@@ -30,7 +30,7 @@ class BackendWorker {
   void keep_pruned(PrunedScans& pruned) { pruned_ = &pruned; }
 
   /// Each command is given to `handler` before the next step. Before the first step.
-  void obey(CommandQueue::Consumer commands, CommandHandler handler);
+  void execute_commands_by(CommandQueue::Consumer commands, CommandHandler handler);
 
   /// kBlocked: only the publisher's queues stand in the way; call again in a moment.
   StepResult step();
@@ -54,7 +54,7 @@ class BackendWorker {
   std::uint32_t correction_version_ = 0;
   bool final_pass_done_ = false;
 
-  void obey_commands();
+  void execute_commands();
   void add_step();
   void prune();
   void run_final_pass();

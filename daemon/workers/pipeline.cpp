@@ -75,8 +75,8 @@ Pipeline::~Pipeline() = default;
 
 void Pipeline::keep_pruned(PrunedScans& pruned) { state_->backend_worker.keep_pruned(pruned); }
 
-void Pipeline::obey(CommandHandler handler) {
-  state_->backend_worker.obey(state_->queues.commands.consumer(), std::move(handler));
+void Pipeline::execute_commands_by(CommandHandler handler) {
+  state_->backend_worker.execute_commands_by(state_->queues.commands.consumer(), std::move(handler));
 }
 
 bool Pipeline::command(const Command& command) {

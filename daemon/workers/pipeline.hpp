@@ -39,8 +39,8 @@ class Pipeline {
   /// As BackendWorker::keep_pruned(). Before the first step.
   void keep_pruned(PrunedScans& pruned);
 
-  /// As BackendWorker::obey(). Before the first step.
-  void obey(CommandHandler handler);
+  /// As BackendWorker::execute_commands_by(). Before the first step.
+  void execute_commands_by(CommandHandler handler);
   /// For the backend, which is woken. False: too many wait. One thread at a time.
   [[nodiscard]] bool command(const Command& command);
 

@@ -263,11 +263,15 @@ class PageTest(unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                      {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
         self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
-        with subprocess.Popen(fly("--rate", 20, "--no-output", "--view", "127.0.0.1:0"), stderr=subprocess.PIPE, text=True) as daemon:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        flight = fly("--rate", 20, "--no-output", "--record", f"{folder.name}/flight.pcap", "--view", "127.0.0.1:0")
+        with subprocess.Popen(flight, stderr=subprocess.PIPE, text=True) as daemon:
             self.addCleanup(daemon.kill)
             url = next(found[0] for line in daemon.stderr if (found := re.search(r"http://\S+", line)))
             self.browser.get(url)
             self.wait_until("document.querySelectorAll('#gauges > div').length >= 7")
+            self.wait_until(r"/Recording\s*[0-9.]+ MB/.test(document.getElementById('gauges').textContent)")
             self.assertEqual(self.js("document.documentElement.scrollWidth"), 390)
             daemon.terminate()
             daemon.communicate(timeout=PATIENCE_S)

@@ -138,6 +138,7 @@ const char* name_of_code(std::span<const char* const> names, std::int8_t code) {
 constexpr std::array kFrames{"map", "local", "odom"};
 constexpr std::array kTrackingStates{"good", "uncertain", "lost", "relocalizing"};
 constexpr std::array kRunStates{"running", "finishing", "finished"};
+constexpr std::array kRecordingStates{"none", "running", "failed"};
 constexpr std::array kConditions{"none",          "connected",    "silent",         "device_missing",
                                  "access_denied", "device_busy",  "device_stalls",  "device_overflows",
                                  "device_mute",   "device_fault", "device_unsuited"};
@@ -281,7 +282,9 @@ py::dict fields_of(const status_t& message) {
                   "closures_dropped"_a = message.closures_dropped, "optimizations"_a = message.optimizations,
                   "solver_failures"_a = message.solver_failures, "tile_count"_a = message.tile_count,
                   "version_sum"_a = message.version_sum, "queues"_a = queues_of(message),
-                  "stages"_a = stages_of(message), "missed_deadlines"_a = message.missed_deadlines);
+                  "stages"_a = stages_of(message), "missed_deadlines"_a = message.missed_deadlines,
+                  "recording"_a = name_of_code(kRecordingStates, message.recording),
+                  "recorded_bytes"_a = message.recorded_bytes);
 }
 
 /// In the order of DaemonMessage.

@@ -38,6 +38,7 @@ function linkGauges(status) {
   if (status.latency_p99_ms > 0)
     gauges.push(["Latency p99", `${status.latency_p99_ms.toFixed(1)} ms`, status.latency_p99_ms > LATE_ms ? "warning" : ""]);
   if (status.missing_packets > 0) gauges.push(["Missing", String(status.missing_packets), "warning"]);
+  if (status.recording > 0) gauges.push(["Recording", recordingText(status), status.recording === 1 ? "good" : "bad"]);
   return gauges;
 }
 
@@ -63,6 +64,10 @@ function linkText(status) {
 function linkLevel(status) {
   if (status.link_condition !== 1) return "bad";
   return status.ack_rate >= 0 && status.ack_rate < 0.7 ? "warning" : "good";
+}
+
+function recordingText(status) {
+  return status.recording === 1 ? `${(status.recorded_bytes / 1e6).toFixed(1)} MB` : "failed";
 }
 
 function batteryLevel(battery_v) {

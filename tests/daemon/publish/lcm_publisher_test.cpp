@@ -230,6 +230,7 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   for (QueueStatistics& queue : status.queues) queue = {"samples", 256, 17, 1};
   status.stages = {{.name = "map", .count = 2, .p99_ms = 1.5, .p999_ms = 1.75}};
   status.missed_deadlines = 6;
+  status.recording = {RecordingState::kFailed, 7};
   publish([&](Publisher& publisher) { publisher.publish_status(kNow, status); });
   const status_t message = received<status_t>("T_STATUS").at(0);
   EXPECT_EQ(message.state, status_t::STATE_FINISHED);
@@ -249,6 +250,8 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   EXPECT_EQ(message.stages[0].p99, 1.5);
   EXPECT_EQ(message.stages[0].p999, 1.75);
   EXPECT_EQ(message.missed_deadlines, 6);
+  EXPECT_EQ(message.recording, status_t::RECORDING_FAILED);
+  EXPECT_EQ(message.recorded_bytes, 7);
 }
 
 TEST_F(LcmPublisherTest, TheLargestMessagesFitOneDatagramEvenOnTheLongestChannel) {
@@ -303,7 +306,7 @@ TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<map_tile_t>(), 0xfdf7a3453106bfbaU);
   EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x256ce7175baea2abU);
-  EXPECT_EQ(fingerprint<status_t>(), 0x23d9dc6dec508b6fU);
+  EXPECT_EQ(fingerprint<status_t>(), 0xad0978ad381d3dabU);
 }
 
 // A fingerprint is made of the fields' names and types alone. These are what lcm-gen makes of mbot_lcm_msgs.

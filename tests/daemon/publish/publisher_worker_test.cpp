@@ -26,7 +26,11 @@ struct Bench {
       : worker(quick_refresh(), 0.05, queues->to_publisher.inlet(),
                {.queues = [this] { return queues->statistics(); },
                 .stages = [] { return std::vector<StageSummary>{{.name = "map", .count = 3}}; },
-                .pose_latency = latency},
+                .pose_latency = latency,
+                .recording =
+                    [] {
+                      return RecordingFigures{RecordingState::kRunning, 1000};
+                    }},
                published, clock) {}
 
   void push_tile(std::int32_t x, std::uint32_t version, std::int8_t occupancy_percent = 80) {
@@ -72,6 +76,8 @@ TEST(PublisherWorker, MeasuresEachPoseAgainstTheDeadlineOnceItIsSent) {
   EXPECT_EQ(bench.latency.missed(), 1U);
   bench.ticks(251);
   EXPECT_EQ(bench.published.statuses.back().missed_deadlines, 1U);
+  EXPECT_EQ(bench.published.statuses.back().recording.state, RecordingState::kRunning);
+  EXPECT_EQ(bench.published.statuses.back().recording.bytes, 1000U);
 }
 
 TEST(PublisherWorker, SendsChangedTilesAtOnceButNeverMoreThanTheReceiversBufferHolds) {

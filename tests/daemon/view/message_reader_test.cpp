@@ -163,7 +163,8 @@ TEST_F(MessageReaderTest, TheLatencyIsThatOfTheStageToThePose) {
 
 TEST_F(MessageReaderTest, AClaimOfMoreQueuesOrStagesThanThereAreCostsNoMemory) {
   const std::vector<std::uint8_t> sound = encoded(status_with_lists());
-  const std::size_t stages_at = sound.size() - 8 - (4 + 14 + 48) - 4;
+  constexpr std::size_t kBehindStages = 8 + 1 + 8;
+  const std::size_t stages_at = sound.size() - kBehindStages - (4 + 14 + 48) - 4;
   const std::size_t queues_at = stages_at - (4 + 10 + 16) - (4 + 8 + 16) - 4;
   const auto before_kb = peak_memory_kb();
   for (const std::size_t count_at : {queues_at, stages_at}) {
@@ -193,6 +194,9 @@ TEST_F(MessageReaderTest, CountsThatNoRunReachesAreRefused) {
   take("STATUS", status);
   status.closures_dropped = 0;
   status.missing_packets = -1;
+  take("STATUS", status);
+  status.missing_packets = 0;
+  status.recorded_bytes = -1;
   take("STATUS", status);
   EXPECT_EQ(history_.generation(), 0U);
 }

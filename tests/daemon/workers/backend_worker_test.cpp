@@ -42,25 +42,25 @@ TEST(BackendWorker, IsIdleWhileNothingComes) {
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
 }
 
-TEST(BackendWorker, ObeysCommandsBetweenStepsAndWhileNothingComes) {
+TEST(BackendWorker, ExecutesCommandsBetweenStepsAndWhileNothingComes) {
   BackendBench bench;
-  std::vector<std::optional<HostTime>> obeyed_at;
-  bench.worker.obey(bench.queues->commands.consumer(),
-                    [&](const Command&, const MapBuilder&, std::optional<HostTime> newest) {
-                      obeyed_at.push_back(newest);
-                    });
+  std::vector<std::optional<HostTime>> executed_at;
+  bench.worker.execute_commands_by(bench.queues->commands.consumer(),
+                                   [&](const Command&, const MapBuilder&, std::optional<HostTime> newest) {
+                                     executed_at.push_back(newest);
+                                   });
   ASSERT_TRUE(bench.queues->commands.producer().try_push({}));
   bench.worker.wait();  // does not sleep
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
-  ASSERT_EQ(obeyed_at.size(), 1U);
-  EXPECT_FALSE(obeyed_at[0]);
+  ASSERT_EQ(executed_at.size(), 1U);
+  EXPECT_FALSE(executed_at[0]);
   const std::vector<RangeSample> samples = flight_in_square_room(1, 2.0, 1.0);
   bench.push(samples[0]);
   EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
   ASSERT_TRUE(bench.queues->commands.producer().try_push({}));
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
-  ASSERT_EQ(obeyed_at.size(), 2U);
-  EXPECT_EQ(obeyed_at[1], samples[0].stamp);
+  ASSERT_EQ(executed_at.size(), 2U);
+  EXPECT_EQ(executed_at[1], samples[0].stamp);
 }
 
 TEST(BackendWorker, DrawsAtKeyframesAndHandsOnTheTiles) {

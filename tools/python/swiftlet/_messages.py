@@ -249,6 +249,9 @@ class Status:
     queues: Tuple[Queue, ...]
     stages: Tuple[Stage, ...]
     missed_deadlines: int
+    recording: str
+    """none, running or failed."""
+    recorded_bytes: int
 
 
 Message = Union[Pose, Ranges, Tile, Walls, Closure, Status]
