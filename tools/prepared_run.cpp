@@ -48,6 +48,13 @@ std::optional<InputCalibration> calibrate_first(SampleSource& source, Configurat
   return *calibration;
 }
 
+std::unique_ptr<SampleSource> with_signs(std::unique_ptr<SampleSource> source, LostSigns signs) {
+  if (signs == LostSigns::kAsReported) return source;
+  const LostSignTuning tuning =
+      signs == LostSigns::kMendedIfLikely ? LostSignTuning::for_a_trial() : LostSignTuning{};
+  return std::make_unique<SignMendingSource>(std::move(source), tuning);
+}
+
 Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, const Configuration& config,
                                                  LostSigns signs) {
   SampleSourceOptions options;
@@ -56,17 +63,14 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.min_range_m = config.sensor.min_range_m;
   options.range_age = range_age_of(config);
   Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
-  if (!source || signs == LostSigns::kAsReported) return source;
-  const LostSignTuning tuning =
-      signs == LostSigns::kMendedIfLikely ? LostSignTuning::for_a_trial() : LostSignTuning{};
-  return std::unique_ptr<SampleSource>(
-      std::make_unique<SignMendingSource>(std::move(source).value(), tuning));
+  if (!source) return source;
+  return with_signs(std::move(source).value(), signs);
 }
 
 /// From its beginning, with the settings that have been found since.
 Status reopen(const MapCommand& command, PreparedRun& run) {
   if (std::unique_ptr<SampleSource> again = run.source->again(range_age_of(run.config))) {
-    run.source = std::move(again);
+    run.source = with_signs(std::move(again), run.signs);
     return {};
   }
   Result<std::unique_ptr<SampleSource>> opened = open_input(command, run);
@@ -75,22 +79,20 @@ Status reopen(const MapCommand& command, PreparedRun& run) {
   return {};
 }
 
-struct ReadRun {
-  PreparedRun run;
-  bool mends = false;  ///< as it was read for its calibration
-};
-
-Result<ReadRun> read_first(const MapCommand& command, const Configuration& config, LostSigns signs,
-                           const std::stop_token& stop) {
+/// Signs that look likely in no stretch as it is read first are left to be mended where they are sure: at the
+/// age found, a stretch may look likely that no map was held against.
+Result<PreparedRun> read_first(const MapCommand& command, const Configuration& config, LostSigns signs,
+                               const std::stop_token& stop) {
   Result<std::unique_ptr<SampleSource>> opened = open_input(command, config, signs);
   if (!opened) return opened.error();
-  ReadRun read{{config, std::move(opened).value(), {}, signs, {}}, false};
-  if (!command.calibrate || command.odometry_only) return read;
-  read.run.calibration = calibrate_first(*read.run.source, read.run.config, stop);
+  PreparedRun run{config, std::move(opened).value(), {}, signs, {}};
+  if (!command.calibrate || command.odometry_only) return run;
+  run.calibration = calibrate_first(*run.source, run.config, stop);
   if (stop.stop_requested()) return stopped_error(command.input);
-  read.mends = !read.run.source->mended().empty();
-  if (Status again = reopen(command, read.run); !again) return again.error();
-  return read;
+  if (signs == LostSigns::kMendedIfLikely && run.source->mended().empty())
+    run.signs = LostSigns::kMendedIfSure;
+  if (Status again = reopen(command, run); !again) return again.error();
+  return run;
 }
 
 /// Of the final map; nothing where none was made. The input is at its end then. What damages it is reported
@@ -104,7 +106,7 @@ Result<std::optional<double>> misfit_of(const MapCommand& command, const Prepare
 }
 
 /// Mended signs are accepted where the map made with them explains the ranges better, by more than they cost
-/// beforehand.
+/// beforehand. Without both maps there is no evidence.
 Result<PreparedRun> choose_signs(const MapCommand& command, PreparedRun mended, PreparedRun reported,
                                  const std::stop_token& stop) {
   const Result<std::optional<double>> with_mended = misfit_of(command, mended, stop);
@@ -112,14 +114,13 @@ Result<PreparedRun> choose_signs(const MapCommand& command, PreparedRun mended, 
   const Result<std::optional<double>> as_reported = misfit_of(command, reported, stop);
   if (!as_reported) return as_reported.error();
   const std::vector<MendedPositions> changes = mended.source->mended();
-  const double gain = as_reported->value_or(0.0) - with_mended->value_or(0.0);
-  const bool is_better = !changes.empty() && gain > prior_cost(changes);
+  const bool is_better =
+      !changes.empty() && *with_mended && *as_reported && **as_reported - **with_mended > prior_cost(changes);
   PreparedRun chosen = std::move(is_better ? mended : reported);
   if (!is_better)
     chosen.notes.emplace_back(
-        "the odometry may report reverse driving as forward, but a map of that explains the ranges no "
-        "better; "
-        "it is taken as reported");
+        "the odometry may report reverse driving as forward, but a map of that explains the ranges "
+        "no better; it is taken as reported");
   if (Status again = reopen(command, chosen); !again) return again.error();
   return chosen;
 }
@@ -138,12 +139,11 @@ Result<PreparedRun> prepare_run(const MapCommand& command, const std::stop_token
   const LostSigns signs = command.odometry_only ? LostSigns::kAsReported
                           : is_judged           ? LostSigns::kMendedIfLikely
                                                 : LostSigns::kMendedIfSure;
-  Result<ReadRun> read = read_first(command, *config, signs, stop);
-  if (!read) return read.error();
-  if (!is_judged || !read->mends) return std::move(read->run);
-  Result<ReadRun> as_reported = read_first(command, *config, LostSigns::kAsReported, stop);
-  if (!as_reported) return as_reported.error();
-  return choose_signs(command, std::move(read->run), std::move(as_reported->run), stop);
+  Result<PreparedRun> read = read_first(command, *config, signs, stop);
+  if (!read || read->signs != LostSigns::kMendedIfLikely) return read;
+  Result<PreparedRun> as_reported = read_first(command, *config, LostSigns::kAsReported, stop);
+  if (!as_reported) return as_reported;
+  return choose_signs(command, std::move(read).value(), std::move(as_reported).value(), stop);
 }
 
 Status check_usable(const MapCommand& command, const InputReport& report, const Backend& backend) {

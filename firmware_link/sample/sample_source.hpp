@@ -55,8 +55,8 @@ class SampleSource {
   [[nodiscard]] virtual std::optional<LiveStatus> live_status() const { return std::nullopt; }
   /// The next event of the vehicle or its link.
   [[nodiscard]] virtual std::optional<VehicleEvent> take_event() { return std::nullopt; }
-  /// The same input from its beginning, with another age of the ranges (nullopt: the sensor model's), if that
-  /// takes no second reading; else null.
+  /// The same input from its beginning, as it was reported, with another age of the ranges (nullopt: the
+  /// sensor model's), if that takes no second reading; else null.
   [[nodiscard]] virtual std::unique_ptr<SampleSource> again(std::optional<Duration> /*range_age*/) const {
     return nullptr;
   }

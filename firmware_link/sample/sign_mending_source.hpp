@@ -17,9 +17,7 @@ namespace swiftlet {
 class SignMendingSource final : public SampleSource {
  public:
   explicit SignMendingSource(std::unique_ptr<SampleSource> recording, const LostSignTuning& tuning = {})
-      : recording_(std::move(recording)),
-        tuning_(tuning),
-        signs_(recording_->sensor(), recording_->beams(), tuning) {}
+      : recording_(std::move(recording)), signs_(recording_->sensor(), recording_->beams(), tuning) {}
 
   [[nodiscard]] Result<ReceivedSample> next() override;
   [[nodiscard]] const BeamLayout& beams() const override { return recording_->beams(); }
@@ -28,8 +26,7 @@ class SignMendingSource final : public SampleSource {
   [[nodiscard]] std::optional<double> progress() const override { return recording_->progress(); }
   [[nodiscard]] std::optional<VehicleEvent> take_event() override { return recording_->take_event(); }
   [[nodiscard]] std::unique_ptr<SampleSource> again(std::optional<Duration> range_age) const override {
-    std::unique_ptr<SampleSource> recording = recording_->again(range_age);
-    return recording ? std::make_unique<SignMendingSource>(std::move(recording), tuning_) : nullptr;
+    return recording_->again(range_age);
   }
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return recording_->ground_truth(); }
@@ -37,7 +34,6 @@ class SignMendingSource final : public SampleSource {
 
  private:
   std::unique_ptr<SampleSource> recording_;
-  LostSignTuning tuning_;
   LostSign signs_;
   std::optional<Error> outcome_;  // what ended the recording
   bool ended_ = false;

@@ -34,6 +34,17 @@ TEST(PreparedRun, LeavesSignsAsReportedWhereThatMapExplainsTheRangesNoBetter) {
   EXPECT_NE(run->notes.front().find("taken as reported"), std::string::npos);
 }
 
+// Read with the usual age of the ranges, no stretch of this flight looks reversed; with the age that is then
+// found, one does.
+TEST(PreparedRun, AStretchThatNoMapWasHeldAgainstStaysAsReported) {
+  const Result<PreparedRun> run = prepared("sim://building?seed=46");
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->signs, LostSigns::kMendedIfSure);
+  while (run->source->next()) {
+  }
+  EXPECT_TRUE(run->source->mended().empty());
+}
+
 TEST(PreparedRun, WithoutAMapBeforehandSignsAreMendedOnlyWhereTheyAreSure) {
   const Result<PreparedRun> run = prepared(kLosesSigns, false);
   ASSERT_TRUE(run) << run.error().message;
