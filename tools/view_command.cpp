@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/view_command.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -52,6 +54,7 @@ Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
   const Result<std::unique_ptr<ViewService>> service =
       open_service(command, {.title = command.input, .is_recording = true, .rate = command.rate});
   if (!service) return service.error();
+  spdlog::set_level(spdlog::level::err);  // the page tells what happens in the run
   const Status mapped = map_recording(*run, (*service)->shared(), stop, {});
   if (!mapped) std::fprintf(stderr, "swiftlet: note: %s\n", mapped.error().message.c_str());
   while (!stop.stop_requested()) std::this_thread::sleep_for(kStopWait);

@@ -173,12 +173,14 @@ class PageTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as parent:
             out = Path(parent, "out")
             subprocess.run(fly("--rate", 1000, "-o", out), check=True, capture_output=True)
-            self.open_finished()
+            view = self.open_finished()
             self.check_pgm(out)
         good, count = self.browser.execute_script(PICTURE_AGREES)
         self.assertGreater(count, 50)
         self.assertGreaterEqual(good, 0.98 * count)
         self.assertEqual([line for line in self.browser.get_log("browser") if line["level"] == "SEVERE"], [])
+        view.process.terminate()
+        self.assertEqual(view.process.stdout.read(), "", "the page tells what happens")
 
     def test_2_pan_zoom_and_keys(self):
         self.open_finished()
