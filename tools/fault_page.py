@@ -10,9 +10,10 @@ import fault_runs
 
 NONE = "–"
 GOOD_M = 0.15
-WRONG_M = 1.0
+WRONG_M = fault_runs.WRONG_M
+SURE_M = 1.0  # a wrong place counts as believed when a pose on it is published as good for this way
 HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", f"over {WRONG_M:g} m:", "found back:",
-            "way p50, m:", "p90, m:"]
+            "way p50, m:", "p90, m:", "wrongly sure:", "in doubt:", "after p90, s:"]
 
 
 def percent(flags):
@@ -24,20 +25,24 @@ def p90(values):
     return sorted(values)[math.ceil(0.9 * len(values)) - 1]
 
 
-def way_cells(ways):
-    """`ways`: None where a run did not find back."""
-    known = [way for way in ways if way is not None]
+def reached_cells(values):
+    """`values`: None where a run did not come so far. Its share, the median and p90 of the others."""
+    known = [value for value in values if value is not None]
     figures = [f"{figure(known):.1f}" for figure in (statistics.median, p90)] if known else [NONE, NONE]
-    return [percent(way is not None for way in ways), *figures]
+    return [percent(value is not None for value in values), *figures] if values else [NONE] * 3
 
 
 def cells(results):
     """Of the runs of one world and fault."""
-    finals = [result["final_m"] for result in results]
-    ways = [result["way_back_m"] for result in results if "way_back_m" in result]
+    def having(key):
+        return [result[key] for result in results if key in result]
+
+    finals, believed = having("final_m"), having("believed_m")
+    doubted, _, doubt_p90 = reached_cells(having("noticed_s"))
     return [str(len(finals)), f"{statistics.median(finals):.3f}", f"{max(finals):.3f}",
             percent(final < GOOD_M for final in finals), percent(final > WRONG_M for final in finals),
-            *(way_cells(ways) if ways else [NONE] * 3)]
+            *reached_cells(having("way_back_m")),
+            percent(way > SURE_M for way in believed) if believed else NONE, doubted, doubt_p90]
 
 
 def world_table(rows):
@@ -72,10 +77,12 @@ heading, of a `slip` (the estimate stays while the vehicle flies on) and of a `t
 goes on).
 
 "Final error" is the RMSE of the corrected path. "Over {WRONG_M:g} m" are the runs whose final map still believes a
-wrong place. "Found back" are the runs whose live pose came within {near_m} m of the truth while flying and stayed
-there, the live poses before the break put onto the truth; "way" is what these runs flew from the end of the break until
-then.
-`none` shows how often and how long the live pose is more than {near_m} m off after {at_s} s without any break.
+wrong place. The rest is of the live pose at [known places](live.md) behind the break: where the map as it stood then has
+ground within 3 m that was flown long before; errors are against that ground. "Found back" are the runs whose live pose
+came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m; "way" is what these runs flew from the first known place
+until then. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
+{SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those
+whose state said so; "after": how long after it had passed.
 
 {tables(report)}
 ## Known not to work

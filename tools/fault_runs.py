@@ -3,10 +3,12 @@
 """The runs that `tools/benchmark-faults` makes, and their figures."""
 
 import dataclasses
+import json
 import math
 import tempfile
 from pathlib import Path
 
+import benchmark_page as page
 import log_sharpness
 import mapped_runs
 import whole_runs
@@ -14,7 +16,11 @@ import whole_runs
 WORLDS = ["office", "maze"]
 SEEDS = 10  # of each world, from 1 on
 BREAK_S = 150  # after the first sample
-NEAR_M = 0.5  # within which a live pose counts as found back
+NEAR_M = 0.5  # within which a live pose counts as found back...
+STAYS_M = 5.0  # ...if it stays so for this way
+WRONG_M = 1.0
+SURE = "tracking"  # the published state of a good pose
+GAP_S = 1.0  # between moments: old ground was out of reach
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,34 +77,79 @@ def onto(pairs):
     return lambda position: centre_to + turn * (position - centre_from)
 
 
-def way_back_m(truth, live, break_s, end_s):
-    """The way flown from the end of a break until the live pose stays within NEAR_M of the truth; None where it is
-    farther off at the end of the flight. The live poses before the break are put onto the truth. Poses: by stamp in ms,
-    as of log_sharpness.poses_of(); times: after the first of the truth."""
-    start = min(truth)
-    true = {stamp: complex(*pose[:2]) for stamp, pose in sorted(truth.items())}
-    published = {stamp: complex(*pose[:2]) for stamp, pose in live.items() if stamp in true}
-    placed = onto([(position, true[stamp]) for stamp, position in published.items() if stamp < start + 1e3 * break_s])
-    after = [stamp for stamp in true if stamp >= start + 1e3 * end_s]
-    flown_m, back_m = 0.0, None
-    for before, stamp in zip([after[0], *after], after):
-        flown_m += abs(true[stamp] - true[before])
-        if stamp not in published:
-            continue
-        if abs(placed(published[stamp]) - true[stamp]) > NEAR_M:
+def flown_m(truth):
+    """{stamp in ms: way flown since the first pose, m}. `truth`: as log_sharpness.poses_of() has it."""
+    ways, before, way = {}, None, 0.0
+    for stamp, (x_m, y_m, _) in sorted(truth.items()):
+        way += 0.0 if before is None else math.dist(before, (x_m, y_m))
+        ways[stamp] = way
+        before = (x_m, y_m)
+    return ways
+
+
+@dataclasses.dataclass(frozen=True)
+class Moment:
+    """A sample behind the break, over ground that was mapped long before."""
+    stamp_s: float
+    way_m: float
+    error_m: float  # of the published pose, against the map around it as it stood then
+    state: str
+
+
+def moments(evaluation, truth, end_s):
+    """Those since the end of the break, in order. `evaluation`: what `swiftlet eval --live --json` writes."""
+    ways = flown_m(truth)
+    states = {round(row[0] * 1e3): row[6] for row in evaluation["poses"]}
+    errors = {round(stamp_s * 1e3): error_m for stamp_s, error_m in evaluation["live"]["errors_m"]}
+    begin = min(truth) + 1e3 * end_s
+    return [Moment(1e-3 * stamp, ways[stamp], error_m, states[stamp])
+            for stamp, error_m in sorted(errors.items()) if stamp >= begin]
+
+
+def way_back_m(after):
+    """The way flown from the first old ground behind the break until the published pose is within NEAR_M of its place
+    for STAYS_M; None where that never happens. `after`: moments, at least one."""
+    back_m = None
+    for moment in after:
+        if moment.error_m > NEAR_M:
             back_m = None
         elif back_m is None:
-            back_m = flown_m
-    return back_m
+            back_m = moment.way_m
+        if back_m is not None and moment.way_m - back_m >= STAYS_M:
+            break
+    return None if back_m is None else back_m - after[0].way_m
+
+
+def noticed_s(after):
+    """From the first moment with an error beyond WRONG_M until the first that is published in doubt; 0 where doubt
+    came first, None where it never came. `after`: moments of which one is beyond WRONG_M."""
+    wrong_s = next(moment.stamp_s for moment in after if moment.error_m > WRONG_M)
+    doubted_s = next((moment.stamp_s for moment in after if moment.state != SURE), None)
+    return None if doubted_s is None else max(0.0, doubted_s - wrong_s)
+
+
+def believed_m(after):
+    """The way flown while a pose beyond WRONG_M was published as good."""
+    return sum(b.way_m - a.way_m for a, b in zip(after, after[1:])
+               if b.state == SURE and b.error_m > WRONG_M and b.stamp_s - a.stamp_s < GAP_S)
+
+
+def figures(fault, final_m, after):
+    """Of a run with these moments behind the break. Figures that mean nothing in it are absent."""
+    result = {"final_m": final_m}
+    if after:
+        result |= {"way_back_m": way_back_m(after), "believed_m": believed_m(after)}
+    if not fault.is_told() and any(moment.error_m > WRONG_M for moment in after):
+        result["noticed_s"] = noticed_s(after)
+    return result
 
 
 class Results(mapped_runs.Results):
     def executed(self, run):
-        """The final error and, where the fault is told, the way until the vehicle found back."""
+        """As figures()."""
         with tempfile.TemporaryDirectory() as name:
             report = whole_runs.run(self.swiftlet, [run.log.source], name)
-            truth, live = (log_sharpness.poses_of(Path(name, file)) for file in ("ground_truth.tum", "live.tum"))
-        figures = {"final_m": report["absolute_trajectory_error"]["corrected"]["rmse_m"]}
-        if run.fault.is_told():
-            figures["way_back_m"] = way_back_m(truth, live, BREAK_S, run.fault.end_s())
-        return figures
+            truth = log_sharpness.poses_of(Path(name, "ground_truth.tum"))
+        evaluation = json.loads(page.run(str(self.swiftlet), "eval", "--live", run.log.source, "--json", "-"))
+        return figures(run.fault, report["absolute_trajectory_error"]["corrected"]["rmse_m"],
+                       moments(evaluation, truth, run.fault.end_s()))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""tools/fault_runs.py measures the way until a vehicle found back, and tools/fault_page.py writes it down."""
+"""tools/fault_runs.py measures how a vehicle finds back and whether it doubts, and tools/fault_page.py writes it down."""
 
-import cmath
+import dataclasses
 import sys
 import tempfile
 import unittest
@@ -14,49 +14,63 @@ sys.dont_write_bytecode = True
 import fault_page as page  # noqa: E402
 import fault_runs as runs  # noqa: E402
 
-SPEED_M_S = 0.5
 PRETENDS = """#!/bin/sh
-echo '{"absolute_trajectory_error": {"corrected": {"rmse_m": 0.25}}}' > "$4/report.json"
-for i in 0 149 160 170; do echo "$i $i 0 0 0 0 0 1"; done | tee "$4/ground_truth.tum" > "$4/live.tum"
+if [ "$1" = map ]; then
+  echo '{"absolute_trajectory_error": {"corrected": {"rmse_m": 0.25}}}' > "$4/report.json"
+  for i in 0 149 160 170; do echo "$i $i 0 0 0 0 0 1"; done > "$4/ground_truth.tum"
+else
+  echo '{"live": {"errors_m": [[149, 0], [160, 2], [170, 0.1]]},
+         "poses": [[149, 0, 0, 0, 0, 0, "tracking"], [160, 0, 0, 0, 0, 0, "lost"], [170, 0, 0, 0, 0, 0, "tracking"]]}'
+fi
 """
 
 
-def flight(seconds=40):
-    """{stamp in ms: true pose}: east, then north, a pose each second from the stamp of 5 s on."""
-    def pose(i):
-        return SPEED_M_S * min(i, 10), SPEED_M_S * max(i - 10, 0), 0.0
+def after(*errors_m, states="", step_m=1.0):
+    """Moments 0.5 s and one step apart. `states`: a letter each, t for tracking; all are where there are none."""
+    names = {"t": "tracking", "u": "uncertain"}
+    return [runs.Moment(40 + 0.5 * i, 20 + step_m * i, error_m, names[states[i] if states else "t"])
+            for i, error_m in enumerate(errors_m)]
 
-    return {5000 + 1000 * i: pose(i) for i in range(seconds + 1)}
 
+class Moments(unittest.TestCase):
+    TRUTH = {1000 * s: (0.5 * min(s, 10), 0.5 * max(s - 10, 0), 0.0) for s in range(5, 46)}
 
-def published(truth, off_m=lambda s: 0.0):
-    """The flight in a frame of its own; `off_m`: error by the time after the first pose."""
-    def pose(stamp, true):
-        turned = cmath.exp(1.2j) * complex(true[0] + off_m((stamp - 5000) / 1000), true[1]) + complex(3, -7)
-        return turned.real, turned.imag, 0.0
-
-    return {stamp: pose(stamp, true) for stamp, true in truth.items()}
+    def test_they_are_those_behind_the_break_with_way_error_and_state(self):
+        evaluation = {"live": {"errors_m": [[24.0, 0.1], [25.0, 0.2], [27.0, 0.3]]},
+                      "poses": [[float(s), 0, 0, 0, 0, 0, "tracking" if s < 26 else "lost"] for s in range(5, 46)]}
+        self.assertEqual(runs.moments(evaluation, self.TRUTH, end_s=20),
+                         [runs.Moment(25.0, 10.0, 0.2, "tracking"), runs.Moment(27.0, 11.0, 0.3, "lost")])
 
 
 class WayBack(unittest.TestCase):
-    def test_it_is_the_way_from_the_end_of_the_break_until_the_live_pose_is_near_for_good(self):
-        truth = flight()
-        live = published(truth, lambda s: {25: 0.0}.get(s, 2.0 if 20 <= s < 32 else 0.4))
-        self.assertAlmostEqual(runs.way_back_m(truth, live, 20, 20), 6.0, msg="near for a moment at 25 s")
-        self.assertAlmostEqual(runs.way_back_m(truth, live, 20, 28), 2.0)
+    def test_it_is_the_way_from_the_first_old_ground_until_the_pose_is_near_and_stays_so(self):
+        self.assertEqual(runs.way_back_m(after(2, 2, 0.4, 2, 0.4, 0.4, 0.4, 0.4, 0.4, 0.4, 2)), 4.0)
 
-    def test_who_is_off_at_the_end_did_not_find_back(self):
-        truth = flight()
-        self.assertIsNone(runs.way_back_m(truth, published(truth, lambda s: 0.6 if s == 40 else 0.0), 20, 20))
+    def test_who_leaves_before_the_end_did_not_find_back(self):
+        self.assertIsNone(runs.way_back_m(after(2, 0.4, 0.4, 0.4, 0.6)))
+
+    def test_who_is_near_until_the_end_did(self):
+        self.assertEqual(runs.way_back_m(after(2, 2, 0.4, 0.4)), 2.0)
 
     def test_a_vehicle_that_was_never_lost_has_no_way(self):
-        truth = flight()
-        self.assertEqual(runs.way_back_m(truth, published(truth), 20, 20), 0.0)
+        self.assertEqual(runs.way_back_m(after(0.1, 0.2, 0.3, 0.2, 0.1, 0.1, 2)), 0.0)
 
-    def test_what_is_flown_unseen_after_the_break_counts(self):
-        truth = flight()
-        live = {stamp: pose for stamp, pose in published(truth).items() if not 25000 <= stamp < 37000}
-        self.assertAlmostEqual(runs.way_back_m(truth, live, 20, 20), 6.0)
+
+class Doubt(unittest.TestCase):
+    def test_it_comes_so_long_after_the_error_has_passed_the_limit(self):
+        self.assertEqual(runs.noticed_s(after(0.2, 0.9, 1.1, 1.5, 2, states="ttttu")), 1.0)
+
+    def test_it_may_come_before_or_never(self):
+        self.assertEqual(runs.noticed_s(after(0.2, 0.9, 1.1, states="tuu")), 0.0)
+        self.assertIsNone(runs.noticed_s(after(0.2, 0.9, 1.1)))
+
+    def test_the_way_counts_that_is_published_as_good_far_off(self):
+        self.assertEqual(runs.believed_m(after(2, 2, 2, 0.9, 2, states="utttt")), 3.0)
+
+    def test_the_way_without_old_ground_does_not_count(self):
+        there = after(2, 2, 2)
+        elsewhere = [dataclasses.replace(moment, stamp_s=moment.stamp_s + 60, way_m=moment.way_m + 30) for moment in there]
+        self.assertEqual(runs.believed_m(there + elsewhere), 4.0)
 
 
 class FaultRuns(unittest.TestCase):
@@ -72,27 +86,31 @@ class FaultRuns(unittest.TestCase):
         self.assertEqual([runs.Fault(kind, 60).end_s() for kind in ("silence", "carried", "restart")], [210, 210, 150])
         self.assertEqual(runs.Fault("reset").end_s(), 150)
 
-    def test_a_run_has_its_final_error_and_its_way_back_where_the_input_tells_of_the_break(self):
+    def test_a_run_has_its_final_error_and_what_its_moments_tell(self):
         with tempfile.TemporaryDirectory() as name:
             program = Path(name, "swiftlet")
             program.write_text(PRETENDS)
             program.chmod(0o755)
             results = runs.Results(Path(name, "kept"), program)
-            told, untold = (runs.run_of("maze", 3, fault) for fault in (runs.Fault("reset"), runs.Fault("slip", 6)))
-            for run in (told, untold):
-                results.make(run, at_once=1)
-            self.assertEqual(results.get(told)["way_back_m"], 0.0)
-            self.assertEqual(results.get(untold)["final_m"], 0.25)
-            self.assertNotIn("way_back_m", results.get(untold))
+            run = runs.run_of("maze", 3, runs.Fault("slip", 6))
+            results.make(run, at_once=1)
+            figures = {"final_m": 0.25, "way_back_m": 10.0, "believed_m": 0, "noticed_s": 0.0}
+            self.assertLessEqual(figures.items(), results.get(run).items())
+
+    def test_figures_that_mean_nothing_in_a_run_are_absent(self):
+        self.assertEqual(runs.figures(runs.Fault("jump", 20), 0.1, []), {"final_m": 0.1})
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), 0.1, after(0.1, 0.2)))
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), 0.1, after(2, 2)))
 
 
 class FaultPage(unittest.TestCase):
     def test_a_line_has_the_runs_of_one_fault_in_one_world(self):
-        results = [{"final_m": final, "way_back_m": way}
-                   for final, way in ((0.1, 4.0), (0.12, 8.0), (0.2, 3.0), (3.0, None))]
-        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 %", "4.0", "8.0"])
-        self.assertEqual(page.cells([{"final_m": 0.1}])[5:], ["–", "–", "–"])
-        self.assertEqual(page.cells([{"final_m": 0.1, "way_back_m": None}])[5:], ["0 %", "–", "–"])
+        results = [{"final_m": final, "way_back_m": way, "believed_m": believed, "noticed_s": noticed}
+                   for final, way, believed, noticed in
+                   ((0.1, 4.0, 0.0, 1.0), (0.12, 8.0, 0.9, 0.0), (0.2, 3.0, 2.0, 7.0), (3.0, None, 9.0, None))]
+        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 %", "4.0", "8.0", "50 %", "75 %", "7.0"])
+        self.assertEqual(page.cells([{"final_m": 0.1}])[5:], ["–"] * 6)
+        self.assertEqual(page.cells([{"final_m": 0.1, "way_back_m": None}])[5:8], ["0 %", "–", "–"])
 
     def test_a_tenth_of_the_values_exceeds_p90(self):
         self.assertEqual(page.p90(range(10, 0, -1)), 9)
