@@ -12,7 +12,7 @@ import mapped_runs
 import robustness_runs
 import whole_runs
 
-REAL_RUNS_OF_A_LOG = 2  # of those of `benchmark-robustness --screen`: one with few beams, one with many
+REAL_RUNS_OF_A_LOG = 1  # of those of `benchmark-robustness --screen`, of laser logs with few beams
 LINE = re.compile(r"(\w+) = (\S+)  # (\S+) to (\S+)")
 STRUCT = re.compile(r"^struct \w+ \{\n(.*?)^\};", re.MULTILINE | re.DOTALL)
 MEMBER = re.compile(r"^ +(?:double|int|std::size_t) (\w+)\s*=[^;]*;[ ]*(?:///< (.*(?:\n +///< .*)*))?", re.MULTILINE)

@@ -68,13 +68,12 @@ class TuningRuns(unittest.TestCase):
         for keys in origins:
             self.assertTrue(keys)
 
-    def test_the_ensemble_has_buildings_and_one_or_two_runs_of_each_log(self):
+    def test_the_ensemble_has_buildings_and_a_run_of_each_log(self):
         drawn = runs.screening_ensemble(5)
         logs = collections.Counter(run.log.name for run in drawn)
         self.assertEqual(sum(name.startswith("building") for name in logs), 5)
-        self.assertEqual(logs["Killian"], 2)
-        self.assertLessEqual(max(logs.values()), 2)
-        self.assertEqual({run.beams <= 6 for run in drawn if run.log.name == "ACES"}, {True, False})
+        self.assertIn("Killian", logs)
+        self.assertEqual(max(logs.values()), 1)
 
 
 if __name__ == "__main__":
