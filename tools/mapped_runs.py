@@ -4,6 +4,7 @@
 
 import concurrent.futures
 import dataclasses
+import functools
 import hashlib
 import json
 import os
@@ -25,6 +26,12 @@ TRAJECTORIES = {"odometry": "odometry.tum", "live": "live.tum", "final": "trajec
 BAR_WIDTH = 30
 
 
+@functools.cache
+def content_digest(file):
+    """Of its content; once a process."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
 @dataclasses.dataclass(frozen=True)
 class Log:
     name: str
@@ -41,9 +48,8 @@ class Log:
         return [file for file in self.files() if not (DATASETS / file).exists()]
 
     def stand(self):
-        """Changes if its files change."""
-        stats = [(DATASETS / file).stat() for file in self.files() if (DATASETS / file).exists()]
-        return " ".join(f"{stat.st_size} {stat.st_mtime_ns}" for stat in stats)
+        """Changes if its files change; copies of them are the same."""
+        return " ".join(content_digest(DATASETS / file) for file in self.files() if (DATASETS / file).exists())
 
 
 def configuration(settings):

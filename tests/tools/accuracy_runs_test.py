@@ -107,7 +107,13 @@ class AccuracyRuns(unittest.TestCase):
             files = {self.results().file(runs.Run(log, change=change))
                      for change in (None, runs.Change("worse", metres=1.1), runs.Change("worse", metres=1.2))}
             before = self.results().file(runs.Run(log))
-            data.write_text("another")
+            elsewhere = Path(self.folder.name, "copies")
+            elsewhere.mkdir()
+            Path(elsewhere, "log.clf").write_text("one")
+        with mock.patch.object(mapped, "DATASETS", elsewhere):
+            self.assertEqual(self.results().file(runs.Run(log)), before)
+            Path(elsewhere, "log.clf").write_text("another")
+            mapped.content_digest.cache_clear()
             self.assertNotEqual(self.results().file(runs.Run(log)), before)
         self.assertEqual(len(files), 3)
 
