@@ -89,10 +89,10 @@ std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, Key
   return static_cast<std::uint32_t>(closures_.size() - before);
 }
 
-void LoopCloser::search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph) {
+void LoopCloser::search_elsewhere(const PoseGraph& graph) {
   if (!unplaced_since_) return;
   if (!proposed_.empty()) {
-    places_.propose(proposed_.back(), submaps_before_break(), graph, T_local_keyframe);
+    places_.propose(proposed_.back(), submaps_before_break(), graph);
     proposed_.pop_back();
   } else if (elsewhere_.is_busy()) {
     elsewhere_.step();

@@ -41,7 +41,7 @@ class PlaceHypotheses {
                  const KeyframePoses& T_local_keyframe);
   /// A match of the travel with a submap is another hypothesis, unless it is one of them already.
   void propose(const LoopClosure& match, std::span<const std::shared_ptr<const Submap>> submaps,
-               const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
+               const PoseGraph& graph);
   /// The matches of the accepted hypothesis, one for each query that shows known walls; empty before.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
@@ -54,7 +54,7 @@ class PlaceHypotheses {
     CrossCheck cross_check;
   };
   struct Hypothesis {
-    Pose2 T_map_local;
+    Pose2 T_map_unmoved;                  // from where the graph has the travel, as if nothing had been moved
     double log_odds = 0.0;                // prior, and the sum of
     std::vector<double> log_likelihoods;  // by query
     std::vector<LoopClosure> matches;     // with the queries that show known walls
@@ -67,8 +67,8 @@ class PlaceHypotheses {
                                   std::span<const std::shared_ptr<const Submap>> submaps,
                                   const PoseGraph& graph) const;
   void weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
-             const KeyframePoses& T_local_keyframe, Hypothesis& hypothesis) const;
-  void merge(const Pose2& T_local_query);
+             Hypothesis& hypothesis) const;
+  void merge(const Pose2& T_unmoved_query);
   void forget_oldest();
   [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;
