@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <span>
 #include <string>
@@ -42,19 +43,9 @@ class Server {
     const std::string url = service_->server().url();
     port_ = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
   }
-  /// Sends the bytes and reads until the server closes. From many addresses: closed connections keep their
-  /// ports for a minute.
+  /// Sends the bytes and reads until the server closes.
   void converse(std::span<const std::uint8_t> bytes) {
-    constexpr std::uint32_t kHosts = 1U << 16U;
-    const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const timeval patience{.tv_sec = 5, .tv_usec = 0};
-    ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    const sockaddr_in from = loopback_address(2 + connections_++ % kHosts, 0);
-    const sockaddr_in to = loopback_address(1, port_);
-    const bool is_connected =
-        ::bind(connection, reinterpret_cast<const sockaddr*>(&from), sizeof from) == 0 &&
-        ::connect(connection, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
-    SWIFTLET_CHECK(is_connected, "the server accepts");
+    const int connection = connected();
     static_cast<void>(::send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL));
     ::shutdown(connection, SHUT_WR);
     std::array<char, 65536> answer;
@@ -65,6 +56,26 @@ class Server {
   }
 
  private:
+  /// The fuzzer's alarm may interrupt a call, and the system may be short of something for a moment: tried
+  /// thrice. From many addresses: closed connections keep their ports for a minute.
+  int connected() {
+    constexpr std::uint32_t kHosts = 1U << 16U;
+    const timeval patience{.tv_sec = 5, .tv_usec = 0};
+    const sockaddr_in to = loopback_address(1, port_);
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+      ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+      const sockaddr_in from = loopback_address(2 + connections_++ % kHosts, 0);
+      if (::bind(connection, reinterpret_cast<const sockaddr*>(&from), sizeof from) == 0 &&
+          ::connect(connection, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0)
+        return connection;
+      std::perror("web_connection_fuzz: not connected");
+      ::close(connection);
+    }
+    SWIFTLET_CHECK(false, "the server accepts");
+    return -1;
+  }
+
   ShownRun run_;
   std::unique_ptr<ViewService> service_;
   std::uint16_t port_ = 0;
