@@ -367,7 +367,7 @@ class PlaceHypothesesOfTwoAlikeTest : public PlaceHypothesesTest {
   PlaceHypothesesOfTwoAlikeTest()
       : PlaceHypothesesTest(BrokenFlight::along(loop_corridor(), "abcdabcda", "abcd")) {
     while (run_.chain().path_m(second_lap_) < kLapM) ++second_lap_;
-    for (KeyframeId k = second_lap_; k < since_; ++k) graph_.T_map_keyframe[k] = kTwin * T_world(k);
+    for (KeyframeId k = second_lap_; k < since_; ++k) graph_.T_map_keyframe[k] = twin_ * T_world(k);
     put_travel(kNowhere);
   }
   [[nodiscard]] int queries_until_decided_between_both() {
@@ -375,13 +375,13 @@ class PlaceHypothesesOfTwoAlikeTest : public PlaceHypothesesTest {
     newest_ = since_;
     take_query();
     propose(Pose2());
-    propose(kTwin);
+    propose(twin_);
     EXPECT_EQ(places_.size(), 3U);
     return queries_until_decided();
   }
 
   static constexpr double kLapM = 38.0;
-  const Pose2 kTwin{40.0, 0.0, 0.0};
+  const Pose2 twin_{40.0, 0.0, 0.0};
   KeyframeId second_lap_{};
 };
 
