@@ -121,7 +121,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.refinement.add_scan();
   BackendUpdate update;
   if (!step.has_keyframe) {
-    s.loops.search_elsewhere(s.graph.graph());
+    s.loops.search_elsewhere(s.T_local_keyframe(), s.graph.graph());
     s.compare_newest_scan(step);
     return update;
   }

@@ -89,10 +89,10 @@ std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, Key
   return static_cast<std::uint32_t>(closures_.size() - before);
 }
 
-void LoopCloser::search_elsewhere(const PoseGraph& graph) {
+void LoopCloser::search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph) {
   if (!unplaced_since_) return;
   if (!proposed_.empty()) {
-    places_.propose(proposed_.back(), submaps_before_break(), graph);
+    places_.propose(proposed_.back(), submaps_before_break(), graph, path_of_travel(T_local_keyframe, graph));
     proposed_.pop_back();
   } else if (elsewhere_.is_busy()) {
     elsewhere_.step();
@@ -106,6 +106,13 @@ std::span<const std::shared_ptr<const Submap>> LoopCloser::submaps_before_break(
   return std::span(submaps_).first(static_cast<std::size_t>(end - submaps_.begin()));
 }
 
+/// Behind a break no closure joins the travel to what lies before: the graph has what was learnt of the
+/// travel alone. In doubt closures go on moving it, and only the frontend's path is free of them.
+const KeyframePoses& LoopCloser::path_of_travel(const KeyframePoses& T_local_keyframe,
+                                                const PoseGraph& graph) const {
+  return unplaced_by_ == UnplacedBy::kContradiction ? T_local_keyframe : graph.T_map_keyframe;
+}
+
 /// Weighs where the travel since it was last watched may lie.
 void LoopCloser::place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                               KeyframeGraph& graph) {
@@ -113,7 +120,8 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
   const ScanRange recent = detector_.recent_scans(newest);
   if (chain_->scan_of(chain_->all().previous(newest)) < recent.first) return;
   const auto earlier = submaps_before_break();
-  const bool is_new = places_.add_query(newest, recent, earlier, graph.graph(), T_local_keyframe);
+  const bool is_new = places_.add_query(newest, recent, earlier, graph.graph(), T_local_keyframe,
+                                        path_of_travel(T_local_keyframe, graph.graph()));
   for (const LoopClosure& match : matches)
     if (match.from < *unplaced_since_) proposed_.push_back(match);
   if (!elsewhere_.is_busy()) {

@@ -49,7 +49,7 @@ class LoopCloser {
   std::uint32_t close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
   /// After each scan that makes no keyframe, while it is not known where the vehicle is: looks elsewhere, in
   /// one submap, or weighs one place that was found.
-  void search_elsewhere(const PoseGraph& graph);
+  void search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph);
   /// Takes over what DCS makes of each closure.
   void take_scales(const PoseGraph& graph);
   /// Drops the closure that DCS scales down most, if any lies below config.drop_scale. False: none does.
@@ -74,6 +74,8 @@ class LoopCloser {
  private:
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
   [[nodiscard]] KeyframeId watched_since() const;
+  [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
+                                                    const PoseGraph& graph) const;
   void forget_places();
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);

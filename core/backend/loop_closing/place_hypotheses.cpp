@@ -93,28 +93,29 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
 }
 
 void PlaceHypotheses::weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps,
-                            const PoseGraph& graph, Hypothesis& hypothesis) const {
-  const Pose2& T_unmoved_query = graph.T_map_keyframe[query.id];
-  const Evidence found = evidence(query, hypothesis.T_map_unmoved * T_unmoved_query, submaps, graph);
+                            const PoseGraph& graph, const KeyframePoses& T_path_keyframe,
+                            Hypothesis& hypothesis) const {
+  const Pose2& T_path_query = T_path_keyframe[query.id];
+  const Evidence found = evidence(query, hypothesis.T_map_path * T_path_query, submaps, graph);
   hypothesis.log_likelihoods.push_back(found.log_likelihood);
   hypothesis.log_odds += found.log_likelihood;
   if (!found.match || found.log_likelihood <= 0.0) return;
   hypothesis.matches.push_back(*found.match);
   // Dead reckoning drifts on the way.
-  hypothesis.T_map_unmoved =
-      graph.T_map_keyframe[found.match->from] * found.match->T_from_to * T_unmoved_query.inverse();
+  hypothesis.T_map_path =
+      graph.T_map_keyframe[found.match->from] * found.match->T_from_to * T_path_query.inverse();
 }
 
 /// Of those that have come together the likeliest stays; in order of likelihood.
-void PlaceHypotheses::merge(const Pose2& T_unmoved_query) {
+void PlaceHypotheses::merge(const Pose2& T_path_query) {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
   std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.log_odds > b.log_odds; });
   std::vector<Hypothesis> kept;
   for (Hypothesis& h : hypotheses_) {
-    const Pose2 T_map_query = h.T_map_unmoved * T_unmoved_query;
+    const Pose2 T_map_query = h.T_map_path * T_path_query;
     const bool is_known = std::ranges::any_of(kept, [&](const Hypothesis& other) {
-      return are_alike(other.T_map_unmoved * T_unmoved_query, T_map_query, tuning);
+      return are_alike(other.T_map_path * T_path_query, T_map_query, tuning);
     });
     if (!is_known && kept.size() < tuning.max_hypotheses) kept.push_back(std::move(h));
   }
@@ -123,7 +124,8 @@ void PlaceHypotheses::merge(const Pose2& T_unmoved_query) {
 
 bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
                                 std::span<const std::shared_ptr<const Submap>> submaps,
-                                const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
+                                const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
+                                const KeyframePoses& T_path_keyframe) {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
   const double begins_m =
       queries_.empty() ? (*scans_)[recent.first].path_m : chain_->path_m(queries_.back().id);
@@ -135,11 +137,11 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
   if (hypotheses_.empty()) {
     const double prior = std::log(tuning.not_moved_odds) - log_odds_moved_;
-    hypotheses_.push_back({Pose2(), prior, {}, {}});
+    hypotheses_.push_back({graph.T_map_keyframe[query] * T_path_keyframe[query].inverse(), prior, {}, {}});
   }
   if (queries_.size() == tuning.max_queries) forget_oldest();
-  for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, h);
-  merge(graph.T_map_keyframe[query]);
+  for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, T_path_keyframe, h);
+  merge(T_path_keyframe[query]);
   queries_.push_back(std::move(taken));
   return true;
 }
@@ -155,26 +157,26 @@ void PlaceHypotheses::forget_oldest() {
 }
 
 void PlaceHypotheses::propose(const LoopClosure& match,
-                              std::span<const std::shared_ptr<const Submap>> submaps,
-                              const PoseGraph& graph) {
+                              std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
+                              const KeyframePoses& T_path_keyframe) {
   if (queries_.empty()) return;
-  const Pose2& T_unmoved_query = graph.T_map_keyframe[match.to];
+  const Pose2& T_path_query = T_path_keyframe[match.to];
   const Pose2 T_map_query = graph.T_map_keyframe[match.from] * match.T_from_to;
   for (const Hypothesis& h : hypotheses_)
-    if (are_alike(h.T_map_unmoved * T_unmoved_query, T_map_query, config_->tuning.places)) return;
+    if (are_alike(h.T_map_path * T_path_query, T_map_query, config_->tuning.places)) return;
   const Point2 not_moved = graph.T_map_keyframe[match.to].position();
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
   const double reach_m = tuning.unmoved_reach_m + tuning.carrying_speed_m_per_s * to_seconds(unwatched_);
   if (distance_m(not_moved, T_map_query.position()) > reach_m) return;
   const double prior = -std::log(tuning.places_per_submap * static_cast<double>(submaps.size()));
-  Hypothesis proposed{T_map_query * T_unmoved_query.inverse(), prior, {}, {}};
+  Hypothesis proposed{T_map_query * T_path_query.inverse(), prior, {}, {}};
   for (std::size_t i = queries_.size(); i-- > 0;)  // from where it was found, dead reckoning drifts
-    weigh(queries_[i], submaps, graph, proposed);
-  proposed.T_map_unmoved = T_map_query * T_unmoved_query.inverse();
+    weigh(queries_[i], submaps, graph, T_path_keyframe, proposed);
+  proposed.T_map_path = T_map_query * T_path_query.inverse();
   std::ranges::reverse(proposed.log_likelihoods);
   std::ranges::reverse(proposed.matches);
   hypotheses_.push_back(std::move(proposed));
-  merge(T_unmoved_query);
+  merge(T_path_query);
 }
 
 /// Of the position that the matches give, in the worst direction, which is along a corridor.

@@ -35,13 +35,14 @@ class PlaceHypotheses {
   /// Starts anew with the same break: keyframes are pruned.
   void begin_again() { begin(unwatched_, log_odds_moved_); }
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
-  /// `submaps`: those of before. Returns whether it was taken.
+  /// `submaps`: those of before. `T_path_keyframe`: in a frame in which what lies before does not move the
+  /// travel; a place moves it as a whole. Returns whether it was taken.
   bool add_query(KeyframeId query, const ScanRange& recent,
                  std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
-                 const KeyframePoses& T_local_keyframe);
+                 const KeyframePoses& T_local_keyframe, const KeyframePoses& T_path_keyframe);
   /// A match of the travel with a submap is another hypothesis, unless it is one of them already.
   void propose(const LoopClosure& match, std::span<const std::shared_ptr<const Submap>> submaps,
-               const PoseGraph& graph);
+               const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
   /// The matches of the accepted hypothesis, one for each query that shows known walls; empty before.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
@@ -54,7 +55,7 @@ class PlaceHypotheses {
     CrossCheck cross_check;
   };
   struct Hypothesis {
-    Pose2 T_map_unmoved;                  // from where the graph has the travel, as if nothing had been moved
+    Pose2 T_map_path;
     double log_odds = 0.0;                // prior, and the sum of
     std::vector<double> log_likelihoods;  // by query
     std::vector<LoopClosure> matches;     // with the queries that show known walls
@@ -67,8 +68,8 @@ class PlaceHypotheses {
                                   std::span<const std::shared_ptr<const Submap>> submaps,
                                   const PoseGraph& graph) const;
   void weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
-             Hypothesis& hypothesis) const;
-  void merge(const Pose2& T_unmoved_query);
+             const KeyframePoses& T_path_keyframe, Hypothesis& hypothesis) const;
+  void merge(const Pose2& T_path_query);
   void forget_oldest();
   [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;

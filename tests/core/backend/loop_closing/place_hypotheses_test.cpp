@@ -112,8 +112,9 @@ class PlaceHypothesesTest : public testing::Test {
     while (run_.scans()[first].path_m < from_m) ++first;
     return {first, run_.chain().scan_of(query) + 1};
   }
+  [[nodiscard]] const KeyframePoses& path() const { return graph_.T_map_keyframe; }
   bool add(KeyframeId query) {
-    return places_.add_query(query, recent(query), submaps_, graph_, run_.T_local_keyframe());
+    return places_.add_query(query, recent(query), submaps_, graph_, run_.T_local_keyframe(), path());
   }
   /// Goes on along the travel until one more query is taken. Returns its keyframe.
   KeyframeId take_query() {
@@ -138,7 +139,7 @@ class PlaceHypothesesTest : public testing::Test {
     match.from = from;
     match.to = newest_;
     match.T_from_to = between(graph_.T_map_keyframe[from], T_map_world * T_world(newest_));
-    places_.propose(match, submaps_, graph_);
+    places_.propose(match, submaps_, graph_, path());
   }
   /// Begins with the travel where no submap shows anything, and a match at the true place.
   void begin_nowhere(double log_odds_moved) {
