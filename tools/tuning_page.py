@@ -147,7 +147,7 @@ def body(constants, default):
 def document(constants, default, buildings, circumstances):
     real = len(default.outcomes) - buildings
     return f"""{page.head("Tuning constants", "benchmark-tuning", circumstances)}
-Constants of the algorithms that are no settings (`[tuning.PART]` of a configuration file, `swiftletd --print-tuning`).
+Constants of the algorithms that are no settings (`[tuning.PART]`: [CONTRIBUTING](../CONTRIBUTING.md)).
 Results should hardly depend on them. Each is halved and doubled alone, within its range, over a screening ensemble:
 {buildings} simulated buildings and {real} short real runs of `tools/benchmark-robustness --screen`.
 
