@@ -8,7 +8,6 @@ import json
 from pathlib import Path
 
 import benchmark_page as page
-import fault_runs
 import log_sharpness
 import whole_runs
 
@@ -47,6 +46,16 @@ class Flight:
                 first = i
 
 
+def onto(pairs):
+    """The rigid motion of the plane that puts the first positions of the pairs onto the second, by least squares.
+    Positions are complex numbers, m."""
+    centre_from = sum(a for a, _ in pairs) / len(pairs)
+    centre_to = sum(b for _, b in pairs) / len(pairs)
+    turn = sum((a - centre_from).conjugate() * (b - centre_to) for a, b in pairs)
+    turn /= abs(turn)
+    return lambda position: centre_to + turn * (position - centre_from)
+
+
 def walls_of(folder):
     """Middles of the occupied cells of map.pgm, as complex numbers in frame map."""
     yaml = dict(line.split(": ", 1) for line in Path(folder, "map.yaml").read_text(encoding="utf-8").splitlines())
@@ -68,7 +77,7 @@ def flight(swiftlet, source, fault_s, folder):
     true = [truth[round(row[0] * 1e3)] for row in rows]
     start = min(truth) * 1e-3
     live = [complex(row[1], row[2]) for row in rows]
-    placed = fault_runs.onto([(a, b) for a, b, row in zip(live, true, rows) if row[0] < start + fault_s])
+    placed = onto([(a, b) for a, b, row in zip(live, true, rows) if row[0] < start + fault_s])
     return Flight([row[0] - start for row in rows], [placed(a) for a in live], true,
                   [SIGMAS_95 * row[4] for row in rows], [row[6] for row in rows],
                   [placed(wall) for wall in walls_of(folder)])

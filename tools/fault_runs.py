@@ -67,16 +67,6 @@ def all_runs(seeds=SEEDS):
     return [run_of(world, seed, fault) for seed in range(1, seeds + 1) for world in WORLDS for fault in FAULTS]
 
 
-def onto(pairs):
-    """The rigid motion of the plane that puts the first positions of the pairs onto the second, by least squares.
-    Positions are complex numbers, m."""
-    centre_from = sum(a for a, _ in pairs) / len(pairs)
-    centre_to = sum(b for _, b in pairs) / len(pairs)
-    turn = sum((a - centre_from).conjugate() * (b - centre_to) for a, b in pairs)
-    turn /= abs(turn)
-    return lambda position: centre_to + turn * (position - centre_from)
-
-
 def flown_m(truth):
     """{stamp in ms: way flown since the first pose, m}. `truth`: as log_sharpness.poses_of() has it."""
     ways, before, way = {}, None, 0.0
@@ -121,11 +111,11 @@ def way_back_m(after):
 
 
 def noticed_s(after):
-    """From the first moment with an error beyond WRONG_M until the first that is published in doubt; 0 where doubt
-    came first, None where it never came. `after`: moments of which one is beyond WRONG_M."""
+    """From the first moment with an error beyond WRONG_M until the next that is published in doubt; 0 where it is
+    itself, None where none is. `after`: moments of which one is beyond WRONG_M."""
     wrong_s = next(moment.stamp_s for moment in after if moment.error_m > WRONG_M)
-    doubted_s = next((moment.stamp_s for moment in after if moment.state != SURE), None)
-    return None if doubted_s is None else max(0.0, doubted_s - wrong_s)
+    doubted_s = (moment.stamp_s for moment in after if moment.stamp_s >= wrong_s and moment.state != SURE)
+    return next((stamp_s - wrong_s for stamp_s in doubted_s), None)
 
 
 def believed_m(after):

@@ -60,9 +60,12 @@ class Doubt(unittest.TestCase):
     def test_it_comes_so_long_after_the_error_has_passed_the_limit(self):
         self.assertEqual(runs.noticed_s(after(0.2, 0.9, 1.1, 1.5, 2, states="ttttu")), 1.0)
 
-    def test_it_may_come_before_or_never(self):
+    def test_it_may_have_begun_before_or_never_come(self):
         self.assertEqual(runs.noticed_s(after(0.2, 0.9, 1.1, states="tuu")), 0.0)
         self.assertIsNone(runs.noticed_s(after(0.2, 0.9, 1.1)))
+
+    def test_what_ended_before_does_not_count(self):
+        self.assertIsNone(runs.noticed_s(after(0.2, 0.9, 1.1, states="utt")))
 
     def test_the_way_counts_that_is_published_as_good_far_off(self):
         self.assertEqual(runs.believed_m(after(2, 2, 2, 0.9, 2, states="utttt")), 3.0)

@@ -35,8 +35,8 @@ class PlaceHypotheses {
   /// Starts anew with the same break: keyframes are pruned.
   void begin_again() { begin(unwatched_, log_odds_moved_); }
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
-  /// `submaps`: those of before. `T_path_keyframe`: in a frame in which what lies before does not move the
-  /// travel; a place moves it as a whole. Returns whether it was taken.
+  /// `submaps`: those of before. `T_path_keyframe`: the travel, in any frame; a place moves it as a whole.
+  /// Returns whether it was taken.
   bool add_query(KeyframeId query, const ScanRange& recent,
                  std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
                  const KeyframePoses& T_local_keyframe, const KeyframePoses& T_path_keyframe);
