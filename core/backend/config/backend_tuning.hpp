@@ -180,13 +180,16 @@ struct ConfidenceTuning {
 };
 
 struct BuildingAxisPriorTuning {
-  double gate_sigmas = 4.0;      ///< wheels that slip in a turn lose more than their model has it
-  double min_log_odds = 6.0;     ///< that the heading is not off the other way round by the rest of a quarter
-                                 ///< turn: 400 to 1
+  double gate_sigmas = 4.0;  ///< wheels that slip in a turn lose more than their model has it
+  double slip_factor = 3.0;  ///< standard deviations of a turn that a slip takes for one: wheeled robots lose
+                             ///< up to 40 degrees in a spin where the model has 4 to 9
+  double min_log_odds = 6.0;     ///< of an axis over any other, and over one the other way round, where the
+                                 ///< heading is off by the rest of a quarter turn: 400 to 1
   double variance_factor = 3.0;  ///< headings a few metres apart come from the same walls and err together
 
   static constexpr TuningValue<BuildingAxisPriorTuning> kValues[] = {
       {"gate_sigmas", &BuildingAxisPriorTuning::gate_sigmas},
+      {"slip_factor", &BuildingAxisPriorTuning::slip_factor},
       {"min_log_odds", &BuildingAxisPriorTuning::min_log_odds},
       {"variance_factor", &BuildingAxisPriorTuning::variance_factor}};
 };

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace swiftlet {
 namespace {
@@ -15,56 +18,147 @@ double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
 }
 
 /// Whether the heading is off by this much, and not the other way round.
-bool is_unambiguous(double off_rad, double variance_rad2, const BuildingAxisPriorTuning& tuning) {
-  const double other_rad = kPi / 2.0 - std::abs(off_rad);
-  return off_rad * off_rad <= tuning.gate_sigmas * tuning.gate_sigmas * variance_rad2 &&
-         other_rad * other_rad - off_rad * off_rad >= 2.0 * tuning.min_log_odds * variance_rad2;
+double seen_in_map_rad(const PoseGraph& graph, KeyframeId keyframe, const WallAxis& axis) {
+  return yaw_map_rad(graph, keyframe) + axis.yaw_rad;
 }
+
+double nearer_to_zero(double a, double b) { return std::abs(a) < std::abs(b) ? a : b; }
 
 }  // namespace
 
-/// Circular mean over a quarter turn, weighted by the information that DCS leaves of each heading.
-double BuildingAxisPrior::building_axis_rad(const PoseGraph& graph) const {
-  double x = 0.0;
-  double y = 0.0;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const HeadingFactor<KeyframeId>& heading = graph.headings[i];
-    const double yaw_rad = 4.0 * (yaw_map_rad(graph, heading.pose) + axes_[i].yaw_rad);
-    const double weight = heading.dcs_scale * heading.dcs_scale * heading.information;
-    x += weight * std::cos(yaw_rad);
-    y += weight * std::sin(yaw_rad);
-  }
-  return std::atan2(y, x) / 4.0;
-}
-
 void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2,
                             PoseGraph& graph) {
-  if (!axes_.empty()) {
-    const double off_rad = wrap_axis(yaw_map_rad(graph, keyframe) + axis.yaw_rad - building_axis_rad(graph));
-    if (!is_unambiguous(off_rad, yaw_variance_rad2 + axis.sigma_rad * axis.sigma_rad, tuning_)) return;
+  Sight sight{keyframe, axis, yaw_variance_rad2};
+  const std::vector<Fit> fits = fits_of(sight, graph);
+  sight.is_elsewhere = std::none_of(fits.begin(), fits.end(), [](const Fit& fit) { return fit.may_slip; });
+  const std::optional<std::size_t> shared = shared_axis(fits);
+  if (!strays_.empty() && !continues_strays(sight, graph)) {
+    if (shared) share_strays_upto(sight, graph);
+    strays_.clear();
   }
-  axes_.push_back(axis);
-  const double variance_rad2 = tuning_.variance_factor * axis.sigma_rad * axis.sigma_rad;
-  graph.headings.push_back({.pose = keyframe, .information = 1.0 / variance_rad2});
+  if (shared) {
+    observe(*shared, yaw_variance_rad2);
+    hold(sight, *shared, graph);
+    strays_.clear();
+    return;
+  }
+  strays_.push_back(sight);
+  if (strays_.size() < kSightsApart || !strays_.front().is_elsewhere) return;
+  observe(shared_.size(), strays_.front().yaw_variance_rad2);
+  for (const Sight& stray : strays_) hold(stray, last_shared_, graph);
+  strays_.clear();
+}
+
+std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sight,
+                                                               const PoseGraph& graph) const {
+  if (walls_.empty()) return {};
+  const std::vector<double> directions = directions_rad(graph);
+  const double seen_rad = seen_in_map_rad(graph, sight.keyframe, sight.axis);
+  // Of the last heading, which the map may not have followed yet.
+  const double last_off_rad =
+      wrap_axis(seen_in_map_rad(graph, graph.headings.back().pose, walls_.back().axis) -
+                directions[walls_.back().shared]);
+  const double sight_rad2 = squared(sight.axis.sigma_rad);
+  std::vector<Fit> fits;
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    const double in_map_rad = wrap_axis(seen_rad - directions[k]);
+    const double off_rad = nearer_to_zero(in_map_rad, wrap_axis(in_map_rad - last_off_rad));
+    const double turned_rad2 = shared_[k].variance_rad2 + sight.yaw_variance_rad2;
+    const double slipped_rad2 = squared(tuning_.slip_factor) * turned_rad2;
+    fits.push_back(
+        {.misfit = squared(off_rad) / (turned_rad2 + sight_rad2),
+         .other_way_round = squared(kPi / 2.0 - std::abs(off_rad)) / (turned_rad2 + sight_rad2),
+         .may_slip = squared(off_rad) <= squared(tuning_.gate_sigmas) * (slipped_rad2 + sight_rad2)});
+  }
+  return fits;
+}
+
+std::optional<std::size_t> BuildingAxisPrior::shared_axis(const std::vector<Fit>& fits) const {
+  if (fits.empty()) return shared_.size();
+  std::size_t best = 0;
+  double best_odds = std::numeric_limits<double>::infinity();
+  double rival_odds = best_odds;
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    const double rarity = -2.0 * std::log(static_cast<double>(shared_[k].headings));
+    rival_odds = std::min(
+        {rival_odds, rarity + fits[k].other_way_round, std::max(best_odds, rarity + fits[k].misfit)});
+    if (rarity + fits[k].misfit >= best_odds) continue;
+    best = k;
+    best_odds = rarity + fits[k].misfit;
+  }
+  if (fits[best].misfit > squared(tuning_.gate_sigmas)) return std::nullopt;
+  if (rival_odds - best_odds < 2.0 * tuning_.min_log_odds) return std::nullopt;
+  return best;
+}
+
+bool BuildingAxisPrior::continues_strays(const Sight& sight, const PoseGraph& graph) const {
+  const Sight& last = strays_.back();
+  const double off_rad = wrap_axis(seen_in_map_rad(graph, sight.keyframe, sight.axis) -
+                                   seen_in_map_rad(graph, last.keyframe, last.axis));
+  const double variance_rad2 = std::max(0.0, sight.yaw_variance_rad2 - last.yaw_variance_rad2) +
+                               squared(sight.axis.sigma_rad) + squared(last.axis.sigma_rad);
+  return squared(off_rad) <= squared(tuning_.gate_sigmas) * variance_rad2;
+}
+
+/// Who comes back to a shared axis had not lost the heading: between, walls stood otherwise.
+void BuildingAxisPrior::share_strays_upto(const Sight& back, PoseGraph& graph) {
+  if (strays_.size() < kSightsApart) return;
+  shared_.push_back(
+      {.variance_rad2 = std::max(0.0, back.yaw_variance_rad2 - strays_.back().yaw_variance_rad2)});
+  for (const Sight& stray : strays_) hold(stray, shared_.size() - 1, graph);
+}
+
+/// While one axis is in sight it corrects what turning loses, and the others stay as far off as they were.
+void BuildingAxisPrior::observe(std::size_t shared, double yaw_variance_rad2) {
+  if (shared == shared_.size()) shared_.emplace_back();
+  if (shared != last_shared_)
+    for (Shared& other : shared_) other.variance_rad2 += yaw_variance_rad2;
+  shared_[shared].variance_rad2 = 0.0;
+  last_shared_ = shared;
+}
+
+void BuildingAxisPrior::hold(const Sight& sight, std::size_t shared, PoseGraph& graph) {
+  ++shared_[shared].headings;
+  walls_.push_back({sight.axis, shared});
+  const double variance_rad2 = tuning_.variance_factor * squared(sight.axis.sigma_rad);
+  graph.headings.push_back({.pose = sight.keyframe, .information = 1.0 / variance_rad2});
+}
+
+std::vector<double> BuildingAxisPrior::directions_rad(const PoseGraph& graph) const {
+  std::vector<std::complex<double>> sums(shared_.size());
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const HeadingFactor<KeyframeId>& heading = graph.headings[i];
+    const double weight = squared(heading.dcs_scale) * heading.information;
+    sums[walls_[i].shared] += std::polar(weight, 4.0 * seen_in_map_rad(graph, heading.pose, walls_[i].axis));
+  }
+  std::vector<double> directions(sums.size());
+  std::transform(sums.begin(), sums.end(), directions.begin(),
+                 [](const std::complex<double>& sum) { return std::arg(sum) / 4.0; });
+  return directions;
 }
 
 void BuildingAxisPrior::erase(const IdRanges<KeyframeId>& pruned, PoseGraph& graph) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (pruned.contains(graph.headings[i].pose)) continue;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    if (pruned.contains(graph.headings[i].pose)) {
+      --shared_[walls_[i].shared].headings;
+      continue;
+    }
     graph.headings[kept] = graph.headings[i];
-    axes_[kept++] = axes_[i];
+    walls_[kept++] = walls_[i];
   }
   graph.headings.resize(kept);
-  axes_.resize(kept);
+  walls_.resize(kept);
+  std::erase_if(strays_, [&](const Sight& stray) { return pruned.contains(stray.keyframe); });
 }
 
 void BuildingAxisPrior::update(PoseGraph& graph) const {
-  const double building_rad = building_axis_rad(graph);
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  const std::vector<double> directions = directions_rad(graph);
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
     HeadingFactor<KeyframeId>& heading = graph.headings[i];
-    const double now_rad = yaw_map_rad(graph, heading.pose);
-    heading.yaw_map_rad = now_rad - wrap_axis(now_rad + axes_[i].yaw_rad - building_rad);
+    const double seen_rad = seen_in_map_rad(graph, heading.pose, walls_[i].axis);
+    heading.yaw_map_rad =
+        yaw_map_rad(graph, heading.pose) - wrap_axis(seen_rad - directions[walls_[i].shared]);
   }
 }
 

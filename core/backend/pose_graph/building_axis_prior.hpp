@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/backend/config/backend_tuning.hpp"
@@ -10,30 +12,71 @@
 
 namespace swiftlet {
 
-/// Constrains headings by the axis that the walls of most buildings share. Dead reckoning by wheels loses
+/// Constrains headings by the axes that the walls of most buildings share. Dead reckoning by wheels loses
 /// degrees with every metre, and loops end tens of metres from where they began; the axis seen at the start
 /// gives the heading hundreds of metres later. Similar to the heuristic drift elimination of Borenstein &
-/// Ojeda 2010, but in the pose graph, robust, and only where walls share the axis: one that is farther from
-/// the building's than the heading's uncertainty allows is ignored. One thread at a time.
+/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows: walls that stand
+/// farther from all known axes than a slip can turn, or that the vehicle comes back from to a known axis
+/// without a turn, have an axis of their own. One thread at a time.
 class BuildingAxisPrior {
  public:
   explicit BuildingAxisPrior(const BuildingAxisPriorTuning& tuning = {}) : tuning_(tuning) {}
 
   /// `axis`: of the walls around `keyframe`, in its frame. `yaw_variance_rad2`: of its heading relative to
-  /// that of the last heading factor. Adds a heading factor to the graph, or nothing where the axis is
-  /// another one or may be a quarter turn off. Allocates.
+  /// that of the last heading factor. Adds heading factors to the graph: one of these walls where they follow
+  /// a known axis, those of the last walls where they are told to have another; none where it cannot be told,
+  /// or the heading may be a quarter turn off. Allocates.
   void add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2, PoseGraph& graph);
 
   /// Erases the headings of these keyframes, here and in the graph.
   void erase(const IdRanges<KeyframeId>& pruned, PoseGraph& graph);
-  /// Sets the yaw of each heading factor by the present estimate of the building's axis.
+  /// Sets the yaw of each heading factor by the present estimate of its axis.
   void update(PoseGraph& graph) const;
 
  private:
-  [[nodiscard]] double building_axis_rad(const PoseGraph& graph) const;
+  /// Walls around a keyframe.
+  struct Sight {
+    KeyframeId keyframe{};
+    WallAxis axis;
+    double yaw_variance_rad2 =
+        0.0;                    ///< of the keyframe's heading relative to that of the last heading factor
+    bool is_elsewhere = false;  ///< farther from all shared axes than a slip can turn
+  };
+  /// An axis that walls share.
+  struct Shared {
+    std::size_t headings = 0;
+    double variance_rad2 = 0.0;  ///< of its direction relative to the last heading factor's
+  };
+  /// Of the graph's heading of the same index.
+  struct Walls {
+    WallAxis axis;  ///< in the frame of the keyframe
+    std::size_t shared = 0;
+  };
+  /// Of walls to a shared axis, in squared standard deviations.
+  struct Fit {
+    double misfit = 0.0;
+    double other_way_round = 0.0;  ///< the same, if the heading is off by the rest of a quarter turn
+    bool may_slip = false;         ///< as far as this
+  };
+  /// Walls are looked at every half submap: the first and the last of so many sights have none in common.
+  static constexpr std::size_t kSightsApart = 3;
+
+  [[nodiscard]] std::vector<Fit> fits_of(const Sight& sight, const PoseGraph& graph) const;
+  /// The shared axis that clearly fits best, or a first one; by the odds of a Chinese restaurant.
+  [[nodiscard]] std::optional<std::size_t> shared_axis(const std::vector<Fit>& fits) const;
+  [[nodiscard]] bool continues_strays(const Sight& sight, const PoseGraph& graph) const;
+  void share_strays_upto(const Sight& back, PoseGraph& graph);
+  void observe(std::size_t shared, double yaw_variance_rad2);
+  void hold(const Sight& sight, std::size_t shared, PoseGraph& graph);
+  /// In the map, of all shared axes.
+  [[nodiscard]] std::vector<double> directions_rad(const PoseGraph& graph) const;
 
   BuildingAxisPriorTuning tuning_;
-  std::vector<WallAxis> axes_;  // in the frame of the keyframe of the graph's heading of the same index
+  std::vector<Walls> walls_;
+  std::vector<Shared> shared_;
+  std::size_t last_shared_ = 0;
+  std::vector<Sight>
+      strays_;  // since the last heading factor: they agree with each other, with no shared axis
 };
 
 }  // namespace swiftlet

@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include "core/backend/pose_graph/pose_graph_optimizer.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace swiftlet {
 namespace {
@@ -74,15 +77,43 @@ TEST(BuildingAxisPrior, KeepsTheHeadingAlongAWayThatDeadReckoningLosesItOn) {
   EXPECT_EQ(flight.graph.headings.size(), 50U);
 }
 
-TEST(BuildingAxisPrior, LeavesAWingThatStandsAskewAlone) {
+TEST(BuildingAxisPrior, KeepsTheHeadingInAWingThatStandsAskewByItsOwnAxis) {
   Flight flight;
   for (int i = 0; i < 60; ++i) flight.step(true);
-  const std::size_t before = flight.graph.headings.size();
-  const double error_before_rad = flight.yaw_error_rad();
-  for (int i = 0; i < 24; ++i) flight.step(true, radians(40));
-  EXPECT_EQ(flight.graph.headings.size(), before);
-  EXPECT_LT(flight.yaw_error_rad(), error_before_rad + 24 * kDriftRad + radians(1))
-      << "as dead reckoning has it";
+  const double before_rad = flight.yaw_error_rad();
+  for (int lap = 0; lap < 3; ++lap) {
+    for (int i = 0; i < 42; ++i) flight.step(true, radians(40));
+    for (int i = 0; i < 42; ++i) flight.step(true);
+  }
+  EXPECT_LT(flight.yaw_error_rad(), before_rad + radians(12)) << "of 100 degrees of drift";
+}
+
+/// A vehicle that does not turn sees walls at these angles to the first, each with the variance of what it
+/// may have turned since the last heading factor.
+std::size_t headings_after(std::initializer_list<std::pair<double, double>> deg_and_deg2) {
+  PoseGraph graph;
+  graph.T_map_keyframe.push_back({});
+  BuildingAxisPrior hold;
+  hold.add(make_id<KeyframeId>(0), axis_seen_at(0.0), 0.0, graph);
+  std::size_t keyframe = 0;
+  for (const auto& [deg, deg2] : deg_and_deg2) {
+    graph.T_map_keyframe.push_back({});
+    hold.add(make_id<KeyframeId>(++keyframe), axis_seen_at(0.0, radians(deg)), squared(radians(1.0)) * deg2,
+             graph);
+  }
+  return graph.headings.size();
+}
+
+TEST(BuildingAxisPrior, WallsFartherOffThanASlipTurnsHaveAnAxisOfTheirOwn) {
+  EXPECT_EQ(headings_after({{40, 4}, {41, 5}}), 1U) << "both may see the same piece of furniture";
+  EXPECT_EQ(headings_after({{40, 4}, {41, 5}, {39, 6}}), 4U);
+  EXPECT_EQ(headings_after({{20, 16}, {21, 17}, {22, 18}}), 1U) << "a slip of 20 degrees";
+  EXPECT_EQ(headings_after({{40, 4}, {10, 5}, {39, 6}}), 2U) << "10 degrees belong to the first";
+}
+
+TEST(BuildingAxisPrior, WhoComesBackToAnAxisWithoutATurnSawAnother) {
+  EXPECT_EQ(headings_after({{20, 4}, {21, 5}, {20, 6}}), 1U) << "it may have turned";
+  EXPECT_EQ(headings_after({{20, 4}, {21, 5}, {20, 6}, {1, 7}}), 5U);
 }
 
 TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
