@@ -30,7 +30,7 @@ TEST(TrackingState, IsGoodAllAlongAHealthyFlight) {
 }
 
 TEST(TrackingState, IsLostBehindARestartAndGoodAgainOnceThePlaceIsKnown) {
-  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=restart@150:60");
+  const CorrectedRun run = corrected_run("sim://maze?seed=1&fault=restart@150:60");
   const auto lost = std::ranges::find(run.tracking, Tracking::kLost);
   ASSERT_NE(lost, run.tracking.end());
   EXPECT_TRUE(run.samples[static_cast<std::size_t>(lost - run.tracking.begin())].starts_segment);

