@@ -308,14 +308,12 @@ struct RigidNodesTuning {
 
 /// Returns and the patches that they lie on, whose places are unknown.
 struct PosesAndWallsTuning {
-  double robust_sigmas = 1.5;         ///< scale of the Geman-McClure kernel
-  double min_incidence_cosine = 0.7;  ///< flat beams end at the nearest point of a wall, which travels along
+  double robust_sigmas = 1.5;           ///< scale of the Geman-McClure kernel
   double patch_distance_sigma_m = 1.0;  ///< ties a patch to where it was found, where returns leave it free
   double patch_turn_sigma_rad = 0.3;    ///< likewise
 
   static constexpr TuningValue<PosesAndWallsTuning> kValues[] = {
       {"robust_sigmas", &PosesAndWallsTuning::robust_sigmas},
-      {"min_incidence_cosine", &PosesAndWallsTuning::min_incidence_cosine},
       {"patch_distance_sigma_m", &PosesAndWallsTuning::patch_distance_sigma_m},
       {"patch_turn_sigma_rad", &PosesAndWallsTuning::patch_turn_sigma_rad}};
 };
