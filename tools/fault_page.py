@@ -91,6 +91,9 @@ Nothing tells of jumps of the heading, slips and teleports. They are noticed whe
 ([how often](confidence.md)). Those that are not, and many of those that are noticed, stay in the map, bent or apart, as the
 final errors show.
 
+The office looks nearly the same after half a turn around its middle. A vehicle that is carried to ground that it has not
+flown yet, but whose twin it has, is placed at the twin: nothing that it sees there speaks against it.
+
 Runs over {WRONG_M:g} m though the input told of the break:
 
 {wrong_though_told(report['rows'])}

@@ -139,7 +139,7 @@ struct RelativeCovarianceTuning {
 /// Shares and probabilities: figures of 60 simulated buildings, docs/results/confidence.md.
 struct ConfidenceTuning {
   double slip_along_m2_per_m = 0.048;   ///< variance of dead reckoning beyond its noise model, along ...
-  double slip_yaw_rad2_per_m = 0.0004;  ///< ... and of its heading: with them the mean NEES is 2.0 to 3.3
+  double slip_yaw_rad2_per_m = 0.0004;  ///< ... and of its heading: with them the mean NEES is 1.5 to 2.5
   double map_grain_m = 0.05;            ///< no pose is known better than a cell of the map, and ...
   double map_grain_rad = 0.02;          ///< ... than a wall of 3 m in cells
   double recompute_after_m = 2.0;       ///< of way: between, covariances are carried on
