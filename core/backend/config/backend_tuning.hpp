@@ -308,11 +308,14 @@ struct RigidNodesTuning {
 
 /// Returns and the patches that they lie on, whose places are unknown.
 struct PosesAndWallsTuning {
+  double min_incidence_cosine = 0.35;  ///< 70 degrees: so far the flights' returns lie on their walls;
+                                       ///< flatter beams often belong to another wall
   double robust_sigmas = 1.5;           ///< scale of the Geman-McClure kernel
   double patch_distance_sigma_m = 1.0;  ///< ties a patch to where it was found, where returns leave it free
   double patch_turn_sigma_rad = 0.3;    ///< likewise
 
   static constexpr TuningValue<PosesAndWallsTuning> kValues[] = {
+      {"min_incidence_cosine", &PosesAndWallsTuning::min_incidence_cosine},
       {"robust_sigmas", &PosesAndWallsTuning::robust_sigmas},
       {"patch_distance_sigma_m", &PosesAndWallsTuning::patch_distance_sigma_m},
       {"patch_turn_sigma_rad", &PosesAndWallsTuning::patch_turn_sigma_rad}};

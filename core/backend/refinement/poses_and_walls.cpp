@@ -85,7 +85,7 @@ void PosesAndWalls::find_sights(const WallPatches& found, std::span<const DrawnR
     if (patch == WallPatches::kNone) continue;
     const Point2& normal = found.patches[patch].normal_map;
     const Point2& beam = drawn[k].direction_map;
-    if (normal.x_m * beam.x_m + normal.y_m * beam.y_m >= 0.0) continue;  // met from behind
+    if (-normal.x_m * beam.x_m - normal.y_m * beam.y_m < tuning_.walls.min_incidence_cosine) continue;
     returns_.push_back({k, patch, 0});
     seen.push_back(patch);
   }
