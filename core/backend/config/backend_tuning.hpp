@@ -181,8 +181,8 @@ struct ConfidenceTuning {
 
 struct BuildingAxisPriorTuning {
   double gate_sigmas = 4.0;  ///< wheels that slip in a turn lose more than their model has it
-  double slip_factor = 3.0;  ///< standard deviations of a turn that a slip takes for one: wheeled robots lose
-                             ///< up to 40 degrees in a spin where the model has 4 to 9
+  double slip_factor = 3.0;  ///< a slip turns up to so many times as far as the gate: Killian's robot lost 38
+                             ///< degrees in spins of which the model has 4 to 9 as standard deviation
   double min_log_odds = 6.0;     ///< of an axis over any other, and over one the other way round, where the
                                  ///< heading is off by the rest of a quarter turn: 400 to 1
   double variance_factor = 3.0;  ///< headings a few metres apart come from the same walls and err together
@@ -308,8 +308,8 @@ struct RigidNodesTuning {
 
 /// Returns and the patches that they lie on, whose places are unknown.
 struct PosesAndWallsTuning {
-  double min_incidence_cosine = 0.35;  ///< 70 degrees: so far the flights' returns lie on their walls;
-                                       ///< flatter beams often belong to another wall
+  double min_incidence_cosine = 0.35;   ///< 70 degrees: so far the flights' returns lie on their walls;
+                                        ///< flatter beams often belong to another wall
   double robust_sigmas = 1.5;           ///< scale of the Geman-McClure kernel
   double patch_distance_sigma_m = 1.0;  ///< ties a patch to where it was found, where returns leave it free
   double patch_turn_sigma_rad = 0.3;    ///< likewise

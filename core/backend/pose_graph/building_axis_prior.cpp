@@ -17,7 +17,6 @@ double yaw_map_rad(const PoseGraph& graph, KeyframeId keyframe) {
   return graph.T_map_keyframe[keyframe].yaw_rad();
 }
 
-/// Whether the heading is off by this much, and not the other way round.
 double seen_in_map_rad(const PoseGraph& graph, KeyframeId keyframe, const WallAxis& axis) {
   return yaw_map_rad(graph, keyframe) + axis.yaw_rad;
 }
@@ -32,20 +31,19 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
   const std::vector<Fit> fits = fits_of(sight, graph);
   sight.is_elsewhere = std::none_of(fits.begin(), fits.end(), [](const Fit& fit) { return fit.may_slip; });
   const std::optional<std::size_t> shared = shared_axis(fits);
-  if (!strays_.empty() && !continues_strays(sight, graph)) {
-    if (shared) share_strays_upto(sight, graph);
-    strays_.clear();
-  }
+  const bool goes_on = !strays_.empty() && continues_strays(sight, graph);
   if (shared) {
     observe(*shared, yaw_variance_rad2);
+    if (!goes_on) share_strays_upto(sight, graph);
     hold(sight, *shared, graph);
-    strays_.clear();
-    return;
   }
+  if (shared || !goes_on) strays_.clear();
+  if (shared) return;
   strays_.push_back(sight);
   if (strays_.size() < kSightsApart || !strays_.front().is_elsewhere) return;
-  observe(shared_.size(), strays_.front().yaw_variance_rad2);
-  for (const Sight& stray : strays_) hold(stray, last_shared_, graph);
+  const std::size_t added = shared_.size();
+  observe(added, strays_.front().yaw_variance_rad2);
+  for (const Sight& stray : strays_) hold(stray, added, graph);
   strays_.clear();
 }
 
@@ -76,18 +74,18 @@ std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sigh
 std::optional<std::size_t> BuildingAxisPrior::shared_axis(const std::vector<Fit>& fits) const {
   if (fits.empty()) return shared_.size();
   std::size_t best = 0;
-  double best_odds = std::numeric_limits<double>::infinity();
-  double rival_odds = best_odds;
+  double least = std::numeric_limits<double>::infinity();
+  double rival = least;
   for (std::size_t k = 0; k < fits.size(); ++k) {
     const double rarity = -2.0 * std::log(static_cast<double>(shared_[k].headings));
-    rival_odds = std::min(
-        {rival_odds, rarity + fits[k].other_way_round, std::max(best_odds, rarity + fits[k].misfit)});
-    if (rarity + fits[k].misfit >= best_odds) continue;
+    const double misfit = rarity + fits[k].misfit;
+    rival = std::min({rival, rarity + fits[k].other_way_round, std::max(least, misfit)});
+    if (misfit >= least) continue;
     best = k;
-    best_odds = rarity + fits[k].misfit;
+    least = misfit;
   }
   if (fits[best].misfit > squared(tuning_.gate_sigmas)) return std::nullopt;
-  if (rival_odds - best_odds < 2.0 * tuning_.min_log_odds) return std::nullopt;
+  if (rival - least < 2.0 * tuning_.min_log_odds) return std::nullopt;
   return best;
 }
 
@@ -108,13 +106,13 @@ void BuildingAxisPrior::share_strays_upto(const Sight& back, PoseGraph& graph) {
   for (const Sight& stray : strays_) hold(stray, shared_.size() - 1, graph);
 }
 
-/// While one axis is in sight it corrects what turning loses, and the others stay as far off as they were.
+/// Before the heading is added. While one axis is in sight it corrects what turning loses, and the variances
+/// of the others stay as they were.
 void BuildingAxisPrior::observe(std::size_t shared, double yaw_variance_rad2) {
   if (shared == shared_.size()) shared_.emplace_back();
-  if (shared != last_shared_)
+  if (!walls_.empty() && shared != walls_.back().shared)
     for (Shared& other : shared_) other.variance_rad2 += yaw_variance_rad2;
   shared_[shared].variance_rad2 = 0.0;
-  last_shared_ = shared;
 }
 
 void BuildingAxisPrior::hold(const Sight& sight, std::size_t shared, PoseGraph& graph) {
@@ -124,6 +122,7 @@ void BuildingAxisPrior::hold(const Sight& sight, std::size_t shared, PoseGraph& 
   graph.headings.push_back({.pose = sight.keyframe, .information = 1.0 / variance_rad2});
 }
 
+/// Circular means over a quarter turn, weighted by the information that DCS leaves of each heading.
 std::vector<double> BuildingAxisPrior::directions_rad(const PoseGraph& graph) const {
   std::vector<std::complex<double>> sums(shared_.size());
   for (std::size_t i = 0; i < walls_.size(); ++i) {
@@ -150,6 +149,9 @@ void BuildingAxisPrior::erase(const IdRanges<KeyframeId>& pruned, PoseGraph& gra
   graph.headings.resize(kept);
   walls_.resize(kept);
   std::erase_if(strays_, [&](const Sight& stray) { return pruned.contains(stray.keyframe); });
+  if (!walls_.empty()) return;
+  shared_.clear();
+  strays_.clear();
 }
 
 void BuildingAxisPrior::update(PoseGraph& graph) const {

@@ -38,8 +38,8 @@ class BuildingAxisPrior {
   struct Sight {
     KeyframeId keyframe{};
     WallAxis axis;
-    double yaw_variance_rad2 =
-        0.0;                    ///< of the keyframe's heading relative to that of the last heading factor
+    /// Of the keyframe's heading relative to that of the last heading factor.
+    double yaw_variance_rad2 = 0.0;
     bool is_elsewhere = false;  ///< farther from all shared axes than a slip can turn
   };
   /// An axis that walls share.
@@ -56,13 +56,14 @@ class BuildingAxisPrior {
   struct Fit {
     double misfit = 0.0;
     double other_way_round = 0.0;  ///< the same, if the heading is off by the rest of a quarter turn
-    bool may_slip = false;         ///< as far as this
+    bool may_slip = false;         ///< the heading, as far as to this axis
   };
   /// Walls are looked at every half submap: the first and the last of so many sights have none in common.
   static constexpr std::size_t kSightsApart = 3;
 
   [[nodiscard]] std::vector<Fit> fits_of(const Sight& sight, const PoseGraph& graph) const;
-  /// The shared axis that clearly fits best, or a first one; by the odds of a Chinese restaurant.
+  /// The shared axis that clearly fits best, each a priori as likely as headings hold to it; where there is
+  /// none yet, a first one.
   [[nodiscard]] std::optional<std::size_t> shared_axis(const std::vector<Fit>& fits) const;
   [[nodiscard]] bool continues_strays(const Sight& sight, const PoseGraph& graph) const;
   void share_strays_upto(const Sight& back, PoseGraph& graph);
@@ -74,9 +75,8 @@ class BuildingAxisPrior {
   BuildingAxisPriorTuning tuning_;
   std::vector<Walls> walls_;
   std::vector<Shared> shared_;
-  std::size_t last_shared_ = 0;
-  std::vector<Sight>
-      strays_;  // since the last heading factor: they agree with each other, with no shared axis
+  /// Since the last heading factor: they agree with each other, and with no shared axis.
+  std::vector<Sight> strays_;
 };
 
 }  // namespace swiftlet
