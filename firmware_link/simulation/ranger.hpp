@@ -20,8 +20,9 @@ struct NoiseAtRange {
 
 /// A VL53L1x indoors: ST datasheet DocID031281 (limits) and what the reference flights show (noise, cone).
 struct RangerModel {
-  /// In effect. The field of view is 27 degrees across the corners of the array, but so wide a cone would
-  /// read a wall that is met at 55 degrees 5 to 8 % short; on the flights it is 0.4 %, at 65 degrees 0.9 %.
+  /// In effect, by how far short the reference flights read oblique walls
+  /// (tests/benchmarks/oblique_returns.cpp). The field of view is 27 degrees, but what is off its middle
+  /// hardly counts.
   double half_cone_rad = radians(5.0);
   double noise_floor_m = 0.01;  ///< standard deviation = floor + share * distance
   double noise_share = 0.01;
