@@ -38,9 +38,7 @@ struct JointProblemTuning {
   /// What is possible at all, in the order of SystematicError.
   std::array<double, kSystematicErrors> prior_sigma{0.3, 0.3, 0.3, radians(20.0), 0.3, radians(2.0)};
   RigidNodesTuning nodes{.way_m = 0.25};  ///< a few numbers of the whole input need no finer path
-  /// At a flat angle a return shows the heading and its age more than where a wall is: errors of walls would
-  /// be taken for theirs. With 70 degrees, as in the map, one flight of Vicon ends worse than dead reckoning.
-  PosesAndWalls::Tuning problem{.walls = {.min_incidence_cosine = 0.7}};
+  PosesAndWalls::Tuning problem;
 };
 
 /// Called between steps of long work with the share done, 0 to 1; false stops the work.
