@@ -37,6 +37,7 @@ InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel&
     OdometryNoise& noise = calibration.found.odometry;
     noise.expected_drift_yaw_per_metre_rad = error(SystematicError::kYawPerMetre);
     noise.expected_drift_yaw_per_radian = error(SystematicError::kYawPerRadian);
+    calibration.found.reported_forward_scale = expected.odometry_calibration.forward_scale;
   } else {
     odometry.yaw_per_radian = error(SystematicError::kYawPerRadian);
     odometry.yaw_per_second_rad = error(SystematicError::kYawPerSecond);

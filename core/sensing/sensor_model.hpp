@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/time.hpp"
 #include "core/geometry/angle.hpp"
@@ -54,6 +55,15 @@ struct SensorModel {
   Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp
   OdometryNoise odometry;
   OdometryCalibration odometry_calibration;  ///< applied to each measured motion first
+  /// Its forward scale where dead reckoning is a map of its own; nothing: the same.
+  std::optional<double> reported_forward_scale;
+
+  /// For dead reckoning as a map of its own.
+  [[nodiscard]] OdometryCalibration calibration_as_reported() const {
+    OdometryCalibration calibration = odometry_calibration;
+    calibration.forward_scale = reported_forward_scale.value_or(calibration.forward_scale);
+    return calibration;
+  }
 
   /// Crazyflie with Multiranger and flow deck. Its yaw comes from a gyro: no error of it grows with travel.
   /// Readings are measured about 0.1 s before the packet that carries them.

@@ -16,6 +16,7 @@ void SensorOverrides::take_calibration(const SensorModel& calibrated) {
   const auto take = [](double value, std::optional<double>& setting) { setting = setting.value_or(value); };
   take(to_seconds(calibrated.range_age), range_age_s);
   take(calibration.forward_scale, odometry_forward_scale);
+  if (calibrated.reported_forward_scale) take(*calibrated.reported_forward_scale, reported_forward_scale);
   take(calibration.sideways_scale, odometry_sideways_scale);
   take(calibration.yaw_per_metre_rad, missed_yaw_per_metre_rad);
   take(calibration.yaw_per_radian, missed_yaw_per_radian);
@@ -41,6 +42,7 @@ SensorModel SensorOverrides::applied_to(SensorModel model) const {
       expected_drift_yaw_per_radian.value_or(model.odometry.expected_drift_yaw_per_radian);
   OdometryCalibration& calibration = model.odometry_calibration;
   calibration.forward_scale = odometry_forward_scale.value_or(calibration.forward_scale);
+  if (reported_forward_scale) model.reported_forward_scale = reported_forward_scale;
   calibration.sideways_scale = odometry_sideways_scale.value_or(calibration.sideways_scale);
   calibration.yaw_per_metre_rad = missed_yaw_per_metre_rad.value_or(calibration.yaw_per_metre_rad);
   calibration.yaw_per_radian = missed_yaw_per_radian.value_or(calibration.yaw_per_radian);

@@ -25,6 +25,7 @@ struct SensorOverrides {
   std::optional<double> expected_drift_yaw_per_metre_rad;
   std::optional<double> expected_drift_yaw_per_radian;
   std::optional<double> odometry_forward_scale;
+  std::optional<double> reported_forward_scale;
   std::optional<double> odometry_sideways_scale;
   std::optional<double> missed_yaw_per_metre_rad;
   std::optional<double> missed_yaw_per_radian;
@@ -58,6 +59,10 @@ struct SensorOverrides {
       {"odometry_forward_scale", &SensorOverrides::odometry_forward_scale, "m/m",
        "metres moved per metre of dead reckoning, forward; swiftlet calibrate estimates this and what "
        "follows",
+       0.5, 2},
+      {"reported_forward_scale", &SensorOverrides::reported_forward_scale, "m/m",
+       "the same for dead reckoning as a map of its own; left out: the same value, for wheels without the "
+       "estimate of swiftlet map",
        0.5, 2},
       {"odometry_sideways_scale", &SensorOverrides::odometry_sideways_scale, "m/m", "the same sideways", 0.5,
        2},

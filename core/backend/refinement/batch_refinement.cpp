@@ -37,7 +37,7 @@ Factors motions_of(std::span<const StoredScan> scans, const SensorModel& sensor,
     c.from = make_id<PoseIndex>(i - 1);
     c.to = make_id<PoseIndex>(i);
     if (dead_reckoning == DeadReckoning::kAsReported)
-      c.T_from_to = reported_motion(scans[i - 1], scans[i], sensor.odometry_calibration);
+      c.T_from_to = reported_motion(scans[i - 1], scans[i], sensor.calibration_as_reported());
     else if (!scans[i].starts_segment || scans[i].odometry_ran_on)
       c.T_from_to = between(scans[i - 1].T_dead_body, scans[i].T_dead_body);
     c.information =

@@ -28,7 +28,7 @@ struct RefinementReport : HeldOutVerdict {
 /// The dead reckoning that joins neighbouring scans.
 enum class DeadReckoning : std::uint8_t {
   kLessDrift,   ///< StoredScan::T_dead_body
-  kAsReported,  ///< StoredScan::T_odom_body, calibrated
+  kAsReported,  ///< StoredScan::T_odom_body with SensorModel::calibration_as_reported()
 };
 
 /// What the poses of a run's scans are refined by. Views all of it.

@@ -109,7 +109,7 @@ RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const Pose
   if (source == MapSource::kFrontend)
     T_map_body = from(T_map_first, chain_->T_w_bodies(all, T_local_keyframe));
   if (source == MapSource::kDeadReckoning)
-    T_map_body = from(T_map_first, reported_path(scans_->all().values(), sensor_.odometry_calibration));
+    T_map_body = from(T_map_first, reported_path(scans_->all().values(), sensor_.calibration_as_reported()));
   return {source, std::move(T_map_body), {}};
 }
 

@@ -67,6 +67,19 @@ TEST(SystematicPrior, TheYawThatWheelsMissIsWhereTheFrontendBegins) {
   EXPECT_NEAR(value_in(found, SystematicError::kYawPerMetre), 0.01, 1e-6);
 }
 
+TEST(SystematicPrior, DeadReckoningOfWheelsAsAMapStaysAsReported) {
+  SensorModel expected = SensorModel::carmen_laser();
+  expected.odometry_calibration.forward_scale = 1.02;
+  const SensorModel found = calibrated_by(weighed_by(expected, measured(1e-6)), expected).found;
+  EXPECT_NEAR(found.odometry_calibration.forward_scale, 0.92, 1e-3);
+  EXPECT_DOUBLE_EQ(found.calibration_as_reported().forward_scale, 1.02);
+}
+
+TEST(SystematicPrior, DeadReckoningOfAFlowSensorAsAMapHasTheScaleThatWasFound) {
+  const SensorModel found = calibrated_by(measured(0.001), SensorModel::crazyflie()).found;
+  EXPECT_DOUBLE_EQ(found.calibration_as_reported().forward_scale, 0.92);
+}
+
 TEST(SystematicPrior, ARunThatShowsNothingLeavesTheCalibrationOfWheels) {
   SensorModel expected = SensorModel::carmen_laser();
   expected.odometry_calibration.yaw_per_metre_rad = 0.02;

@@ -15,9 +15,11 @@ TEST(SensorOverrides, TakeACalibrationWhereNothingIsSet) {
   SensorModel found = SensorModel::crazyflie();
   found.range_age = std::chrono::milliseconds(50);
   found.odometry_calibration.forward_scale = 1.05;
+  found.reported_forward_scale = 1.01;
   overrides.take_calibration(found);
   EXPECT_EQ(overrides.range_age_s, 0.15);
   EXPECT_EQ(overrides.odometry_forward_scale, 1.05);
+  EXPECT_EQ(overrides.reported_forward_scale, 1.01);
 }
 
 TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
@@ -37,6 +39,7 @@ TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
   EXPECT_EQ(model.odometry_calibration.yaw_per_metre_rad, 0.01);
   EXPECT_EQ(model.odometry_calibration.yaw_per_radian, 0.02);
   EXPECT_EQ(model.odometry_calibration.yaw_per_second_rad, 0.03);
+  EXPECT_EQ(model.calibration_as_reported().forward_scale, 0.95);
   EXPECT_EQ(model.max_range_m, SensorModel::crazyflie().max_range_m);
 }
 
