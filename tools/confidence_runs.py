@@ -12,7 +12,7 @@ import fault_runs
 import mapped_runs
 import whole_runs
 
-BUILDINGS = 100
+BUILDINGS = range(1000, 1100)  # seeds that nothing was set on
 HEALTHY_WORLDS = ["office", "maze", "corridors", "loop", "wings"]
 HEALTHY_SEEDS = 20  # of each world; with the buildings some 9 hours
 FAULTS = [fault_runs.Fault("jump", 20), fault_runs.Fault("jump", 30), fault_runs.Fault("slip", 6),
@@ -41,7 +41,7 @@ def simulated(world, kind, threshold=None):
 
 
 def roc_runs(threshold, buildings, fault_seeds):
-    runs = [simulated(f"building?seed={seed}", "building", threshold) for seed in range(buildings)]
+    runs = [simulated(f"building?seed={seed}", "building", threshold) for seed in buildings]
     for world in fault_runs.WORLDS:
         for seed in range(1, fault_seeds + 1):
             runs.append(simulated(f"{world}?seed={seed}", "healthy", threshold))
