@@ -60,4 +60,9 @@ Eigen::Matrix3d residual_information(const Pose2& T_from_to, const Eigen::Matrix
 
 double dcs_scale(double chi_square, double phi) { return std::min(1.0, 2.0 * phi / (phi + chi_square)); }
 
+double dcs_cost(double chi_square, double phi) {
+  if (chi_square <= phi) return chi_square;
+  return phi * (3.0 * chi_square - phi) / (phi + chi_square);
+}
+
 }  // namespace swiftlet

@@ -78,5 +78,7 @@ Eigen::Matrix3d residual_information(const Pose2& T_from_to, const Eigen::Matrix
 /// DCS (Agarwal et al. 2013, "Robust map optimization using dynamic covariance scaling", eq. 15): the factor
 /// on a closure's error of the given chi-square.
 double dcs_scale(double chi_square, double phi);
+/// What weights of dcs_scale() squared minimise, their integral over chi-square: at most 3 phi.
+double dcs_cost(double chi_square, double phi);
 
 }  // namespace swiftlet

@@ -25,12 +25,6 @@ struct DenseGraph {
 
 }  // namespace
 
-/// What weights of s^2 minimise: their integral over chi-square.
-double PoseGraphOptimizer::robust_cost(double chi_square) const {
-  if (chi_square <= dcs_phi_) return chi_square;
-  return dcs_phi_ * (3.0 * chi_square - dcs_phi_) / (dcs_phi_ + chi_square);
-}
-
 Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const OptimizeEffort& effort) {
   OptimizeReport report;
   if (graph.T_map_keyframe.size() < 2) return report;
@@ -58,12 +52,12 @@ Result<OptimizeReport> PoseGraphOptimizer::optimize(PoseGraph& graph, const Opti
     const RelativePoseFactor<PoseIndex>& f = dense.factors[i];
     const double error = chi_square(f, poses);
     graph.factors.values()[i].dcs_scale = f.is_closure ? dcs_scale(error, dcs_phi_) : 1.0;
-    report.chi_square += f.is_closure ? robust_cost(error) : error;
+    report.chi_square += f.is_closure ? dcs_cost(error, dcs_phi_) : error;
   }
   for (std::size_t i = 0; i < dense.headings.size(); ++i) {
     const double error = chi_square(dense.headings[i], poses);
     graph.headings[i].dcs_scale = dcs_scale(error, dcs_phi_);
-    report.chi_square += robust_cost(error);
+    report.chi_square += dcs_cost(error, dcs_phi_);
   }
   std::copy(poses.begin(), poses.end(), graph.T_map_keyframe.values().begin());
   return report;

@@ -34,8 +34,6 @@ class PoseGraphOptimizer {
   Result<OptimizeReport> optimize(PoseGraph& graph, const OptimizeEffort& effort = {});
 
  private:
-  [[nodiscard]] double robust_cost(double chi_square) const;
-
   double dcs_phi_;
   int max_iterations_;
   PoseSystem system_;

@@ -66,14 +66,16 @@ struct Judged {
 /// `motions`: from each scan to the next.
 Judged judge(const ScanStore& scans, const RefinementProblem& problem,
              std::span<const RelativePoseFactor<PoseIndex>> motions, const std::vector<Pose2>& T_map_body,
-             const RefinementTuning& tuning) {
+             const BackendConfig& config) {
+  const RefinementTuning& tuning = config.tuning.refinement;
   const std::span<const StoredScan> stored = scans.all().values();
   const std::uint32_t first = index_of(traversal_of(stored.front()));
   const WallMap walls = problem.walls_at(T_map_body, tuning.radius_m);
   Judged judged{0.0, 0.0, std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
   std::size_t count = 0;
   for (const RelativePoseFactor<PoseIndex>& f : motions)
-    judged.misfit[index_of(traversal_of(stored[index_of(f.to)])) - first] += 0.5 * chi_square(f, T_map_body);
+    judged.misfit[index_of(traversal_of(stored[index_of(f.to)])) - first] +=
+        0.5 * dcs_cost(chi_square(f, T_map_body), config.dcs_phi);
   problem.for_held_out(walls, T_map_body, [&](std::uint32_t traversal, double distance_m) {
     judged.misfit[traversal - first] += distance_m / tuning.wall_sigma_m;
     judged.held_out_m += distance_m;
@@ -134,14 +136,14 @@ Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vecto
   const RefinementTuning& tuning = batch.config.tuning.refinement;
   const RefinementProblem problem = problem_of(batch.scans, tuning);
   const Factors factors = factors_of(batch);
-  Judged start = judge(batch.scans, problem, motions_in(factors, batch), T_map_body, tuning);
+  Judged start = judge(batch.scans, problem, motions_in(factors, batch), T_map_body, batch.config);
   report.share_on_walls = start.share_on_walls;
   report.misfit = start.misfit;
   report.misfit_at_start = std::move(start.misfit);
   std::vector<Pose2> T = T_map_body;
   if (Status moved = alternate(problem, factors, headings_of(batch), batch.config, T); !moved)
     return moved.error();
-  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, tuning);
+  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, batch.config);
   report.judge(start.held_out_m, refined.held_out_m);
   if (report.accepted) take(std::move(refined), std::move(T), report, T_map_body);
   return report;
@@ -157,7 +159,7 @@ Status refine_together(const BatchRefinement& batch, RefinementReport& report,
   Status solved = refine_jointly(batch.scans, batch.sensor, problem.returns(), headings_of(batch),
                                  batch.config.tuning, factors, T);
   if (!solved) return solved;
-  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, tuning);
+  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, batch.config);
   HeldOutVerdict verdict;
   verdict.judge(report.held_out_before_m, refined.held_out_m);
   report.moved_walls = verdict.accepted;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <span>
 #include <vector>
@@ -259,6 +260,25 @@ TEST(Refinement, TurnsAndShiftsEachScanOntoTheWallsOfTheOthers) {
                ? 0
                : 1;
   EXPECT_LE(off, 2);
+}
+
+TEST(Refinement, ASlipCountsAsOneNotByItsSize) {
+  const TestVehicle vehicle = to_and_fro(drifting());
+  const std::vector<Pose2> straight = dead_reckoned(vehicle);
+  std::vector<Pose2> slipped = straight;
+  const Pose2 last = straight.back();
+  slipped.back() = Pose2(last.x_m(), last.y_m(), last.yaw_rad() + radians(40.0));
+  const auto misfit_at_start = [&](std::vector<Pose2> path) {
+    const Result<RefinementReport> report = refine(vehicle, path);
+    if (!report) return -1.0;
+    return std::accumulate(report->misfit_at_start.begin(), report->misfit_at_start.end(), 0.0);
+  };
+  const BackendConfig config;
+  const double returns_at_most =
+      static_cast<double>(BeamLayout::multiranger().count) * config.tuning.refinement.cap_sigmas;
+  const double cost = misfit_at_start(slipped) - misfit_at_start(straight);
+  EXPECT_GT(cost, config.dcs_phi);
+  EXPECT_LT(cost, 0.5 * 3.0 * config.dcs_phi + returns_at_most);
 }
 
 TEST(Refinement, WhereWallsCannotMovePosesDo) {
