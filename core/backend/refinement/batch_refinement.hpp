@@ -19,8 +19,8 @@ struct RefinementReport : HeldOutVerdict {
   bool moved_walls = false;     ///< refine_together() was accepted
   double share_on_walls = 0.0;  ///< of the held-out returns: that lie on walls of other traversals
   /// By traversal, in order: minus the log likelihood of the poses returned, but for a constant. Of the
-  /// held-out returns (distance over wall sigma) and of the dead reckoning (half chi-square, as far as DCS
-  /// counts it: a slip is no share of its size). Comparable between starts of one run.
+  /// held-out returns (distance over wall sigma) and of the dead reckoning (half the dcs_cost() of a step, so
+  /// that one slip does not outweigh the rest). Comparable between starts of one run.
   std::vector<double> misfit;
   std::vector<double> misfit_at_start;
 };

@@ -43,5 +43,14 @@ TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
   EXPECT_EQ(model.max_range_m, SensorModel::crazyflie().max_range_m);
 }
 
+TEST(SensorOverrides, DeadReckoningAsAMapMayHaveAScaleOfItsOwn) {
+  SensorOverrides overrides;
+  overrides.odometry_forward_scale = 0.95;
+  overrides.reported_forward_scale = 1.03;
+  const SensorModel model = overrides.applied_to(SensorModel::crazyflie());
+  EXPECT_EQ(model.odometry_calibration.forward_scale, 0.95);
+  EXPECT_EQ(model.calibration_as_reported().forward_scale, 1.03);
+}
+
 }  // namespace
 }  // namespace swiftlet
