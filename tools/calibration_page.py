@@ -51,7 +51,7 @@ def flights_table(flights):
         return f"{figure.text(known['true'])} / {found}"
 
     def cells(flight):
-        return [str(flight["seed"]), f"{flight['least_age_s']:.3f} to {flight['greatest_age_s']:.3f}",
+        return [str(flight["seed"]), f"{flight['min_age_s']:.3f} to {flight['max_age_s']:.3f}",
                 *(cell(flight, figure) for figure in KNOWN)]
 
     return page.table(["seed", "age within the flight, s", *(f"{figure.heading}: true / found" for figure in KNOWN)],

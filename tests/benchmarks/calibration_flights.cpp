@@ -128,7 +128,7 @@ struct WatchedFlight {
 struct TrueAge {
   double whole_s = 0.0;     ///< of the flight
   double min_s = 0.0;       ///< of its stretches
-  double greatest_s = 0.0;  ///< likewise
+  double max_s = 0.0;  ///< likewise
 };
 
 TrueAge true_age(const WatchedFlight& flight) {
@@ -214,7 +214,7 @@ Result<nlohmann::ordered_json> measure(const Flight& flight) {
                               {"samples", report->samples},
                               {"sideways_m", report->motion.sideways_m},
                               {"min_age_s", age.min_s},
-                              {"greatest_age_s", age.greatest_s},
+                              {"max_age_s", age.max_s},
                               {"figures", nlohmann::ordered_json::array()}};
   const std::array<double, kSystematicErrors> truths{age.whole_s,
                                                      odometry.forward_scale,

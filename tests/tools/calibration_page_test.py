@@ -18,7 +18,7 @@ def known(setting, true, found=None, sigma=None):
 
 
 def flight(seed=1):
-    return {"seed": seed, "least_age_s": 0.081, "greatest_age_s": 0.094,
+    return {"seed": seed, "min_age_s": 0.081, "max_age_s": 0.094,
             "figures": [known("range_age_s", 0.088, 0.096, 0.006),
                         known("odometry_forward_scale", 1.004, 0.992, 0.004),
                         known("odometry_sideways_scale", 0.99),
