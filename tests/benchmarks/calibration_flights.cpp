@@ -126,9 +126,9 @@ struct WatchedFlight {
 };
 
 struct TrueAge {
-  double whole_s = 0.0;     ///< of the flight
-  double min_s = 0.0;       ///< of its stretches
-  double max_s = 0.0;  ///< likewise
+  double whole_s = 0.0;  ///< of the flight
+  double min_s = 0.0;    ///< of its stretches
+  double max_s = 0.0;    ///< likewise
 };
 
 TrueAge true_age(const WatchedFlight& flight) {
@@ -210,12 +210,9 @@ Result<nlohmann::ordered_json> measure(const Flight& flight) {
   if (!report) return report.error();
   const TrueAge age = true_age(*watched);
   const OdometryCalibration odometry = true_odometry(*watched);
-  nlohmann::ordered_json json{{"seed", flight.seed},
-                              {"samples", report->samples},
-                              {"sideways_m", report->motion.sideways_m},
-                              {"min_age_s", age.min_s},
-                              {"max_age_s", age.max_s},
-                              {"figures", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{
+      {"seed", flight.seed},    {"samples", report->samples}, {"sideways_m", report->motion.sideways_m},
+      {"min_age_s", age.min_s}, {"max_age_s", age.max_s},     {"figures", nlohmann::ordered_json::array()}};
   const std::array<double, kSystematicErrors> truths{age.whole_s,
                                                      odometry.forward_scale,
                                                      odometry.sideways_scale,

@@ -8,9 +8,6 @@
 namespace swiftlet {
 namespace {
 
-/// A vehicle that was carried with its estimate running on: as long as that takes from room to room.
-constexpr Duration kUnnoticed = std::chrono::seconds(10);
-
 RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
           residual_information(closure.T_from_to, closure.covariance.matrix()), true};
@@ -37,7 +34,9 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
       const ScanId scan = chain_->scan_of(made.id);
       const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
       forget_places();
-      places_.begin(made.odometry_ran_on ? Duration::zero() : unwatched);  // its estimate gives the way
+      MotionBreak motion_break;
+      if (!made.odometry_ran_on) motion_break.unwatched = unwatched;  // else the estimate gives the way
+      places_.begin(motion_break);
     }
   }
   const double here_m = chain_->path_m(made.id);
@@ -57,7 +56,7 @@ void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
   unplaced_since_ = keyframe;
   unplaced_by_ = UnplacedBy::kContradiction;
   forget_places();
-  places_.begin(kUnnoticed, log_odds);
+  places_.begin({Duration::zero(), chain_->all().previous(keyframe), log_odds});
 }
 
 void LoopCloser::end_doubt() {
@@ -120,10 +119,12 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
   const ScanRange recent = detector_.recent_scans(newest);
   if (chain_->scan_of(chain_->all().previous(newest)) < recent.first) return;
   const auto earlier = submaps_before_break();
-  const bool is_new = places_.add_query(newest, recent, earlier, graph.graph(), T_local_keyframe,
-                                        path_of_travel(T_local_keyframe, graph.graph()));
+  const KeyframePoses& path = path_of_travel(T_local_keyframe, graph.graph());
+  const bool is_new = places_.add_query(newest, recent, earlier, graph.graph(), T_local_keyframe, path);
   for (const LoopClosure& match : matches)
     if (match.from < *unplaced_since_) proposed_.push_back(match);
+  if (is_new)
+    for (const LoopClosure& match : places_.turned(earlier, graph.graph(), path)) proposed_.push_back(match);
   if (!elsewhere_.is_busy()) {
     for (const LoopClosure& match : elsewhere_.take_found()) proposed_.push_back(match);
     if (is_new) elsewhere_.begin(newest, recent, earlier, T_local_keyframe);
@@ -180,6 +181,7 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
   });
   groups_.clear();
   forget_places();
+  places_.begin_without(pruned);
 }
 
 std::optional<KeyframeId> LoopCloser::open_since() const {

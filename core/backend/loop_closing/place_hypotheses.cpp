@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/backend/loop_closing/correlative_matcher.hpp"
@@ -17,6 +18,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kEvenPer255 = 127.5;
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 bool are_alike(const Pose2& a, const Pose2& b, const PlaceHypothesesTuning& tuning) {
   const Pose2 off = between(a, b);
@@ -44,11 +46,17 @@ Seen seen(const Submap& submap, std::span<const Point2> points, const Pose2& T_s
 
 }  // namespace
 
-void PlaceHypotheses::begin(Duration unwatched, double log_odds_moved) {
-  unwatched_ = unwatched;
-  log_odds_moved_ = log_odds_moved;
+void PlaceHypotheses::begin(const MotionBreak& motion_break) {
+  break_ = motion_break;
   queries_.clear();
   hypotheses_.clear();
+}
+
+/// The first keyframe is never pruned.
+void PlaceHypotheses::begin_without(const IdRanges<KeyframeId>& pruned) {
+  while (break_.moved_at && pruned.contains(*break_.moved_at))
+    break_.moved_at = chain_->all().previous(*break_.moved_at);
+  begin_again();
 }
 
 /// So many contain the same travel, and count as one.
@@ -136,7 +144,7 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
               CrossCheck(*config_, *scans_, *chain_, recent, query, T_local_keyframe)};
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
   if (hypotheses_.empty()) {
-    const double prior = std::log(tuning.not_moved_odds) - log_odds_moved_;
+    const double prior = std::log(tuning.not_moved_odds) - break_.log_odds_moved;
     hypotheses_.push_back({graph.T_map_keyframe[query] * T_path_keyframe[query].inverse(), prior, {}, {}});
   }
   if (queries_.size() == tuning.max_queries) forget_oldest();
@@ -156,6 +164,50 @@ void PlaceHypotheses::forget_oldest() {
   }
 }
 
+/// Behind an estimate that ran on: of what tracking takes for one place and heading. The vehicle turned by
+/// any angle more than its estimate says, or as often not at all; how far it moved has no scale beyond that
+/// of a slip (Student's t with one degree of freedom).
+double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
+                                  const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const {
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const double scale_m = tuning.unmoved_reach_m;
+  if (break_.moved_at) {
+    const Pose2 T_map_moved = T_map_path * T_path_keyframe[*break_.moved_at];
+    const Pose2 moved = between(graph.T_map_keyframe[*break_.moved_at], T_map_moved);
+    const double far = std::hypot(moved.x_m(), moved.y_m()) / scale_m;
+    const bool is_turned = std::abs(moved.yaw_rad()) > tuning.track_rad;
+    const double heading = 0.5 * tuning.track_rad / kPi + (is_turned ? 0.0 : 0.5);
+    const double width = 2.0 * tuning.track_m / scale_m;
+    return std::log(heading * width * width / (2.0 * kPi)) - 1.5 * std::log1p(far * far);
+  }
+  const Point2 not_moved = graph.T_map_keyframe[query].position();
+  const double reach_m = scale_m + tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched);
+  const Pose2 T_map_query = T_map_path * T_path_keyframe[query];
+  if (distance_m(not_moved, T_map_query.position()) > reach_m) return kImpossible;
+  return -std::log(tuning.places_per_submap * static_cast<double>(submaps));
+}
+
+/// By so little at a time that one of the turns is within what evidence() searches.
+std::vector<LoopClosure> PlaceHypotheses::turned(std::span<const std::shared_ptr<const Submap>> submaps,
+                                                 const PoseGraph& graph,
+                                                 const KeyframePoses& T_path_keyframe) {
+  std::vector<LoopClosure> matches;
+  if (!break_.moved_at || queries_.empty()) return matches;
+  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const Pose2 way = between(T_path_keyframe[*break_.moved_at], T_path_keyframe[queries_.back().id]);
+  const double way_m = std::hypot(way.x_m(), way.y_m());
+  const double step_rad = 2.0 * std::min(tuning.track_rad, tuning.track_m / std::max(way_m, tuning.track_m));
+  const int steps = static_cast<int>(std::ceil(2.0 * kPi / step_rad));
+  for (int i = 1; i < steps; ++i) {
+    const Pose2 turn(0.0, 0.0, wrap_angle(i * step_rad));
+    const Pose2 T_map_query = graph.T_map_keyframe[*break_.moved_at] * turn * way;
+    const Evidence found = evidence(queries_.back(), T_map_query, submaps, graph);
+    if (found.match && found.log_likelihood > 0.0 && found.match->score >= config_->min_score)
+      matches.push_back(*found.match);
+  }
+  return matches;
+}
+
 void PlaceHypotheses::propose(const LoopClosure& match,
                               std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
                               const KeyframePoses& T_path_keyframe) {
@@ -164,15 +216,13 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   const Pose2 T_map_query = graph.T_map_keyframe[match.from] * match.T_from_to;
   for (const Hypothesis& h : hypotheses_)
     if (are_alike(h.T_map_path * T_path_query, T_map_query, config_->tuning.places)) return;
-  const Point2 not_moved = graph.T_map_keyframe[match.to].position();
-  const PlaceHypothesesTuning& tuning = config_->tuning.places;
-  const double reach_m = tuning.unmoved_reach_m + tuning.carrying_speed_m_per_s * to_seconds(unwatched_);
-  if (distance_m(not_moved, T_map_query.position()) > reach_m) return;
-  const double prior = -std::log(tuning.places_per_submap * static_cast<double>(submaps.size()));
-  Hypothesis proposed{T_map_query * T_path_query.inverse(), prior, {}, {}};
+  const Pose2 T_map_path = T_map_query * T_path_query.inverse();
+  const double prior = log_prior(T_map_path, match.to, submaps.size(), graph, T_path_keyframe);
+  if (prior == kImpossible) return;
+  Hypothesis proposed{T_map_path, prior, {}, {}};
   for (std::size_t i = queries_.size(); i-- > 0;)  // from where it was found, dead reckoning drifts
     weigh(queries_[i], submaps, graph, T_path_keyframe, proposed);
-  proposed.T_map_path = T_map_query * T_path_query.inverse();
+  proposed.T_map_path = T_map_path;
   std::ranges::reverse(proposed.log_likelihoods);
   std::ranges::reverse(proposed.matches);
   hypotheses_.push_back(std::move(proposed));

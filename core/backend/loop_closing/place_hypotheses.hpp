@@ -19,6 +19,13 @@
 
 namespace swiftlet {
 
+/// Why travel may lie elsewhere in the map than the graph has it.
+struct MotionBreak {
+  Duration unwatched{};                ///< the vehicle may have been carried for so long
+  std::optional<KeyframeId> moved_at;  ///< or it moved here by more than its estimate, which ran on
+  double log_odds_moved = 0.0;         ///< evidence that it did
+};
+
 /// Where travel after a break may lie in the map. Each hypothesis is one place of the whole travel. The scans
 /// on the way are evidence for or against each: hits on walls of earlier submaps there, and hits in their
 /// free space. Unknown ground is no evidence. A hypothesis is accepted once it is so much likelier than every
@@ -30,10 +37,11 @@ class PlaceHypotheses {
       : config_(&config), scans_(&scans), chain_(&chain) {}
 
   /// Starts anew: the first query begins with one hypothesis, that the travel lies where the graph puts it.
-  /// `unwatched`: length of the break; `log_odds_moved`: evidence that the vehicle was moved meanwhile.
-  void begin(Duration unwatched, double log_odds_moved = 0.0);
-  /// Starts anew with the same break: keyframes are pruned.
-  void begin_again() { begin(unwatched_, log_odds_moved_); }
+  void begin(const MotionBreak& motion_break);
+  /// Starts anew with the same break.
+  void begin_again() { begin(break_); }
+  /// Likewise: these keyframes are pruned. `moved_at` goes back to the nearest that stays.
+  void begin_without(const IdRanges<KeyframeId>& pruned);
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
   /// `submaps`: those of before. `T_path_keyframe`: the travel, in any frame; a place moves it as a whole.
   /// Returns whether it was taken.
@@ -43,6 +51,9 @@ class PlaceHypotheses {
   /// A match of the travel with a submap is another hypothesis, unless it is one of them already.
   void propose(const LoopClosure& match, std::span<const std::shared_ptr<const Submap>> submaps,
                const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
+  /// Matches of the newest query with the vehicle turned in place at the break, by any angle.
+  [[nodiscard]] std::vector<LoopClosure> turned(std::span<const std::shared_ptr<const Submap>> submaps,
+                                                const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
   /// The matches of the accepted hypothesis, one for each query that shows known walls; empty before.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
@@ -71,14 +82,15 @@ class PlaceHypotheses {
              const KeyframePoses& T_path_keyframe, Hypothesis& hypothesis) const;
   void merge(const Pose2& T_path_query);
   void forget_oldest();
+  [[nodiscard]] double log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
+                                 const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const;
   [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;
 
   const BackendConfig* config_;
   const ScanStore* scans_;
   const KeyframeChain* chain_;
-  Duration unwatched_{};
-  double log_odds_moved_ = 0.0;
+  MotionBreak break_;
   std::deque<Query> queries_;
   std::vector<Hypothesis> hypotheses_;
 };

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,11 +27,13 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::AllOf;
+using testing::Contains;
 using testing::Each;
 using testing::Field;
 using testing::Ge;
 using testing::IsEmpty;
 using testing::SizeIs;
+using testing::Truly;
 
 const Pose2 kNowhere(500.0, 0.0, 0.0);  // ground that no submap shows
 constexpr Duration kLong = std::chrono::hours(1);
@@ -68,6 +71,13 @@ struct BrokenFlight {
 
 class PlaceHypothesesTest : public testing::Test {
  protected:
+  static MotionBreak carried_for(Duration unwatched, double log_odds_moved = 0.0) {
+    return {unwatched, std::nullopt, log_odds_moved};
+  }
+  /// While its estimate ran on.
+  [[nodiscard]] MotionBreak moved_unwatched(double log_odds_moved = 0.0) const {
+    return {Duration::zero(), since_ - 1, log_odds_moved};
+  }
   explicit PlaceHypothesesTest(const BrokenFlight& flight = round_the_corridor(), double scale = 1.0)
       : flight_(flight), run_(flight.vehicle.samples(), flight.T_local_body(scale)) {
     while (run_.chain().scan_of(since_) < make_id<ScanId>(flight_.break_at)) ++since_;
@@ -84,6 +94,11 @@ class PlaceHypothesesTest : public testing::Test {
   /// Where the graph has the travel, so far from the truth.
   void put_travel(const Pose2& T_map_world) {
     for (KeyframeId k = since_; k <= run_.newest(); ++k) graph_.T_map_keyframe[k] = T_map_world * T_world(k);
+  }
+  /// As if the vehicle had turned by so much in place at the break.
+  void turn_travel(double yaw_rad) {
+    const Pose2& T_map_before = graph_.T_map_keyframe[since_ - 1];
+    put_travel(T_map_before * Pose2(0.0, 0.0, yaw_rad) * T_map_before.inverse());
   }
   /// Submaps of 6 m that overlap by half, of the keyframes from `first` up to `end`.
   void map(KeyframeId first, KeyframeId end) {
@@ -145,7 +160,7 @@ class PlaceHypothesesTest : public testing::Test {
   void begin_nowhere(double log_odds_moved) {
     put_travel(kNowhere);
     newest_ = since_;
-    places_.begin(kLong, log_odds_moved);
+    places_.begin(carried_for(kLong, log_odds_moved));
     take_query();
     propose(Pose2());
   }
@@ -167,7 +182,7 @@ class PlaceHypothesesTest : public testing::Test {
 
 TEST_F(PlaceHypothesesTest, NotHavingMovedWinsWhereTheGroundAgrees) {
   config_.tuning.places.max_sigma_m = kAny;
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   take_queries(2);
   EXPECT_THAT(places_.decided(), IsEmpty()) << "two matches, however likely, are too few";
   take_query();
@@ -176,7 +191,7 @@ TEST_F(PlaceHypothesesTest, NotHavingMovedWinsWhereTheGroundAgrees) {
 }
 
 TEST_F(PlaceHypothesesTest, MatchesThatLeaveThePositionOpenDecideNothing) {
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   take_queries(3);  // along one side
   EXPECT_THAT(places_.decided(), IsEmpty());
   config_.tuning.places.max_sigma_m = kAny;
@@ -188,13 +203,13 @@ TEST_F(PlaceHypothesesTest, MatchesThatLeaveThePositionOpenDecideNothing) {
 
 TEST_F(PlaceHypothesesTest, KnownGroundRefutesNotHavingMoved) {
   put_travel(Pose2(2.5, 1.5, 0.0));
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   EXPECT_EQ(queries_until_decided(), 0);
 }
 
 TEST_F(PlaceHypothesesTest, APlaceFoundElsewhereIsAcceptedAfterThreeMatches) {
   put_travel(Pose2(2.5, 1.5, 0.0));
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   take_query();
   propose(Pose2());
   ASSERT_EQ(places_.size(), 2U);
@@ -206,13 +221,13 @@ TEST_F(PlaceHypothesesTest, APlaceFoundElsewhereIsAcceptedAfterThreeMatches) {
 
 TEST_F(PlaceHypothesesTest, WhereNothingIsKnownNothingIsDecided) {
   put_travel(kNowhere);
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   EXPECT_EQ(queries_until_decided(), 0);
   EXPECT_EQ(places_.size(), 1U);
 }
 
 TEST_F(PlaceHypothesesTest, UnknownGroundIsNoEvidence) {
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   ASSERT_GT(queries_until_decided(), 0);
   const std::size_t known = places_.decided().size();
   change_cells([](std::uint8_t) { return std::uint8_t{0}; });
@@ -225,7 +240,7 @@ TEST_F(PlaceHypothesesTest, AMatchOfWhatIsLikelierFreeIsNoneOfItsMatches) {
   config_.min_group_score = 0.05;
   config_.tuning.places.max_sigma_m = kAny;
   config_.tuning.places.not_moved_odds = 1e300;
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   take_queries(4);
   EXPECT_THAT(places_.decided(), IsEmpty());
 }
@@ -265,16 +280,54 @@ TEST_F(PlaceHypothesesTest, NothingIsFartherOffThanItCanHaveBeenCarried) {
   put_travel(Pose2(10.0, 0.0, 0.0));
   for (const auto& [unwatched, count] : {std::pair(milliseconds(3900), 1U), {milliseconds(4100), 2U}}) {
     newest_ = since_;
-    places_.begin(unwatched);
+    places_.begin(carried_for(unwatched));
     take_query();
     propose(Pose2());
     EXPECT_EQ(places_.size(), count) << "2 m, and 2 m/s";
   }
 }
 
+TEST_F(PlaceHypothesesTest, WhatMovedWhileItsEstimateRanOnMayBeAnywhere) {
+  put_travel(kNowhere);
+  places_.begin(moved_unwatched());
+  take_query();
+  propose(Pose2());
+  EXPECT_EQ(places_.size(), 2U);
+}
+
+TEST_F(PlaceHypothesesTest, AVehicleThatTurnedUnwatchedIsFoundAmongItsTurns) {
+  turn_travel(radians(50.0));
+  places_.begin(moved_unwatched());
+  for (int queries = 0; queries < 4; ++queries) {
+    const KeyframeId query = take_query();
+    const std::vector<LoopClosure> turned = places_.turned(submaps_, graph_, path());
+    EXPECT_THAT(turned, Contains(Truly([&](const LoopClosure& match) {
+                  return match.to == query && poses_near(graph_.T_map_keyframe[match.from] * match.T_from_to,
+                                                         T_world(query), 0.5, radians(3.0));
+                })))
+        << queries;
+  }
+}
+
+TEST_F(PlaceHypothesesTest, TurnsAreAboutAKeyframeThatIsNotPruned) {
+  places_.begin(moved_unwatched());
+  IdRanges<KeyframeId> pruned;
+  pruned.add({since_ - 3, since_});
+  places_.begin_without(pruned);
+  for (KeyframeId k = since_ - 3; k < since_; ++k) graph_.T_map_keyframe[k] = kNowhere;
+  take_query();
+  EXPECT_THAT(places_.turned(submaps_, graph_, path()), Contains(Field(&LoopClosure::to, newest_)));
+}
+
+TEST_F(PlaceHypothesesTest, WhoWasCarriedIsNotLookedForAmongTurns) {
+  places_.begin(carried_for(kLong));
+  take_query();
+  EXPECT_THAT(places_.turned(submaps_, graph_, path()), IsEmpty());
+}
+
 TEST_F(PlaceHypothesesTest, BeginningAgainKeepsTheBreak) {
   put_travel(Pose2(10.0, 0.0, 0.0));
-  places_.begin(seconds(10), 100.0);
+  places_.begin(carried_for(seconds(10), 100.0));
   take_query();
   places_.begin_again();
   EXPECT_EQ(places_.size(), 0U);
@@ -287,13 +340,13 @@ TEST_F(PlaceHypothesesTest, BeginningAgainKeepsTheBreak) {
 
 TEST_F(PlaceHypothesesTest, WhatTheCrossCheckRefusesCountsNothing) {
   config_.tuning.cross_check.min_share_on_walls = 1.1;
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   EXPECT_EQ(queries_until_decided(), 0);
 }
 
 TEST_F(PlaceHypothesesTest, TheSamePlaceIsOneHypothesis) {
   put_travel(kNowhere);
-  places_.begin(kLong);
+  places_.begin(carried_for(kLong));
   propose(kNowhere);
   EXPECT_EQ(places_.size(), 0U) << "nothing was travelled yet";
   take_query();
@@ -311,7 +364,7 @@ TEST_F(PlaceHypothesesTest, TheSamePlaceIsOneHypothesis) {
 
 TEST_F(PlaceHypothesesTest, HypothesesThatComeTogetherAreOne) {
   put_travel(Pose2(0.4, 0.0, 0.0));
-  places_.begin(kLong);
+  places_.begin(carried_for(kLong));
   take_query();
   propose(Pose2(-0.4, 0.0, 0.0));
   ASSERT_EQ(places_.size(), 2U);
@@ -322,7 +375,7 @@ TEST_F(PlaceHypothesesTest, HypothesesThatComeTogetherAreOne) {
 TEST_F(PlaceHypothesesTest, OnlySoManyHypothesesAreKept) {
   config_.tuning.places.max_hypotheses = 2;
   put_travel(kNowhere);
-  places_.begin(kLong, 100.0);
+  places_.begin(carried_for(kLong, 100.0));
   take_query();
   propose(Pose2());
   propose(Pose2(0.0, 300.0, 0.0));
@@ -332,7 +385,7 @@ TEST_F(PlaceHypothesesTest, OnlySoManyHypothesesAreKept) {
 }
 
 TEST_F(PlaceHypothesesTest, OnlyNewTravelIsEvidence) {
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   const KeyframeId first = take_query();
   EXPECT_GE(run_.chain().path_m(first) - run_.chain().path_m(since_), 2.0);
   EXPECT_FALSE(add(first));
@@ -345,7 +398,7 @@ TEST_F(PlaceHypothesesTest, OnlyNewTravelIsEvidence) {
 TEST_F(PlaceHypothesesTest, OldTravelIsForgotten) {
   config_.tuning.places.max_queries = 4;
   config_.tuning.places.max_sigma_m = kAny;
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   take_queries(2);
   const KeyframeId third = take_query();
   take_queries(3);
@@ -372,7 +425,10 @@ class PlaceHypothesesOfTwoAlikeTest : public PlaceHypothesesTest {
     put_travel(kNowhere);
   }
   [[nodiscard]] int queries_until_decided_between_both() {
-    places_.begin(kLong, 100.0);
+    return queries_until_decided_between_both(carried_for(kLong, 100.0));
+  }
+  [[nodiscard]] int queries_until_decided_between_both(const MotionBreak& motion_break) {
+    places_.begin(motion_break);
     newest_ = since_;
     take_query();
     propose(Pose2());
@@ -388,6 +444,13 @@ class PlaceHypothesesOfTwoAlikeTest : public PlaceHypothesesTest {
 
 TEST_F(PlaceHypothesesOfTwoAlikeTest, StayUndecided) { EXPECT_EQ(queries_until_decided_between_both(), 0); }
 
+TEST_F(PlaceHypothesesOfTwoAlikeTest, ATurnIsLikelierThanToHaveMovedFar) {
+  graph_.T_map_keyframe[since_ - 1] = T_world(since_ - 1);
+  turn_travel(radians(50.0));
+  EXPECT_GT(queries_until_decided_between_both(moved_unwatched(100.0)), 0);
+  expect_true(places_.decided());
+}
+
 TEST_F(PlaceHypothesesOfTwoAlikeTest, AreDecidedWhereOneOfThemIsNotMapped) {
   map(KeyframeId{}, second_lap_);
   EXPECT_GT(queries_until_decided_between_both(), 0);
@@ -402,7 +465,7 @@ class PlaceHypothesesWithDriftTest : public PlaceHypothesesTest {
 
 TEST_F(PlaceHypothesesWithDriftTest, NotHavingMovedFollowsTheGraphOverNewGround) {
   config_.tuning.places.max_sigma_m = kAny;
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   const auto mapped = std::exchange(submaps_, {});
   take_queries(4);  // 8 m: dead reckoning is 0.8 m off, the graph has learnt its scale
   submaps_ = mapped;
@@ -411,7 +474,7 @@ TEST_F(PlaceHypothesesWithDriftTest, NotHavingMovedFollowsTheGraphOverNewGround)
 }
 
 TEST_F(PlaceHypothesesWithDriftTest, AHypothesisFollowsTheDrift) {
-  places_.begin(seconds(10));
+  places_.begin(carried_for(seconds(10)));
   take_queries(7);  // 14 m: 1.4 m off
   ASSERT_THAT(places_.decided(), SizeIs(7));
   const LoopClosure newest = places_.decided().back();
