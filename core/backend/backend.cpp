@@ -86,7 +86,7 @@ void Backend::State::doubt_motion_if_contradicted() {
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
   if (first >= chain.all().end_id()) return;
   graph.doubt_motion_to(first);
-  loops.doubt_since(first, config.tuning.confidence.alarm_log_odds);
+  loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds);  // its returns count for half
 }
 
 /// Across a break with known motion (the vehicle's estimate ran on) only the covariance grows.

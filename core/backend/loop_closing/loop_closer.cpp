@@ -8,6 +8,9 @@
 namespace swiftlet {
 namespace {
 
+/// A vehicle that was carried with its estimate running on: as long as that takes from room to room.
+constexpr Duration kUnnoticed = std::chrono::seconds(10);
+
 RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
           residual_information(closure.T_from_to, closure.covariance.matrix()), true};
@@ -56,7 +59,7 @@ void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
   unplaced_since_ = keyframe;
   unplaced_by_ = UnplacedBy::kContradiction;
   forget_places();
-  places_.begin({Duration::zero(), chain_->all().previous(keyframe), log_odds});
+  places_.begin({kUnnoticed, chain_->all().previous(keyframe), log_odds});
 }
 
 void LoopCloser::end_doubt() {

@@ -170,21 +170,17 @@ void PlaceHypotheses::forget_oldest() {
 double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
                                   const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
-  const double scale_m = tuning.unmoved_reach_m;
-  if (break_.moved_at) {
-    const Pose2 T_map_moved = T_map_path * T_path_keyframe[*break_.moved_at];
-    const Pose2 moved = between(graph.T_map_keyframe[*break_.moved_at], T_map_moved);
-    const double far = std::hypot(moved.x_m(), moved.y_m()) / scale_m;
-    const bool is_turned = std::abs(moved.yaw_rad()) > tuning.track_rad;
-    const double heading = 0.5 * tuning.track_rad / kPi + (is_turned ? 0.0 : 0.5);
-    const double width = 2.0 * tuning.track_m / scale_m;
-    return std::log(heading * width * width / (2.0 * kPi)) - 1.5 * std::log1p(far * far);
-  }
-  const Point2 not_moved = graph.T_map_keyframe[query].position();
-  const double reach_m = scale_m + tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched);
-  const Pose2 T_map_query = T_map_path * T_path_keyframe[query];
-  if (distance_m(not_moved, T_map_query.position()) > reach_m) return kImpossible;
-  return -std::log(tuning.places_per_submap * static_cast<double>(submaps));
+  const KeyframeId since = break_.moved_at.value_or(query);
+  const Pose2 moved = between(graph.T_map_keyframe[since], T_map_path * T_path_keyframe[since]);
+  const double far_m = std::hypot(moved.x_m(), moved.y_m());
+  const double slip_m = tuning.unmoved_reach_m;
+  if (far_m > slip_m + tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched)) return kImpossible;
+  if (!break_.moved_at) return -std::log(tuning.places_per_submap * static_cast<double>(submaps));
+  const bool is_turned = std::abs(moved.yaw_rad()) > tuning.track_rad;
+  const double heading = 0.5 * tuning.track_rad / kPi + (is_turned ? 0.0 : 0.5);
+  const double width = 2.0 * tuning.track_m / slip_m;
+  return std::log(heading * width * width / (2.0 * kPi)) -
+         1.5 * std::log1p(far_m * far_m / (slip_m * slip_m));
 }
 
 /// By so little at a time that one of the turns is within what evidence() searches.

@@ -22,7 +22,7 @@ namespace swiftlet {
 /// Why travel may lie elsewhere in the map than the graph has it.
 struct MotionBreak {
   Duration unwatched{};                ///< the vehicle may have been carried for so long
-  std::optional<KeyframeId> moved_at;  ///< or it moved here by more than its estimate, which ran on
+  std::optional<KeyframeId> moved_at;  ///< its estimate ran on, and it moved here by more than that
   double log_odds_moved = 0.0;         ///< evidence that it did
 };
 

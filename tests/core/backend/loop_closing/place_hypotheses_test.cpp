@@ -75,8 +75,8 @@ class PlaceHypothesesTest : public testing::Test {
     return {unwatched, std::nullopt, log_odds_moved};
   }
   /// While its estimate ran on.
-  [[nodiscard]] MotionBreak moved_unwatched(double log_odds_moved = 0.0) const {
-    return {Duration::zero(), since_ - 1, log_odds_moved};
+  [[nodiscard]] MotionBreak moved_unwatched(Duration unwatched, double log_odds_moved = 0.0) const {
+    return {unwatched, since_ - 1, log_odds_moved};
   }
   explicit PlaceHypothesesTest(const BrokenFlight& flight = round_the_corridor(), double scale = 1.0)
       : flight_(flight), run_(flight.vehicle.samples(), flight.T_local_body(scale)) {
@@ -287,17 +287,27 @@ TEST_F(PlaceHypothesesTest, NothingIsFartherOffThanItCanHaveBeenCarried) {
   }
 }
 
-TEST_F(PlaceHypothesesTest, WhatMovedWhileItsEstimateRanOnMayBeAnywhere) {
+TEST_F(PlaceHypothesesTest, ATurnLeadsAsFarAsTheTravelSince) {
+  turn_travel(radians(170.0));
+  places_.begin(moved_unwatched(seconds(0)));
+  take_queries(6);
+  ASSERT_GT(distance_m(graph_.T_map_keyframe[newest_].position(), T_world(newest_).position()), 10.0);
+  const std::size_t before = places_.size();
+  propose(Pose2());
+  EXPECT_EQ(places_.size(), before + 1) << "it did not move by more than 2 m where it turned";
+}
+
+TEST_F(PlaceHypothesesTest, UnwatchedItMovesNoFartherThanItCanHaveBeenCarried) {
   put_travel(kNowhere);
-  places_.begin(moved_unwatched());
+  places_.begin(moved_unwatched(seconds(0)));
   take_query();
   propose(Pose2());
-  EXPECT_EQ(places_.size(), 2U);
+  EXPECT_EQ(places_.size(), 1U);
 }
 
 TEST_F(PlaceHypothesesTest, AVehicleThatTurnedUnwatchedIsFoundAmongItsTurns) {
   turn_travel(radians(50.0));
-  places_.begin(moved_unwatched());
+  places_.begin(moved_unwatched(seconds(0)));
   for (int queries = 0; queries < 4; ++queries) {
     const KeyframeId query = take_query();
     const std::vector<LoopClosure> turned = places_.turned(submaps_, graph_, path());
@@ -310,7 +320,7 @@ TEST_F(PlaceHypothesesTest, AVehicleThatTurnedUnwatchedIsFoundAmongItsTurns) {
 }
 
 TEST_F(PlaceHypothesesTest, TurnsAreAboutAKeyframeThatIsNotPruned) {
-  places_.begin(moved_unwatched());
+  places_.begin(moved_unwatched(seconds(0)));
   IdRanges<KeyframeId> pruned;
   pruned.add({since_ - 3, since_});
   places_.begin_without(pruned);
@@ -447,7 +457,7 @@ TEST_F(PlaceHypothesesOfTwoAlikeTest, StayUndecided) { EXPECT_EQ(queries_until_d
 TEST_F(PlaceHypothesesOfTwoAlikeTest, ATurnIsLikelierThanToHaveMovedFar) {
   graph_.T_map_keyframe[since_ - 1] = T_world(since_ - 1);
   turn_travel(radians(50.0));
-  EXPECT_GT(queries_until_decided_between_both(moved_unwatched(100.0)), 0);
+  EXPECT_GT(queries_until_decided_between_both(moved_unwatched(kLong, 100.0)), 0);
   expect_true(places_.decided());
 }
 
