@@ -98,8 +98,7 @@ Tracking Backend::State::tracking() const {
 
 PoseConfidence Backend::State::computed_confidence() const {
   const ConfidenceTuning& tuning = config.tuning.confidence;
-  const PoseCovariances covariances =
-      newest_pose_covariances(graph.graph(), chain, config.tuning.covariance, tuning);
+  const PoseCovariances covariances = newest_pose_covariances(graph.graph(), chain, config.tuning);
   return {.keyframe = correction.keyframe,
           .T_local_keyframe = T_local_keyframe().values().back(),
           .yaw_map_local_rad = correction.T_map_local.yaw_rad(),

@@ -23,7 +23,7 @@ std::optional<BuildingAxis::Direction> BuildingAxis::direction_near(double yaw_r
   if (std::abs(off_rad) > gate) return std::nullopt;
   const double ratio = off_rad * tuning_.gate_sigmas / (tuning_.robust_sigmas * gate);
   const double robust = 1.0 / squared(1.0 + ratio * ratio);
-  return Direction{yaw_rad - off_rad, robust / squared(tuning_.wall_sigma_rad)};
+  return Direction{yaw_rad - off_rad, robust / squared(tuning_.walls.floor_sigma_rad)};
 }
 
 void BuildingAxis::update(std::span<const WallDirection> walls) {

@@ -21,17 +21,13 @@ struct LineExtractorTuning {
 
 /// Levenberg-Marquardt.
 struct LandmarkGraphSolverTuning {
-  double first_damping = 1e-5;          ///< at the first step
-  double max_damping = 1e6;             ///< more ends the search
-  double damping_after_failure = 10.0;  ///< factor
-  double damping_after_success = 0.1;   ///< factor
-  double settled = 1e-4;                ///< relative decrease of F that ends the search
+  double first_damping = 1e-5;   ///< at the first step
+  double damping_factor = 10.0;  ///< after a step that failed; after one that did not, its inverse
+  double settled = 1e-4;         ///< relative decrease of F that ends the search
 
   static constexpr TuningValue<LandmarkGraphSolverTuning> kValues[] = {
       {"first_damping", &LandmarkGraphSolverTuning::first_damping},
-      {"max_damping", &LandmarkGraphSolverTuning::max_damping},
-      {"damping_after_failure", &LandmarkGraphSolverTuning::damping_after_failure},
-      {"damping_after_success", &LandmarkGraphSolverTuning::damping_after_success},
+      {"damping_factor", &LandmarkGraphSolverTuning::damping_factor},
       {"settled", &LandmarkGraphSolverTuning::settled}};
 };
 
@@ -49,19 +45,17 @@ struct OdometryDriftTuning {
 };
 
 struct BuildingAxisTuning {
-  double gate_sigmas = 3.0;              ///< between a wall and the axis that it may run along
-  double max_gate_rad = radians(20);     ///< nearer to the middle between two axes a wall belongs to either
-  double wall_sigma_rad = radians(2.5);  ///< of a wall that does run along the axis
-  double robust_sigmas = 2.0;            ///< Geman-McClure: walls farther off lose their weight
-  double keyframes_in_window = 10.0;     ///< a wall is estimated again at about so many keyframes
-  double min_sigma_rad = radians(0.3);   ///< of the axis
-  int other_axis_keyframes = 24;         ///< in a row, until another axis replaces the present one
+  double gate_sigmas = 3.0;             ///< between a wall and the axis that it may run along
+  double max_gate_rad = radians(20);    ///< nearer to the middle between two axes a wall belongs to either
+  double robust_sigmas = 2.0;           ///< Geman-McClure: walls farther off lose their weight
+  double keyframes_in_window = 10.0;    ///< a wall is estimated again at about so many keyframes
+  double min_sigma_rad = radians(0.3);  ///< of the axis
+  int other_axis_keyframes = 24;        ///< in a row, until another axis replaces the present one
   WallAxisTuning walls;
 
   static constexpr TuningValue<BuildingAxisTuning> kValues[] = {
       {"gate_sigmas", &BuildingAxisTuning::gate_sigmas},
       {"max_gate_rad", &BuildingAxisTuning::max_gate_rad},
-      {"wall_sigma_rad", &BuildingAxisTuning::wall_sigma_rad},
       {"robust_sigmas", &BuildingAxisTuning::robust_sigmas},
       {"keyframes_in_window", &BuildingAxisTuning::keyframes_in_window},
       {"min_sigma_rad", &BuildingAxisTuning::min_sigma_rad},

@@ -17,7 +17,7 @@ auto LandmarkGraphSolver<kCapacity>::optimize(Graph& graph, int max_steps,
   find_envelope(graph);
   Summary summary{0, graph.chi_square()};
   double damping = tuning.first_damping;
-  while (summary.steps < max_steps && damping < tuning.max_damping && unknowns_ > 0) {
+  while (summary.steps < max_steps && unknowns_ > 0) {
     ++summary.steps;
     save(graph);
     linearize(graph);
@@ -26,12 +26,12 @@ auto LandmarkGraphSolver<kCapacity>::optimize(Graph& graph, int max_steps,
     const double after = solved ? graph.chi_square() : summary.chi_square;
     if (!solved || !(after <= summary.chi_square)) {
       restore(graph);
-      damping *= tuning.damping_after_failure;
+      damping *= tuning.damping_factor;
       continue;
     }
     const double decrease = summary.chi_square - after;
     summary.chi_square = after;
-    damping *= tuning.damping_after_success;
+    damping /= tuning.damping_factor;
     if (decrease <= tuning.settled * (1e-3 + after)) break;
   }
   return summary;

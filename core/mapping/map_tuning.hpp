@@ -23,29 +23,19 @@ struct MapDrawingTuning {
 
 /// The walls of a picture.
 struct WallSupportTuning {
-  int occupied_percent = 65;        ///< of a cell that supports a wall: occupied by several beams
-  double first_fit_reach_m = 0.25;  ///< of the cells beside a wall that it is fitted to, round by round
-  double second_fit_reach_m = 0.15;
-  double last_fit_reach_m = 0.1;
+  int occupied_percent = 65;      ///< of a cell that supports a wall: occupied by several beams
   std::size_t min_fit_cells = 6;  ///< fewer move no wall
-  double min_fit_cosine = 0.985;  ///< of a wall's turn, 10 degrees: farther, and the fit found something else
   double reach_m = 0.1;           ///< from a wall to the occupied cells that support it
-  double bridge_m = 0.4;          ///< longer gaps without support part a wall
-  double min_length_m = 0.4;      ///< shorter parts are left out
+  double bridge_m = 0.4;          ///< longer gaps without support part a wall, and shorter parts are left out
   double same_wall_m = 0.25;      ///< walls no farther apart than this ...
   double same_wall_rad = 0.35;    ///< ... and than this (20 degrees) are one
   double probe_m = 0.05;          ///< step along a wall that is compared with others
 
   static constexpr TuningValue<WallSupportTuning> kValues[] = {
       {"occupied_percent", &WallSupportTuning::occupied_percent},
-      {"first_fit_reach_m", &WallSupportTuning::first_fit_reach_m},
-      {"second_fit_reach_m", &WallSupportTuning::second_fit_reach_m},
-      {"last_fit_reach_m", &WallSupportTuning::last_fit_reach_m},
       {"min_fit_cells", &WallSupportTuning::min_fit_cells},
-      {"min_fit_cosine", &WallSupportTuning::min_fit_cosine},
       {"reach_m", &WallSupportTuning::reach_m},
       {"bridge_m", &WallSupportTuning::bridge_m},
-      {"min_length_m", &WallSupportTuning::min_length_m},
       {"same_wall_m", &WallSupportTuning::same_wall_m},
       {"same_wall_rad", &WallSupportTuning::same_wall_rad},
       {"probe_m", &WallSupportTuning::probe_m}};

@@ -13,7 +13,7 @@ std::optional<Point2> nearest_wall_normal(std::span<const Point2> returns, const
   const Point2 nearest = *std::min_element(
       returns.begin(), returns.end(),
       [&](const Point2& a, const Point2& b) { return distance_m(a, place) < distance_m(b, place); });
-  const RefinementTuning tuning;
+  const WallFitTuning tuning;
   Moments2 moments;
   for (const Point2& p : returns)
     if (distance_m(p, nearest) <= tuning.radius_m) moments.add({p.x_m - nearest.x_m, p.y_m - nearest.y_m});

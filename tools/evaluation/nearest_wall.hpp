@@ -10,7 +10,7 @@
 namespace swiftlet {
 
 /// Unit normal of the wall that is nearest to a place: of the line through the returns around the nearest
-/// one, by the limits of joint refinement (RefinementTuning). Nothing where they are too few or draw no line.
+/// one, by the limits of joint refinement (WallFitTuning). Nothing where they are too few or draw no line.
 [[nodiscard]] std::optional<Point2> nearest_wall_normal(std::span<const Point2> returns, const Point2& place);
 
 }  // namespace swiftlet

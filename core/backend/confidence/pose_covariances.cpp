@@ -35,23 +35,24 @@ KeyframeId surroundings_of_newest(const PoseGraph& graph, const KeyframeChain& c
 }  // namespace
 
 PoseCovariances newest_pose_covariances(const PoseGraph& graph, const KeyframeChain& chain,
-                                        const RelativeCovarianceTuning& covariance,
-                                        const ConfidenceTuning& tuning) {
+                                        const BackendTuning& tuning) {
+  const ConfidenceTuning& confidence = tuning.confidence;
+  const CorrelativeMatcherTuning& matcher = tuning.matcher;
   const KeyframeId newest = chain.all().last_id();
   const IdMap<KeyframeId, Eigen::Matrix3d> covariances = cautious_relative_covariances(
-      graph, newest, covariance, {tuning.slip_along_m2_per_m, tuning.slip_yaw_rad2_per_m});
-  const double grain_m2 = tuning.map_grain_m * tuning.map_grain_m;
-  const Eigen::Vector3d grain(grain_m2, grain_m2, tuning.map_grain_rad * tuning.map_grain_rad);
+      graph, newest, tuning.covariance, {confidence.slip_along_m2_per_m, confidence.slip_yaw_rad2_per_m});
+  const double floor_m2 = matcher.floor_sigma_m * matcher.floor_sigma_m;
+  const Eigen::Vector3d floor(floor_m2, floor_m2, matcher.floor_sigma_yaw_rad * matcher.floor_sigma_yaw_rad);
   const auto relative_to = [&](KeyframeId id) {
     const Pose2 T_newest_id = between(graph.T_map_keyframe[newest], graph.T_map_keyframe[id]);
     const Eigen::Matrix3d J =
         jacobian_compose_second(graph.T_map_keyframe[id]) * jacobian_inverse(T_newest_id);
     Eigen::Matrix3d P = J * covariances[id] * J.transpose();
-    P.diagonal() += grain;
+    P.diagonal() += floor;
     return Covariance3::from_matrix(P);
   };
   return {relative_to(chain.all().first_id()),
-          relative_to(surroundings_of_newest(graph, chain, covariances, tuning))};
+          relative_to(surroundings_of_newest(graph, chain, covariances, confidence))};
 }
 
 }  // namespace swiftlet

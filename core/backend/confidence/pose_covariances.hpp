@@ -16,9 +16,8 @@ struct PoseCovariances {
                                   ///< those flown long ago; where there is none, to the oldest near by
 };
 
-/// By cautious_relative_covariances(), and never better than a cell of the map. Allocates; O(m log n).
+/// By cautious_relative_covariances(), and never better than a match. Allocates; O(m log n).
 [[nodiscard]] PoseCovariances newest_pose_covariances(const PoseGraph& graph, const KeyframeChain& chain,
-                                                      const RelativeCovarianceTuning& covariance,
-                                                      const ConfidenceTuning& tuning);
+                                                      const BackendTuning& tuning);
 
 }  // namespace swiftlet

@@ -21,7 +21,8 @@ struct SubmapTuning {
 struct LoopDetectorTuning {
   double search_sigmas = 3.0;         ///< the search reaches so many standard deviations, and at least ...
   double min_search_radius_m = 0.5;   ///< ... this far to either side ...
-  double min_search_angle_rad = 0.1;  ///< ... and turned by this: covariances of motion are models
+  double min_search_angle_rad = 0.1;  ///< ... and turned by this: covariances of motion are models, and dead
+                                      ///< reckoning drifts by less from one query to the next
   double thinning_cell_m = 0.1;       ///< of the hits that are matched, one per cell
   std::size_t max_closures = 3;  ///< of one query: in laps each overlaps all before, which fills the graph
 
@@ -36,7 +37,7 @@ struct LoopDetectorTuning {
 struct CorrelativeMatcherTuning {
   double edge_penalty = 0.02;  ///< of the score at the window's edge: below any real difference, settles ties
   double likelihood_per_score = 60.0;  ///< log-likelihood of a pose (Olson 2009, section IV.D)
-  double floor_sigma_m = 0.05;         ///< no match on these grids is better, whatever the scores say
+  double floor_sigma_m = 0.05;  ///< no match on these grids is better, whatever the scores say, and no pose
   double floor_sigma_yaw_rad = 0.015;  ///< likewise
   double min_spread_m = 1.0;           ///< around the optimum the scores are evaluated as far as the window
   double max_spread_m = 4.0;           ///< reaches, within these bounds
@@ -45,7 +46,6 @@ struct CorrelativeMatcherTuning {
                                  ///< wall of a corridor on the other would score better than both in place
   double edge_of_window = 0.95;  ///< share beyond which an optimum is none: walls draw it along a corridor
   double min_information = 1e-4;  ///< 1/m^2, left of a direction that only the submap's extent decided
-  double min_lever_m = 0.5;       ///< of the farthest point, which sets the angular step
 
   static constexpr TuningValue<CorrelativeMatcherTuning> kValues[] = {
       {"edge_penalty", &CorrelativeMatcherTuning::edge_penalty},
@@ -57,8 +57,7 @@ struct CorrelativeMatcherTuning {
       {"yaw_spread_steps", &CorrelativeMatcherTuning::yaw_spread_steps},
       {"min_known_share", &CorrelativeMatcherTuning::min_known_share},
       {"edge_of_window", &CorrelativeMatcherTuning::edge_of_window},
-      {"min_information", &CorrelativeMatcherTuning::min_information},
-      {"min_lever_m", &CorrelativeMatcherTuning::min_lever_m}};
+      {"min_information", &CorrelativeMatcherTuning::min_information}};
 };
 
 struct CrossCheckTuning {
@@ -77,7 +76,6 @@ struct ClosureGroupTuning {
   std::size_t max_waiting = 100;  ///< ... while there are no more than this
   double max_chi_square = 7.81;   ///< of two that agree: three degrees of freedom, 95 %
   std::size_t min_members = 6;    ///< of a group that is accepted
-  double min_travel_m = 6.0;      ///< from its first query to its last: their scans do not overlap
   double max_sigma_m = 1.0;  ///< of its position in the worst direction, without any one and those near it:
                              ///< along a corridor many agree with whatever one alone states
   double near_m = 2.0;       ///< travel between queries whose matches count as one
@@ -88,7 +86,6 @@ struct ClosureGroupTuning {
       {"max_waiting", &ClosureGroupTuning::max_waiting},
       {"max_chi_square", &ClosureGroupTuning::max_chi_square},
       {"min_members", &ClosureGroupTuning::min_members},
-      {"min_travel_m", &ClosureGroupTuning::min_travel_m},
       {"max_sigma_m", &ClosureGroupTuning::max_sigma_m},
       {"near_m", &ClosureGroupTuning::near_m},
       {"max_rival_share", &ClosureGroupTuning::max_rival_share}};
@@ -96,13 +93,8 @@ struct ClosureGroupTuning {
 
 struct PlaceHypothesesTuning {
   double way_between_m = 2.0;           ///< travel between queries
-  double track_m = 0.5;                 ///< what dead reckoning may drift from one query to the next
-  double track_rad = 0.1;               ///< likewise
-  double same_place_m = 0.7;            ///< closer ones are one hypothesis
-  double same_place_rad = 0.2;          ///< likewise
   std::size_t max_queries = 20;         ///< older ones are forgotten: 40 m
   std::size_t max_hypotheses = 40;      ///< hypotheses
-  std::size_t min_matches = 3;          ///< of one that is accepted
   double not_moved_odds = 1e6;          ///< to one: that it was not carried; known ground refutes it soon
   double unmoved_reach_m = 2.0;         ///< of hypotheses from where it would be unmoved, and ...
   double carrying_speed_m_per_s = 2.0;  ///< ... as much more as it may have been carried
@@ -112,13 +104,8 @@ struct PlaceHypothesesTuning {
 
   static constexpr TuningValue<PlaceHypothesesTuning> kValues[] = {
       {"way_between_m", &PlaceHypothesesTuning::way_between_m},
-      {"track_m", &PlaceHypothesesTuning::track_m},
-      {"track_rad", &PlaceHypothesesTuning::track_rad},
-      {"same_place_m", &PlaceHypothesesTuning::same_place_m},
-      {"same_place_rad", &PlaceHypothesesTuning::same_place_rad},
       {"max_queries", &PlaceHypothesesTuning::max_queries},
       {"max_hypotheses", &PlaceHypothesesTuning::max_hypotheses},
-      {"min_matches", &PlaceHypothesesTuning::min_matches},
       {"not_moved_odds", &PlaceHypothesesTuning::not_moved_odds},
       {"unmoved_reach_m", &PlaceHypothesesTuning::unmoved_reach_m},
       {"carrying_speed_m_per_s", &PlaceHypothesesTuning::carrying_speed_m_per_s},
@@ -140,8 +127,6 @@ struct RelativeCovarianceTuning {
 struct ConfidenceTuning {
   double slip_along_m2_per_m = 0.048;   ///< variance of dead reckoning beyond its noise model, along ...
   double slip_yaw_rad2_per_m = 0.0004;  ///< ... and of its heading: with them the mean NEES is 1.5 to 2.5
-  double map_grain_m = 0.05;            ///< no pose is known better than a cell of the map, and ...
-  double map_grain_rad = 0.02;          ///< ... than a wall of 3 m in cells
   double recompute_after_m = 2.0;       ///< of way: between, covariances are carried on
   double old_after_m = 15.0;            ///< ground flown this much travel ago is older map
   double near_m = 3.0;                  ///< so far from the vehicle, the reach of its beams, it counts
@@ -161,8 +146,6 @@ struct ConfidenceTuning {
   static constexpr TuningValue<ConfidenceTuning> kValues[] = {
       {"slip_along_m2_per_m", &ConfidenceTuning::slip_along_m2_per_m},
       {"slip_yaw_rad2_per_m", &ConfidenceTuning::slip_yaw_rad2_per_m},
-      {"map_grain_m", &ConfidenceTuning::map_grain_m},
-      {"map_grain_rad", &ConfidenceTuning::map_grain_rad},
       {"recompute_after_m", &ConfidenceTuning::recompute_after_m},
       {"old_after_m", &ConfidenceTuning::old_after_m},
       {"near_m", &ConfidenceTuning::near_m},
@@ -200,7 +183,6 @@ struct KeyframeGraphTuning {
   std::size_t max_keyframes_waiting = 8;  ///< ... so long
   double live_step = 1e-3;                ///< metres or radians, converged; the next keyframe goes on
   int live_iterations = 4;                ///< a keyframe
-  int trial_iterations = 10;              ///< of moving the graph to a group of closures
   double final_step = 1e-5;               ///< metres or radians, converged at the end of the run
   double max_misfit = 1.5;  ///< chi-square a closure of a group: half of the three that its degrees of
                             ///< freedom would allow, for the covariances of matches are wide
@@ -213,25 +195,36 @@ struct KeyframeGraphTuning {
       {"max_keyframes_waiting", &KeyframeGraphTuning::max_keyframes_waiting},
       {"live_step", &KeyframeGraphTuning::live_step},
       {"live_iterations", &KeyframeGraphTuning::live_iterations},
-      {"trial_iterations", &KeyframeGraphTuning::trial_iterations},
       {"final_step", &KeyframeGraphTuning::final_step},
       {"max_misfit", &KeyframeGraphTuning::max_misfit},
       {"lost_heading_rad", &KeyframeGraphTuning::lost_heading_rad},
       {"axis_every_share", &KeyframeGraphTuning::axis_every_share}};
 };
 
+/// What makes points a stretch of wall.
+struct WallFitTuning {
+  double radius_m = 0.3;             ///< around a return
+  std::size_t min_points = 5;        ///< fewer make no wall
+  double min_variance_m2 = 0.003;    ///< along the wall: shorter stretches have no direction
+  double max_variance_ratio = 0.35;  ///< across to along: more is clutter, not a wall
+  double robust_sigmas = 1.5;        ///< of a return from it: scale of the Geman-McClure kernel
+
+  static constexpr TuningValue<WallFitTuning> kValues[] = {
+      {"radius_m", &WallFitTuning::radius_m},
+      {"min_points", &WallFitTuning::min_points},
+      {"min_variance_m2", &WallFitTuning::min_variance_m2},
+      {"max_variance_ratio", &WallFitTuning::max_variance_ratio},
+      {"robust_sigmas", &WallFitTuning::robust_sigmas}};
+};
+
 /// Joint refinement, batch and online.
 struct RefinementTuning {
   // Walls
-  double radius_m = 0.3;                  ///< a wall is fitted to points this close to a return
-  double thinning_cell_m = 0.08;          ///< each traversal draws one point per cell
-  std::size_t min_wall_points = 5;        ///< fewer make no wall
-  double min_wall_variance_m2 = 0.004;    ///< along the wall: shorter stretches have no direction
-  double max_wall_variance_ratio = 0.35;  ///< across to along: more is clutter, not a wall
+  WallFitTuning walls;
+  double thinning_cell_m = 0.08;  ///< each traversal draws one point per cell
 
   // Point-to-line factors
   double wall_sigma_m = 0.05;  ///< of a return from its wall
-  double robust_sigmas = 1.5;  ///< scale of the Geman-McClure kernel
 
   // Held-out returns
   std::size_t hold_out_every = 10;    ///< one return in so many
@@ -241,7 +234,8 @@ struct RefinementTuning {
   double median_drift = 0.03;         ///< of dead reckoning on real logs: position error over way
 
   // Batch refinement
-  double wide_radius_m = 0.5;  ///< instead of radius_m in the first iterations: walls may lie this far apart
+  double wide_radius_m =
+      0.5;  ///< instead of the fit's radius in the first iterations: walls may lie this far apart
   int wide_iterations = 5;
 
   // Windows of the online refinement
@@ -252,13 +246,8 @@ struct RefinementTuning {
   double tie_sigma_rad = 0.05;  ///< likewise
 
   static constexpr TuningValue<RefinementTuning> kValues[] = {
-      {"radius_m", &RefinementTuning::radius_m},
       {"thinning_cell_m", &RefinementTuning::thinning_cell_m},
-      {"min_wall_points", &RefinementTuning::min_wall_points},
-      {"min_wall_variance_m2", &RefinementTuning::min_wall_variance_m2},
-      {"max_wall_variance_ratio", &RefinementTuning::max_wall_variance_ratio},
       {"wall_sigma_m", &RefinementTuning::wall_sigma_m},
-      {"robust_sigmas", &RefinementTuning::robust_sigmas},
       {"hold_out_every", &RefinementTuning::hold_out_every},
       {"cap_sigmas", &RefinementTuning::cap_sigmas},
       {"refined_gain_sigmas", &RefinementTuning::refined_gain_sigmas},
@@ -273,21 +262,13 @@ struct RefinementTuning {
 };
 
 struct WallPatchesTuning {
-  double cell_m = 0.5;       ///< a patch lies in one cell
-  double neighbour_m = 0.3;  ///< how far around a return its wall is looked for
-  std::size_t min_neighbours = 6;
-  double min_length_m2 = 0.003;  ///< variance along the wall: shorter stretches have no direction
-  double max_ratio = 0.35;       ///< variance across to variance along: more is clutter
-  double max_off_m = 0.12;       ///< of a return from its patch
-  double min_agreement = 0.9;    ///< cosine between two normals of one patch
+  double cell_m = 0.5;         ///< a patch lies in one cell
+  double max_off_m = 0.12;     ///< of a return from its patch
+  double min_agreement = 0.9;  ///< cosine between two normals of one patch
   std::size_t min_returns = 8;
 
   static constexpr TuningValue<WallPatchesTuning> kValues[] = {
       {"cell_m", &WallPatchesTuning::cell_m},
-      {"neighbour_m", &WallPatchesTuning::neighbour_m},
-      {"min_neighbours", &WallPatchesTuning::min_neighbours},
-      {"min_length_m2", &WallPatchesTuning::min_length_m2},
-      {"max_ratio", &WallPatchesTuning::max_ratio},
       {"max_off_m", &WallPatchesTuning::max_off_m},
       {"min_agreement", &WallPatchesTuning::min_agreement},
       {"min_returns", &WallPatchesTuning::min_returns}};
@@ -310,13 +291,11 @@ struct RigidNodesTuning {
 struct PosesAndWallsTuning {
   double min_incidence_cosine = 0.35;   ///< 70 degrees: so far the flights' returns lie on their walls;
                                         ///< flatter beams often belong to another wall
-  double robust_sigmas = 1.5;           ///< scale of the Geman-McClure kernel
   double patch_distance_sigma_m = 1.0;  ///< ties a patch to where it was found, where returns leave it free
   double patch_turn_sigma_rad = 0.3;    ///< likewise
 
   static constexpr TuningValue<PosesAndWallsTuning> kValues[] = {
       {"min_incidence_cosine", &PosesAndWallsTuning::min_incidence_cosine},
-      {"robust_sigmas", &PosesAndWallsTuning::robust_sigmas},
       {"patch_distance_sigma_m", &PosesAndWallsTuning::patch_distance_sigma_m},
       {"patch_turn_sigma_rad", &PosesAndWallsTuning::patch_turn_sigma_rad}};
 };
@@ -374,8 +353,7 @@ struct PruningTuning {
   double tile_m = 2.0;                     ///< side of the tiles in which traversals are counted
   std::size_t returns_per_traversal = 64;  ///< sampled to find where it was
   double share_of_returns = 0.9;           ///< decides: the rest are glances through doors
-  std::size_t oldest_kept = 3;             ///< traversals in each tile, and ...
-  std::size_t newest_kept = 3;             ///< ... as many again
+  std::size_t kept_per_tile = 3;           ///< of the oldest traversals in it, and of the newest
   std::size_t min_run = 4;                 ///< traversals: every hole needs ties on both sides
   double share_at_a_time = 0.05;           ///< of the most scans
   double tie_sigma_m = 0.1;                ///< looser than what was known of the place
@@ -385,8 +363,7 @@ struct PruningTuning {
       {"tile_m", &PruningTuning::tile_m},
       {"returns_per_traversal", &PruningTuning::returns_per_traversal},
       {"share_of_returns", &PruningTuning::share_of_returns},
-      {"oldest_kept", &PruningTuning::oldest_kept},
-      {"newest_kept", &PruningTuning::newest_kept},
+      {"kept_per_tile", &PruningTuning::kept_per_tile},
       {"min_run", &PruningTuning::min_run},
       {"share_at_a_time", &PruningTuning::share_at_a_time},
       {"tie_sigma_m", &PruningTuning::tie_sigma_m},

@@ -125,7 +125,7 @@ bool ClosureGroups::is_conclusive(std::span<const std::size_t> set, const PoseGr
   if (set.size() < tuning_.min_members) return false;
   const double first_m = chain_->path_m(waiting_[set.front()].closure.to);
   const double last_m = chain_->path_m(waiting_[set.back()].closure.to);
-  if (last_m - first_m < tuning_.min_travel_m) return false;
+  if (last_m - first_m < multiscan_length_m_) return false;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
   for (const std::size_t i : set) {
     solver.computeDirect(information_without(i, set, graph), Eigen::EigenvaluesOnly);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/config/backend_tuning.hpp"
+#include "core/backend/config/backend_config.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
@@ -25,8 +25,11 @@ namespace swiftlet {
 class ClosureGroups {
  public:
   /// Views `chain`, which must outlive it.
-  explicit ClosureGroups(const KeyframeChain& chain, const BackendTuning& tuning = {})
-      : chain_(&chain), tuning_(tuning.groups), covariance_tuning_(tuning.covariance) {}
+  explicit ClosureGroups(const KeyframeChain& chain, const BackendConfig& config = {})
+      : chain_(&chain),
+        tuning_(config.tuning.groups),
+        covariance_tuning_(config.tuning.covariance),
+        multiscan_length_m_(config.multiscan_length_m) {}
 
   /// Adds what was found from one keyframe, the newest. Returns the group that is now accepted, mostly none.
   /// Then all that waited is forgotten: a group is returned once.
@@ -54,6 +57,7 @@ class ClosureGroups {
   const KeyframeChain* chain_;
   ClosureGroupTuning tuning_;
   RelativeCovarianceTuning covariance_tuning_;
+  double multiscan_length_m_;     // queries so far apart have no scan in common
   std::vector<Waiting> waiting_;  // in the order found
 };
 

@@ -107,7 +107,7 @@ CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Poi
       tiles_(submap.geometry, submap.cells, 1),
       bounds_(grown(submap.geometry), max_ahead(submap.geometry, submap.cells, kTile), kTile) {
   // One step turns the farthest point by one cell (Hess et al. 2016, eq. 7).
-  const double ratio = grid_.resolution_m / farthest_m(points_scan, tuning.min_lever_m);
+  const double ratio = grid_.resolution_m / farthest_m(points_scan, grid_.resolution_m);
   angle_step_rad_ = std::acos(1.0 - 0.5 * ratio * ratio);
   yaw_steps_ = static_cast<int>(std::ceil(window.angle_rad / angle_step_rad_));
   cells_by_yaw_.resize(2 * static_cast<std::size_t>(yaw_steps_) + 1);

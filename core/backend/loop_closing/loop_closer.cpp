@@ -25,7 +25,7 @@ LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, cons
       detector_(config, scans, chain),
       elsewhere_(config, scans, chain),
       places_(config, scans, chain),
-      groups_(chain, config.tuning) {}
+      groups_(chain, config) {}
 
 /// Each submap is one stretch of known motion.
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/backend/loop_closing/correlative_matcher.hpp"
@@ -20,10 +21,11 @@ namespace {
 constexpr double kEvenPer255 = 127.5;
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
-bool are_alike(const Pose2& a, const Pose2& b, const PlaceHypothesesTuning& tuning) {
+/// Where tracking searches from one, the other may be found: as far as the corner of its window.
+bool are_alike(const Pose2& a, const Pose2& b, const LoopDetectorTuning& window) {
   const Pose2 off = between(a, b);
-  return std::hypot(off.x_m(), off.y_m()) < tuning.same_place_m &&
-         std::abs(off.yaw_rad()) < tuning.same_place_rad;
+  return std::hypot(off.x_m(), off.y_m()) < std::numbers::sqrt2 * window.min_search_radius_m &&
+         std::abs(off.yaw_rad()) < 2.0 * window.min_search_angle_rad;
 }
 
 /// Points on ground that the submap knows, and the sum of their probabilities less one half.
@@ -67,7 +69,7 @@ double PlaceHypotheses::queries_alike() const {
 PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T_map_query,
                                                     std::span<const std::shared_ptr<const Submap>> submaps,
                                                     const PoseGraph& graph) const {
-  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const LoopDetectorTuning& window = config_->tuning.detector;
   const Submap* best = nullptr;
   std::size_t most = 0;
   for (const auto& submap : submaps) {
@@ -82,7 +84,8 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
   Pose2 T_submap_query = between(graph.T_map_keyframe[best->reference], T_map_query);
   Evidence found;
   const std::optional<MatchResult> match =
-      CorrelativeMatcher(*best, query.points, {T_submap_query, tuning.track_m, tuning.track_rad},
+      CorrelativeMatcher(*best, query.points,
+                         {T_submap_query, window.min_search_radius_m, window.min_search_angle_rad},
                          config_->tuning.matcher)
           .match(config_->min_group_score);
   if (match) {
@@ -123,7 +126,7 @@ void PlaceHypotheses::merge(const Pose2& T_path_query) {
   for (Hypothesis& h : hypotheses_) {
     const Pose2 T_map_query = h.T_map_path * T_path_query;
     const bool is_known = std::ranges::any_of(kept, [&](const Hypothesis& other) {
-      return are_alike(other.T_map_path * T_path_query, T_map_query, tuning);
+      return are_alike(other.T_map_path * T_path_query, T_map_query, config_->tuning.detector);
     });
     if (!is_known && kept.size() < tuning.max_hypotheses) kept.push_back(std::move(h));
   }
@@ -176,9 +179,10 @@ double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std
   const double slip_m = tuning.unmoved_reach_m;
   if (far_m > slip_m + tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched)) return kImpossible;
   if (!break_.moved_at) return -std::log(tuning.places_per_submap * static_cast<double>(submaps));
-  const bool is_turned = std::abs(moved.yaw_rad()) > tuning.track_rad;
-  const double heading = 0.5 * tuning.track_rad / kPi + (is_turned ? 0.0 : 0.5);
-  const double width = 2.0 * tuning.track_m / slip_m;
+  const LoopDetectorTuning& window = config_->tuning.detector;
+  const bool is_turned = std::abs(moved.yaw_rad()) > window.min_search_angle_rad;
+  const double heading = 0.5 * window.min_search_angle_rad / kPi + (is_turned ? 0.0 : 0.5);
+  const double width = 2.0 * window.min_search_radius_m / slip_m;
   return std::log(heading * width * width / (2.0 * kPi)) -
          1.5 * std::log1p(far_m * far_m / (slip_m * slip_m));
 }
@@ -189,10 +193,11 @@ std::vector<LoopClosure> PlaceHypotheses::turned(std::span<const std::shared_ptr
                                                  const KeyframePoses& T_path_keyframe) {
   std::vector<LoopClosure> matches;
   if (!break_.moved_at || queries_.empty()) return matches;
-  const PlaceHypothesesTuning& tuning = config_->tuning.places;
+  const LoopDetectorTuning& window = config_->tuning.detector;
   const Pose2 way = between(T_path_keyframe[*break_.moved_at], T_path_keyframe[queries_.back().id]);
   const double way_m = std::hypot(way.x_m(), way.y_m());
-  const double step_rad = 2.0 * std::min(tuning.track_rad, tuning.track_m / std::max(way_m, tuning.track_m));
+  const double radius_m = window.min_search_radius_m;
+  const double step_rad = 2.0 * std::min(window.min_search_angle_rad, radius_m / std::max(way_m, radius_m));
   const int steps = static_cast<int>(std::ceil(2.0 * kPi / step_rad));
   for (int i = 1; i < steps; ++i) {
     const Pose2 turn(0.0, 0.0, wrap_angle(i * step_rad));
@@ -211,7 +216,7 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   const Pose2& T_path_query = T_path_keyframe[match.to];
   const Pose2 T_map_query = graph.T_map_keyframe[match.from] * match.T_from_to;
   for (const Hypothesis& h : hypotheses_)
-    if (are_alike(h.T_map_path * T_path_query, T_map_query, config_->tuning.places)) return;
+    if (are_alike(h.T_map_path * T_path_query, T_map_query, config_->tuning.detector)) return;
   const Pose2 T_map_path = T_map_query * T_path_query.inverse();
   const double prior = log_prior(T_map_path, match.to, submaps.size(), graph, T_path_keyframe);
   if (prior == kImpossible) return;
@@ -242,7 +247,8 @@ double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
 
 std::vector<LoopClosure> PlaceHypotheses::decided() const {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
-  if (hypotheses_.empty() || hypotheses_.front().matches.size() < tuning.min_matches) return {};
+  if (hypotheses_.empty() || static_cast<double>(hypotheses_.front().matches.size()) < queries_alike())
+    return {};
   const double rival = hypotheses_.size() < 2 ? 0.0 : std::max(0.0, hypotheses_[1].log_odds);
   if (hypotheses_.front().log_odds < rival + tuning.sure_log_odds) return {};
   if (sigma_m(hypotheses_.front()) > tuning.max_sigma_m) return {};

@@ -112,7 +112,7 @@ bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> 
     factor.is_closure = false;
     trial.factors.push_back(factor);
   }
-  if (!optimizer_.optimize(trial, {tuning().live_step, tuning().trial_iterations})) {
+  if (!optimizer_.optimize(trial, {tuning().live_step, config_->optimizer_iterations})) {
     ++counters_.solver_failures;
     return false;
   }

@@ -105,9 +105,9 @@ void Coverage::judge() {
     double new_and_old = 0.0;
     for (const SeenTile& tile : traversal.tiles) {
       const std::size_t after = traversals_in_[tile.number] - before[tile.number] - 1;
-      const bool has_older = before[tile.number] >= tuning_.oldest_kept;
+      const bool has_older = before[tile.number] >= tuning_.kept_per_tile;
       old += has_older ? tile.share : 0.0;
-      new_and_old += has_older && after >= tuning_.newest_kept ? tile.share : 0.0;
+      new_and_old += has_older && after >= tuning_.kept_per_tile ? tile.share : 0.0;
       ++before[tile.number];
     }
     traversal.stays_for_good = old < tuning_.share_of_returns;

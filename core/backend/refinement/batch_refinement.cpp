@@ -70,7 +70,7 @@ Judged judge(const ScanStore& scans, const RefinementProblem& problem,
   const RefinementTuning& tuning = config.tuning.refinement;
   const std::span<const StoredScan> stored = scans.all().values();
   const std::uint32_t first = index_of(traversal_of(stored.front()));
-  const WallMap walls = problem.walls_at(T_map_body, tuning.radius_m);
+  const WallMap walls = problem.walls_at(T_map_body, tuning.walls.radius_m);
   Judged judged{0.0, 0.0, std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
   std::size_t count = 0;
   for (const RelativePoseFactor<PoseIndex>& f : motions)
@@ -109,7 +109,7 @@ Status alternate(const RefinementProblem& problem, const Factors& factors, const
   PoseSystem system;
   if (Status status = system.prepare(T_map_body.size(), factors); !status) return status;
   for (int round = 0; round < config.refinement_iterations; ++round) {
-    const double radius_m = round < tuning.wide_iterations ? tuning.wide_radius_m : tuning.radius_m;
+    const double radius_m = round < tuning.wide_iterations ? tuning.wide_radius_m : tuning.walls.radius_m;
     system.set_zero();
     for (const RelativePoseFactor<PoseIndex>& f : factors) system.add(f, 1.0, T_map_body);
     for (const HeadingFactor<PoseIndex>& f : headings) system.add(f, 1.0, T_map_body);

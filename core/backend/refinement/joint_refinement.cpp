@@ -69,7 +69,7 @@ Status refine_jointly(const ScanStore& scans, const SensorModel& sensor,
       std::move(nodes), hits_of(returns),
       {{closures, factors.end()}, {headings.begin(), headings.end()}, tuning.joint.closure_weight},
       T_map_body, prior, kWallSigmasOfReading * sensor.range_sigma_m,
-      {tuning.poses_and_walls, tuning.patches});
+      {tuning.poses_and_walls, tuning.refinement.walls, tuning.patches});
   for (int round = 0; round < tuning.joint.associations; ++round) {
     problem.associate();
     for (int step = 0; step < tuning.joint.steps_per_association; ++step)

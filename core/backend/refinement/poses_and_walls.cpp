@@ -53,7 +53,7 @@ void PosesAndWalls::associate() {
     const double range_m = std::hypot(hit.p_body.x_m, hit.p_body.y_m);
     drawn.push_back({p, {(p.x_m - T.x_m()) / range_m, (p.y_m - T.y_m()) / range_m}});
   }
-  const WallPatches found = find_wall_patches(drawn, tuning_.patches);
+  const WallPatches found = find_wall_patches(drawn, tuning_.fit, tuning_.patches);
   patches_.clear();
   for (const WallPatch& patch : found.patches) patches_.push_back({patch, 0.0, 0.0});
   find_sights(found, drawn);
@@ -125,7 +125,7 @@ PosesAndWalls::WallRow PosesAndWalls::wall_row(const WallReturn& wall) const {
   const double by_yaw = -normal_node.x_m * (p_node.y_m - scan.T_node_body.y_m()) +
                         normal_node.y_m * (p_node.x_m - scan.T_node_body.x_m());
   row.by_errors = scan.by_errors.transpose() * Eigen::Vector3d(normal_node.x_m, normal_node.y_m, by_yaw);
-  const double scaled = row.error / (tuning_.walls.robust_sigmas * wall_sigma_m_);
+  const double scaled = row.error / (tuning_.fit.robust_sigmas * wall_sigma_m_);
   const double robust = 1.0 / ((1.0 + scaled * scaled) * (1.0 + scaled * scaled));  // Geman-McClure
   row.weight = robust / (wall_sigma_m_ * wall_sigma_m_);
   return row;

@@ -46,6 +46,7 @@ class PosesAndWalls {
  public:
   struct Tuning {
     PosesAndWallsTuning walls;
+    WallFitTuning fit;
     WallPatchesTuning patches;
   };
   using ErrorsMatrix = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;

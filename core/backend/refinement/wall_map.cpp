@@ -11,12 +11,12 @@
 namespace swiftlet {
 
 std::optional<LocalWall> wall_through(const Moments2& moments, const Point2& place_map,
-                                      const RefinementTuning& tuning) {
-  if (moments.count < tuning.min_wall_points) return std::nullopt;
+                                      const WallFitTuning& tuning) {
+  if (moments.count < tuning.min_points) return std::nullopt;
   const Scatter2 scatter = moments.scatter();
   const double along = scatter.along();
-  if (along < tuning.min_wall_variance_m2) return std::nullopt;
-  if (scatter.across() > tuning.max_wall_variance_ratio * along) return std::nullopt;
+  if (along < tuning.min_variance_m2) return std::nullopt;
+  if (scatter.across() > tuning.max_variance_ratio * along) return std::nullopt;
   return LocalWall{{place_map.x_m + scatter.mean.x_m, place_map.y_m + scatter.mean.y_m}, scatter.normal()};
 }
 
@@ -98,7 +98,8 @@ std::optional<LocalWall> WallMap::wall_near(const TraversalPoint& place) const {
     rows[count++] = {cell_starts_[row + static_cast<std::size_t>(first_x)],
                      cell_starts_[row + static_cast<std::size_t>(last_x) + 1]};
   }
-  return wall_through(local_moments(points_, {rows.data(), count}, place, radius_m_), place.p_map, tuning_);
+  return wall_through(local_moments(points_, {rows.data(), count}, place, radius_m_), place.p_map,
+                      tuning_.walls);
 }
 
 }  // namespace swiftlet

@@ -22,7 +22,7 @@ struct LocalWall {
 /// The line through points with these moments relative to `place_map`; nothing where they are too few or not
 /// clearly a line.
 [[nodiscard]] std::optional<LocalWall> wall_through(const Moments2& moments, const Point2& place_map,
-                                                    const RefinementTuning& tuning);
+                                                    const WallFitTuning& tuning);
 
 /// Appends one point per traversal and cell, the mean of those in it. `points` ordered by traversal.
 void append_thinned(std::span<const TraversalPoint> points, double cell_m,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/backend/refinement/wall_map.hpp"
 #include "core/geometry/grid.hpp"
 #include "core/geometry/moments2.hpp"
 
@@ -61,19 +62,10 @@ class ReturnsByCell {
   std::vector<DrawnReturn> sorted_;
 };
 
-/// Unit normal of the line through points; nothing where they are no clear line.
-std::optional<Point2> normal_of(const Moments2& moments, const WallPatchesTuning& tuning) {
-  if (moments.count < tuning.min_neighbours) return std::nullopt;
-  const Scatter2 scatter = moments.scatter();
-  if (scatter.along() < tuning.min_length_m2 || scatter.across() > tuning.max_ratio * scatter.along())
-    return std::nullopt;
-  return scatter.normal();
-}
-
 /// Of the face around a return, towards the sensor.
 std::optional<Point2> normal_at(const DrawnReturn& at, const ReturnsByCell& returns,
-                                const WallPatchesTuning& tuning) {
-  const double reach_m = tuning.neighbour_m;
+                                const WallFitTuning& tuning) {
+  const double reach_m = tuning.radius_m;
   const CellIndex low = returns.cell_at({at.p_map.x_m - reach_m, at.p_map.y_m - reach_m});
   const CellIndex high = returns.cell_at({at.p_map.x_m + reach_m, at.p_map.y_m + reach_m});
   Moments2 moments;
@@ -85,9 +77,10 @@ std::optional<Point2> normal_at(const DrawnReturn& at, const ReturnsByCell& retu
       if (dot(other.direction_map, at.direction_map) > 0.0) moments.add({dx, dy});
     }
   }
-  std::optional<Point2> normal = normal_of(moments, tuning);
-  if (normal && dot(*normal, at.direction_map) > 0.0) normal = Point2{-normal->x_m, -normal->y_m};
-  return normal;
+  const std::optional<LocalWall> wall = wall_through(moments, at.p_map, tuning);
+  if (!wall) return std::nullopt;
+  const Point2& normal = wall->normal_map;
+  return dot(normal, at.direction_map) > 0.0 ? Point2{-normal.x_m, -normal.y_m} : normal;
 }
 
 struct OnWall {
@@ -146,14 +139,15 @@ void split_cell(std::vector<OnWall> left, const WallPatchesTuning& tuning, WallP
 
 }  // namespace
 
-WallPatches find_wall_patches(std::span<const DrawnReturn> returns, const WallPatchesTuning& tuning) {
+WallPatches find_wall_patches(std::span<const DrawnReturn> returns, const WallFitTuning& fit,
+                              const WallPatchesTuning& tuning) {
   WallPatches result;
   result.patch_of.assign(returns.size(), WallPatches::kNone);
   const ReturnsByCell by_cell(returns, tuning.cell_m);
   for (std::size_t at = 0; at < by_cell.size();) {
     std::vector<OnWall> in_cell;
     for (const std::size_t end = by_cell.cell_end(at); at < end; ++at)
-      if (const std::optional<Point2> normal = normal_at(by_cell[at], by_cell, tuning))
+      if (const std::optional<Point2> normal = normal_at(by_cell[at], by_cell, fit))
         in_cell.push_back({by_cell.index_of(at), by_cell[at].p_map, *normal});
     split_cell(std::move(in_cell), tuning, result);
   }

@@ -74,12 +74,13 @@ MapSegment fitted_to_grid(const MapSegment& wall, double resolution_m,
                           const std::function<bool(CellIndex)>& is_occupied,
                           const WallSupportTuning& tuning) {
   MapSegment fitted = wall;
+  const double min_cosine = std::cos(0.5 * tuning.same_wall_rad);  // beyond, the fit found something else
   for (const double reach_m :
-       {tuning.first_fit_reach_m, tuning.second_fit_reach_m, tuning.last_fit_reach_m}) {
+       {tuning.same_wall_m, std::sqrt(tuning.same_wall_m * tuning.reach_m), tuning.reach_m}) {
     const std::vector<Point2> points = cells_around(fitted, reach_m, resolution_m, is_occupied);
     if (points.size() < tuning.min_fit_cells) return wall;
     fitted = onto_line_through(points, fitted);
-    if (!(cos_between(fitted, wall) > tuning.min_fit_cosine)) return wall;
+    if (!(cos_between(fitted, wall) > min_cosine)) return wall;
   }
   return fitted;
 }
@@ -99,7 +100,7 @@ std::vector<MapSegment> supported_parts(const MapSegment& wall, double resolutio
   int first = 0;    // of the part being followed
   int newest = -1;  // its last supported step; -1 while there is none
   const auto finish = [&] {
-    if (newest >= 0 && (newest - first) * length_m >= tuning.min_length_m * steps)
+    if (newest >= 0 && (newest - first) * length_m >= tuning.bridge_m * steps)
       parts.push_back({point_at(first), point_at(newest)});
     newest = -1;
   };
@@ -146,7 +147,7 @@ std::vector<MapSegment> uncovered_parts(const MapSegment& wall, const std::vecto
   for (int step = 0; step <= steps + 1; ++step) {
     if (step <= steps && !is_covered(point_at(step))) continue;
     const MapSegment part{point_at(first), point_at(std::max(first, step - 1))};
-    if (length_of(part) >= tuning.min_length_m) parts.push_back(part);
+    if (length_of(part) >= tuning.bridge_m) parts.push_back(part);
     first = step + 1;
   }
   return parts;

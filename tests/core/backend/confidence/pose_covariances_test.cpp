@@ -44,19 +44,22 @@ PoseGraph graph_of(const StoredRun& run) {
 TEST(PoseCovariances, GrowWithTheWayFromTheStartByNoiseAndSlip) {
   const StoredRun run = flight(10.0, 0.0);
   const ConfidenceTuning tuning;
-  const PoseCovariances P = newest_pose_covariances(graph_of(run), run.chain(), {}, tuning);
+  const PoseCovariances P = newest_pose_covariances(graph_of(run), run.chain(), {});
   const double motions = static_cast<double>(run.chain().size() - 1);
-  const double grain_m2 = tuning.map_grain_m * tuning.map_grain_m;
-  EXPECT_NEAR(P.from_start.xx, 1e-4 * motions + 10.0 * tuning.slip_along_m2_per_m + grain_m2, 0.02);
-  EXPECT_NEAR(
-      P.from_start.yaw_yaw,
-      1e-6 * motions + 10.0 * tuning.slip_yaw_rad2_per_m + tuning.map_grain_rad * tuning.map_grain_rad, 2e-4);
+  const CorrelativeMatcherTuning match;
+  EXPECT_NEAR(P.from_start.xx,
+              1e-4 * motions + 10.0 * tuning.slip_along_m2_per_m + match.floor_sigma_m * match.floor_sigma_m,
+              0.02);
+  EXPECT_NEAR(P.from_start.yaw_yaw,
+              1e-6 * motions + 10.0 * tuning.slip_yaw_rad2_per_m +
+                  match.floor_sigma_yaw_rad * match.floor_sigma_yaw_rad,
+              2e-4);
 }
 
 TEST(PoseCovariances, OnNewGroundTheSurroundingsAreTheLastFewMetres) {
   const StoredRun run = flight(30.0, 0.0);
   const ConfidenceTuning tuning;
-  const PoseCovariances P = newest_pose_covariances(graph_of(run), run.chain(), {}, tuning);
+  const PoseCovariances P = newest_pose_covariances(graph_of(run), run.chain(), {});
   EXPECT_LT(P.from_surroundings.xx, (tuning.near_m + 0.5) * tuning.slip_along_m2_per_m + 0.01);
   EXPECT_GT(P.from_surroundings.xx, (tuning.near_m - 0.5) * tuning.slip_along_m2_per_m);
 }
@@ -65,14 +68,14 @@ TEST(PoseCovariances, OnOldGroundTheyAreWhatWasFlownLongAgo) {
   const StoredRun run = flight(12.0, 12.0);
   PoseGraph graph = graph_of(run);
   const ConfidenceTuning tuning;
-  const PoseCovariances before = newest_pose_covariances(graph, run.chain(), {}, tuning);
+  const PoseCovariances before = newest_pose_covariances(graph, run.chain(), {});
   EXPECT_GT(before.from_surroundings.xx, 15.0 * tuning.slip_along_m2_per_m);
   const KeyframeId first = graph.T_map_keyframe.first_id();
   const KeyframeId last = graph.T_map_keyframe.last_id();
   const Pose2 T_first_last = between(graph.T_map_keyframe[first], graph.T_map_keyframe[last]);
   const Eigen::Matrix3d closed = Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal();
   graph.factors.push_back({first, last, T_first_last, residual_information(T_first_last, closed), true});
-  const PoseCovariances after = newest_pose_covariances(graph, run.chain(), {}, tuning);
+  const PoseCovariances after = newest_pose_covariances(graph, run.chain(), {});
   EXPECT_LT(after.from_surroundings.xx, 0.02);
   EXPECT_LT(after.from_start.xx, 0.02);
 }

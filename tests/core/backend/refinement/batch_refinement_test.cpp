@@ -333,7 +333,7 @@ TEST(Refinement, TakesAsManyRoundsAsItMay) {
   const auto after = [&](int rounds, std::vector<Pose2> T_map_body) {
     BackendConfig config;
     config.refinement_iterations = rounds;
-    config.tuning.refinement.wide_radius_m = config.tuning.refinement.radius_m;
+    config.tuning.refinement.wide_radius_m = config.tuning.refinement.walls.radius_m;
     const BatchRefinement batch{.scans = run.scans(), .sensor = SensorModel::crazyflie(), .config = config};
     const Result<RefinementReport> report = refine_in_turn(batch, T_map_body);
     EXPECT_TRUE(report && report->accepted);

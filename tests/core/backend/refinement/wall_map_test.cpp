@@ -81,7 +81,8 @@ class AllPoints {
       mean += weight * p;
       sum += weight;
     }
-    if (near.size() < 5) return std::nullopt;
+    const WallFitTuning fit;
+    if (near.size() < fit.min_points) return std::nullopt;
     mean /= sum;
     Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
     for (const auto& [weight, p] : near) scatter += weight / sum * (p - mean) * (p - mean).transpose();
@@ -89,7 +90,7 @@ class AllPoints {
     axes.computeDirect(scatter);
     const double across = axes.eigenvalues()[0];
     const double along = axes.eigenvalues()[1];
-    if (along < 0.004 || across > 0.35 * along) return std::nullopt;
+    if (along < fit.min_variance_m2 || across > fit.max_variance_ratio * along) return std::nullopt;
     const Eigen::Vector2d normal = axes.eigenvectors().col(0);
     return LocalWall{{mean.x(), mean.y()}, {normal.x(), normal.y()}};
   }
