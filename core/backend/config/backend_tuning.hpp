@@ -205,7 +205,7 @@ struct KeyframeGraphTuning {
 struct WallFitTuning {
   double radius_m = 0.3;             ///< around a return
   std::size_t min_points = 5;        ///< fewer make no wall
-  double min_variance_m2 = 0.003;    ///< along the wall: shorter stretches have no direction
+  double min_variance_m2 = 0.004;    ///< along the wall: shorter stretches have no direction
   double max_variance_ratio = 0.35;  ///< across to along: more is clutter, not a wall
   double robust_sigmas = 1.5;        ///< of a return from it: scale of the Geman-McClure kernel
 
@@ -262,13 +262,17 @@ struct RefinementTuning {
 };
 
 struct WallPatchesTuning {
-  double cell_m = 0.5;         ///< a patch lies in one cell
-  double max_off_m = 0.12;     ///< of a return from its patch
-  double min_agreement = 0.9;  ///< cosine between two normals of one patch
+  double cell_m = 0.5;             ///< a patch lies in one cell
+  std::size_t min_neighbours = 6;  ///< around a return, in place of the fit's min_points, ...
+  double min_length_m2 = 0.003;    ///< ... and of its min_variance_m2: returns as they are, not thinned
+  double max_off_m = 0.12;         ///< of a return from its patch
+  double min_agreement = 0.9;      ///< cosine between two normals of one patch
   std::size_t min_returns = 8;
 
   static constexpr TuningValue<WallPatchesTuning> kValues[] = {
       {"cell_m", &WallPatchesTuning::cell_m},
+      {"min_neighbours", &WallPatchesTuning::min_neighbours},
+      {"min_length_m2", &WallPatchesTuning::min_length_m2},
       {"max_off_m", &WallPatchesTuning::max_off_m},
       {"min_agreement", &WallPatchesTuning::min_agreement},
       {"min_returns", &WallPatchesTuning::min_returns}};

@@ -141,13 +141,16 @@ void split_cell(std::vector<OnWall> left, const WallPatchesTuning& tuning, WallP
 
 WallPatches find_wall_patches(std::span<const DrawnReturn> returns, const WallFitTuning& fit,
                               const WallPatchesTuning& tuning) {
+  WallFitTuning around = fit;
+  around.min_points = tuning.min_neighbours;
+  around.min_variance_m2 = tuning.min_length_m2;
   WallPatches result;
   result.patch_of.assign(returns.size(), WallPatches::kNone);
   const ReturnsByCell by_cell(returns, tuning.cell_m);
   for (std::size_t at = 0; at < by_cell.size();) {
     std::vector<OnWall> in_cell;
     for (const std::size_t end = by_cell.cell_end(at); at < end; ++at)
-      if (const std::optional<Point2> normal = normal_at(by_cell[at], by_cell, fit))
+      if (const std::optional<Point2> normal = normal_at(by_cell[at], by_cell, around))
         in_cell.push_back({by_cell.index_of(at), by_cell[at].p_map, *normal});
     split_cell(std::move(in_cell), tuning, result);
   }
