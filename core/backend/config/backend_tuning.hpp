@@ -37,7 +37,8 @@ struct LoopDetectorTuning {
 struct CorrelativeMatcherTuning {
   double edge_penalty = 0.02;  ///< of the score at the window's edge: below any real difference, settles ties
   double likelihood_per_score = 60.0;  ///< log-likelihood of a pose (Olson 2009, section IV.D)
-  double floor_sigma_m = 0.05;  ///< no match on these grids is better, whatever the scores say, and no pose
+  double floor_sigma_m = 0.05;  ///< no match on these grids is better, whatever the scores say; nor is the
+                                ///< published pose
   double floor_sigma_yaw_rad = 0.015;  ///< likewise
   double min_spread_m = 1.0;           ///< around the optimum the scores are evaluated as far as the window
   double max_spread_m = 4.0;           ///< reaches, within these bounds

@@ -14,12 +14,6 @@ namespace {
 constexpr int kTile = TiledByteGrid::kSide;  // positions a side: tried at once
 constexpr int kSpreadStrideCells = 2;        // between positions evaluated: enough under a kernel of three
 
-double farthest_m(std::span<const Point2> points, double at_least_m) {
-  double farthest = at_least_m;
-  for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
-  return farthest;
-}
-
 /// Of max_ahead(): wider and higher by what a tile reaches.
 GridGeometry grown(GridGeometry geometry) {
   geometry.width += kTile - 1;
@@ -96,6 +90,12 @@ struct CorrelativeMatcher::Tile {
   int yaw = 0;
   double bound = 0.0;  ///< no pose in the tile is preferred more
 };
+
+double farthest_m(std::span<const Point2> points, double at_least_m) {
+  double farthest = at_least_m;
+  for (const Point2& p : points) farthest = std::max(farthest, std::hypot(p.x_m, p.y_m));
+  return farthest;
+}
 
 CorrelativeMatcher::CorrelativeMatcher(const Submap& submap, std::span<const Point2> points_scan,
                                        const SearchWindow& window, const CorrelativeMatcherTuning& tuning)

@@ -14,6 +14,9 @@
 
 namespace swiftlet {
 
+/// Of the points, from their frame's origin, and no less than `at_least_m`.
+[[nodiscard]] double farthest_m(std::span<const Point2> points, double at_least_m);
+
 /// Where to look for the scan in the submap: around a predicted pose, bounded in each direction.
 struct SearchWindow {
   Pose2 T_submap_scan;    ///< the prediction

@@ -135,8 +135,8 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
   accept_group(places_.decided(), graph);
 }
 
-void LoopCloser::forget_places() {
-  places_.begin_again();
+void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
+  places_.begin_again(pruned);
   elsewhere_.stop();
   proposed_.clear();
 }
@@ -183,8 +183,7 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
   groups_.clear();
-  forget_places();
-  places_.begin_without(pruned);
+  forget_places(pruned);
 }
 
 std::optional<KeyframeId> LoopCloser::open_since() const {

@@ -76,7 +76,7 @@ class LoopCloser {
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
                                                     const PoseGraph& graph) const;
-  void forget_places();
+  void forget_places(const IdRanges<KeyframeId>& pruned = {});
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);

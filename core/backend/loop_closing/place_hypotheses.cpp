@@ -46,6 +46,14 @@ Seen seen(const Submap& submap, std::span<const Point2> points, const Pose2& T_s
   return sum;
 }
 
+/// Whether points as far as `reach_m` around a place may lie on the submap's grid.
+bool may_be_seen(const Submap& submap, const Point2& p_submap, double reach_m) {
+  const GridGeometry& grid = submap.geometry;
+  const Point2 at = grid.in_cells(p_submap);
+  const double reach = reach_m / grid.resolution_m;
+  return at.x_m > -reach && at.x_m < grid.width + reach && at.y_m > -reach && at.y_m < grid.height + reach;
+}
+
 }  // namespace
 
 void PlaceHypotheses::begin(const MotionBreak& motion_break) {
@@ -55,10 +63,10 @@ void PlaceHypotheses::begin(const MotionBreak& motion_break) {
 }
 
 /// The first keyframe is never pruned.
-void PlaceHypotheses::begin_without(const IdRanges<KeyframeId>& pruned) {
+void PlaceHypotheses::begin_again(const IdRanges<KeyframeId>& pruned) {
   while (break_.moved_at && pruned.contains(*break_.moved_at))
     break_.moved_at = chain_->all().previous(*break_.moved_at);
-  begin_again();
+  begin(break_);
 }
 
 /// So many contain the same travel, and count as one.
@@ -74,6 +82,7 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
   std::size_t most = 0;
   for (const auto& submap : submaps) {
     const Pose2 T_submap_query = between(graph.T_map_keyframe[submap->reference], T_map_query);
+    if (!may_be_seen(*submap, T_submap_query.position(), query.reach_m)) continue;
     const std::size_t known = seen(*submap, query.points, T_submap_query).known;
     if (known > most) {
       most = known;
@@ -146,6 +155,7 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
                            config_->tuning.detector.thinning_cell_m),
               CrossCheck(*config_, *scans_, *chain_, recent, query, T_local_keyframe)};
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
+  taken.reach_m = farthest_m(taken.points, 0.0);
   if (hypotheses_.empty()) {
     const double prior = std::log(tuning.not_moved_odds) - break_.log_odds_moved;
     hypotheses_.push_back({graph.T_map_keyframe[query] * T_path_keyframe[query].inverse(), prior, {}, {}});

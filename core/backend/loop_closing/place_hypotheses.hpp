@@ -38,10 +38,8 @@ class PlaceHypotheses {
 
   /// Starts anew: the first query begins with one hypothesis, that the travel lies where the graph puts it.
   void begin(const MotionBreak& motion_break);
-  /// Starts anew with the same break.
-  void begin_again() { begin(break_); }
-  /// Likewise: these keyframes are pruned. `moved_at` goes back to the nearest that stays.
-  void begin_without(const IdRanges<KeyframeId>& pruned);
+  /// Starts anew with the same break; of `pruned` keyframes `moved_at` goes back to the nearest that stays.
+  void begin_again(const IdRanges<KeyframeId>& pruned = {});
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
   /// `submaps`: those of before. `T_path_keyframe`: the travel, in any frame; a place moves it as a whole.
   /// Returns whether it was taken.
@@ -64,6 +62,7 @@ class PlaceHypotheses {
     double yaw_local_rad = 0.0;
     std::vector<Point2> points;
     CrossCheck cross_check;
+    double reach_m = 0.0;  // of the points
   };
   struct Hypothesis {
     Pose2 T_map_path;

@@ -31,7 +31,7 @@ struct WallPatches {
 };
 
 /// Groups returns on the same stretch of wall, about half a metre long. The two faces of a thin wall are two
-/// patches. Allocates. Repeatable.
+/// patches. Of `fit`, `tuning` replaces what a wall needs at least. Allocates. Repeatable.
 [[nodiscard]] WallPatches find_wall_patches(std::span<const DrawnReturn> returns,
                                             const WallFitTuning& fit = {},
                                             const WallPatchesTuning& tuning = {});

@@ -323,7 +323,7 @@ TEST_F(PlaceHypothesesTest, TurnsAreAboutAKeyframeThatIsNotPruned) {
   places_.begin(moved_unwatched(seconds(0)));
   IdRanges<KeyframeId> pruned;
   pruned.add({since_ - 3, since_});
-  places_.begin_without(pruned);
+  places_.begin_again(pruned);
   for (KeyframeId k = since_ - 3; k < since_; ++k) graph_.T_map_keyframe[k] = kNowhere;
   take_query();
   EXPECT_THAT(places_.turned(submaps_, graph_, path()), Contains(Field(&LoopClosure::to, newest_)));
