@@ -24,6 +24,7 @@ struct Backend::State {
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
   void doubt_motion_if_contradicted();
+  [[nodiscard]] bool has_restarted_unplaced() const;
   [[nodiscard]] Tracking tracking() const;
   [[nodiscard]] PoseConfidence computed_confidence() const;
 
@@ -74,8 +75,7 @@ void Backend::State::compare_newest_scan(const FrontendStep& step) {
   const Pose2 T_map_body = correction.T_map_local * step.T_local_body;
   if (step.has_keyframe)
     agreement.look_around(T_map_body, chain.path_m(step.made.id), loops.submaps(), T_map_keyframe());
-  const bool has_restarted = loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart;
-  if (!has_restarted) agreement.add_newest_scan(T_map_body);
+  if (!has_restarted_unplaced()) agreement.add_newest_scan(T_map_body);
 }
 
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
@@ -90,9 +90,12 @@ void Backend::State::doubt_motion_if_contradicted() {
 }
 
 /// Across a break with known motion (the vehicle's estimate ran on) only the covariance grows.
+bool Backend::State::has_restarted_unplaced() const {
+  return loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart;
+}
+
 Tracking Backend::State::tracking() const {
-  if (loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart)
-    return loops.places_weighed() > 1 ? Tracking::kRelocalizing : Tracking::kLost;
+  if (has_restarted_unplaced()) return loops.places_weighed() > 1 ? Tracking::kRelocalizing : Tracking::kLost;
   return agreement.is_contradicted() ? Tracking::kUncertain : Tracking::kTracking;
 }
 
@@ -200,6 +203,15 @@ TrackingFigures Backend::tracking() const {
           .places_weighed = unplaced ? static_cast<std::uint32_t>(s.loops.places_weighed()) : 0,
           .way_since_closure_m = closures.empty() ? here_m : since_m(closures.values().back().to),
           .way_unplaced_m = unplaced ? since_m(s.chain.all().at_or_after(*unplaced)) : 0.0};
+}
+
+std::optional<ScanId> Backend::doubted_since() const {
+  const State& s = *state_;
+  if (!s.config.close_loops) return std::nullopt;
+  if (s.has_restarted_unplaced())
+    return s.chain.scan_of(s.chain.all().at_or_after(*s.loops.unplaced_since()));
+  if (!s.agreement.is_contradicted()) return std::nullopt;
+  return s.scans.all().at_or_after(s.agreement.agreed_last() + 1);
 }
 
 PoseConfidence Backend::confidence() {

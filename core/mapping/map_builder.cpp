@@ -27,11 +27,14 @@ struct MapBuilder::State {
   };
   [[nodiscard]] static Stretch stretch_now(const Backend& backend, KeyframeId k);
   [[nodiscard]] bool has_moved(const Pose2& drawn, const Pose2& now) const;
-  void take_new_scans(const Backend& backend);
+  void take_new_keyframes(const Backend& backend);
+  void draw_up_to(const Backend& backend, ScanId end);
+  void rub_out_from(const Backend& backend, ScanId first);
   [[nodiscard]] KeyframeId first_unsettled(const Backend& backend) const;
   std::size_t follow(const Backend& backend, KeyframeId k);
   void sweep(const Backend& backend);
   void draw(const Backend& backend, ScanId scan);
+  void rub_out(const Backend& backend, ScanId scan);
   using Beams = FixedVector<BeamEnd, kMaxBeams>;
   [[nodiscard]] Beams beams_of(const Backend& backend, ScanId scan) const;
 
@@ -40,7 +43,7 @@ struct MapBuilder::State {
   double clear_range_m;
   ScanDrawing drawing;
   IdMap<KeyframeId, Stretch> stretches;
-  ScanId scans_end{};            // of those seen
+  ScanId drawn_end{};            // later scans are not in the map yet
   KeyframeId keyframes_end{};    // of those seen by the last update
   RoundRobin<KeyframeId> swept;  // when all may have moved
 };
@@ -56,17 +59,33 @@ bool MapBuilder::State::has_moved(const Pose2& drawn, const Pose2& now) const {
   return farthest_m > config.tuning.drawing.follow_cells * config.resolution_m;
 }
 
-void MapBuilder::State::take_new_scans(const Backend& backend) {
+void MapBuilder::State::take_new_keyframes(const Backend& backend) {
   const IdMap<KeyframeId, ScanId>& keyframes = backend.keyframes().all();
   for (KeyframeId k = keyframes.at_or_after(stretches.end_id()); k < keyframes.end_id();
        k = keyframes.next(k)) {
     stretches.skip_to(k);
     stretches.push_back(stretch_now(backend, k));
   }
+}
+
+/// What has waited is drawn over several updates, too.
+void MapBuilder::State::draw_up_to(const Backend& backend, ScanId end) {
   const IdMap<ScanId, StoredScan>& scans = backend.scans().all();
-  for (scans_end = scans.at_or_after(scans_end); scans_end < scans.end_id();
-       scans_end = scans.next(scans_end))
-    draw(backend, scans_end);
+  drawn_end = scans.at_or_after(drawn_end);
+  for (std::size_t drawn = 0; drawn_end < end && drawn < config.tuning.drawing.max_returns_moved;
+       drawn_end = scans.next(drawn_end)) {
+    const KeyframeId k = scans[drawn_end].keyframe;
+    if (backend.keyframes().scan_of(k) == drawn_end) stretches[k] = stretch_now(backend, k);
+    draw(backend, drawn_end);
+    drawn += scans[drawn_end].return_count;
+  }
+}
+
+void MapBuilder::State::rub_out_from(const Backend& backend, ScanId first) {
+  const IdMap<ScanId, StoredScan>& scans = backend.scans().all();
+  for (ScanId scan = scans.at_or_after(first); scan < drawn_end; scan = scans.next(scan))
+    rub_out(backend, scan);
+  drawn_end = std::min(drawn_end, first);
 }
 
 /// A new keyframe brings new estimates of those in the frontend's window, and to the scans since the one
@@ -86,7 +105,8 @@ std::size_t MapBuilder::State::follow(const Backend& backend, KeyframeId k) {
   if (!has_moved(drawn.T_map_keyframe, now.T_map_keyframe) && !has_moved(drawn.T_map_next, now.T_map_next))
     return 0;
   drawn = now;
-  const ScanRange scans = backend.keyframes().scans_of({k, k + 1});
+  ScanRange scans = backend.keyframes().scans_of({k, k + 1});
+  scans.end = std::max(scans.first, std::min(scans.end, drawn_end));
   for (ScanId scan = scans.first; scan < scans.end; scan = backend.scans().all().next(scan))
     draw(backend, scan);
   return backend.scans().return_count(scans);
@@ -116,6 +136,11 @@ void MapBuilder::State::draw(const Backend& backend, ScanId scan) {
   drawing.draw(scan, T_map_body, std::span<const BeamEnd>(beams.data(), beams.size()));
 }
 
+void MapBuilder::State::rub_out(const Backend& backend, ScanId scan) {
+  const Beams beams = beams_of(backend, scan);
+  drawing.rub_out(scan, std::span<const BeamEnd>(beams.data(), beams.size()));
+}
+
 MapBuilder::MapBuilder(const MapConfig& config, const SensorModel& sensor)
     : state_(std::make_unique<State>(config, sensor)) {
   SWIFTLET_CHECK(config.validate().empty(), "the map configuration was validated");
@@ -126,7 +151,10 @@ MapBuilder::~MapBuilder() = default;
 std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_changed,
                                           const ScanRange& refined) {
   State& s = *state_;
-  s.take_new_scans(backend);
+  s.take_new_keyframes(backend);
+  const ScanId known_end = backend.doubted_since().value_or(backend.scans().all().end_id());
+  s.rub_out_from(backend, known_end);
+  s.draw_up_to(backend, known_end);
   const KeyframeId first = s.first_unsettled(backend);
   if (!refined.empty()) {
     const std::span<const StoredScan> scans = backend.scans().all().values(refined);
@@ -141,21 +169,18 @@ std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_cha
 }
 
 std::vector<TileIndex> MapBuilder::settle(const Backend& backend) {
-  state_->take_new_scans(backend);
   for (const auto& [scan, stored] : backend.scans().all()) state_->draw(backend, scan);
+  state_->drawn_end = backend.scans().all().end_id();
   return state_->drawing.store().publish();
 }
 
 void MapBuilder::prune(const Backend& backend, const Pruning& pruning) {
   State& s = *state_;
-  s.take_new_scans(backend);
+  s.take_new_keyframes(backend);
   const IdMap<ScanId, StoredScan>& all = backend.scans().all();
-  for (const ScanRange& scans : pruning.scans) {
-    for (ScanId scan = all.at_or_after(scans.first); scan < scans.end; scan = all.next(scan)) {
-      const State::Beams beams = s.beams_of(backend, scan);
-      s.drawing.rub_out(scan, std::span<const BeamEnd>(beams.data(), beams.size()));
-    }
-  }
+  for (const ScanRange& scans : pruning.scans)
+    for (ScanId scan = all.at_or_after(scans.first); scan < scans.end; scan = all.next(scan))
+      s.rub_out(backend, scan);
   s.drawing.erase(pruning.scans);
   s.swept.erase(pruning.keyframes, s.stretches);
   s.stretches.erase(pruning.keyframes);

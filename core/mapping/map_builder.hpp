@@ -13,9 +13,10 @@ namespace swiftlet {
 
 /// Draws the occupancy map from the backend's scans at their corrected poses, and follows when poses change:
 /// the pose at which a scan was drawn is stored, so that it is taken out there exactly (cells count hits and
-/// misses as integers) and drawn anew. While flying, scans follow once they would move by half a cell; once
-/// settled, the map depends on the final poses alone, never on the order of corrections. Allocates as the map
-/// grows. One thread at a time (the backend's).
+/// misses as integers) and drawn anew. While flying, scans follow once they would move by half a cell, and
+/// those whose place is in doubt (Backend::doubted_since()) wait until it is known; once settled, all are
+/// drawn, and the map depends on the final poses alone, never on the order of corrections. Allocates as the
+/// map grows. One thread at a time (the backend's).
 class MapBuilder {
  public:
   /// Precondition: config.validate() is empty.
@@ -24,9 +25,9 @@ class MapBuilder {
   MapBuilder(const MapBuilder&) = delete;
   MapBuilder& operator=(const MapBuilder&) = delete;
 
-  /// Draws scans added since the last call and redraws, of the `refined` ones and, when `poses_changed`, of
-  /// all in this and the next updates, those that moved noticeably. Returns the tiles whose published content
-  /// changed, in index order.
+  /// Draws scans added since the last call, or rubs out those that have come into doubt, and redraws, of the
+  /// `refined` ones and, when `poses_changed`, of all in this and the next updates, those that moved
+  /// noticeably. Returns the tiles whose published content changed, in index order.
   std::vector<TileIndex> update(const Backend& backend, bool poses_changed, const ScanRange& refined = {});
   /// Rubs out what the backend is about to prune. What is left unknown shows with the next update.
   void prune(const Backend& backend, const Pruning& pruning);

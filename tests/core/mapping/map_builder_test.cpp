@@ -4,8 +4,14 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+#include <optional>
+#include <vector>
+
 #include "tests/core/mapping/room_flight.hpp"
+#include "tests/support/dead_reckoning_frontend.hpp"
 #include "tests/support/forgetful_run.hpp"
+#include "tests/support/loop_corridor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -170,6 +176,99 @@ TEST(MapBuilder, RubsOutWhatIsPruned) {
   MapBuilder drawn_at_once(MapConfig{}, run.sensor);
   drawn_at_once.settle(run.backend);
   expect_same_map(followed, drawn_at_once);
+}
+
+/// A lap and most of another, between which the vehicle comes to stand elsewhere.
+class MapBuilderOfABrokenFlight : public testing::Test {
+ protected:
+  MapBuilderOfABrokenFlight() {
+    fly_along(vehicle_, loop_corridor(), "bcda");
+    break_ = vehicle_.samples().size();
+    const Point2 start = loop_corridor().place('a');
+    vehicle_.carry_to(loop_corridor(), Pose2(start.x_m + 0.7, start.y_m + 0.5, 0.2));
+    fly_along(vehicle_, loop_corridor(), "bcd");
+  }
+  /// As the pipeline does it: the map follows at keyframes.
+  void fly(const std::vector<RangeSample>& samples, const std::function<void()>& look) {
+    DeadReckoningFrontend frontend;
+    for (const RangeSample& sample : samples) {
+      const FrontendStep step = frontend.process(sample);
+      const BackendUpdate update = backend_.add(step);
+      if (!step.has_keyframe) continue;
+      map_.update(backend_, update.poses_changed, update.refined);
+      look();
+    }
+  }
+  /// Seen, and not in the map.
+  [[nodiscard]] int cells_missing() const {
+    MapBuilder all(MapConfig{}, kSensor);
+    all.settle(backend_);
+    int count = 0;
+    for (const TileIndex index : all.tiles()) {
+      const MapTile drawn = map_.tile(index);
+      const MapTile seen = all.tile(index);
+      for (std::size_t i = 0; i < kCellsInTile; ++i)
+        count += drawn.occupancy_percent[i] < 0 && seen.occupancy_percent[i] >= 0 ? 1 : 0;
+    }
+    return count;
+  }
+
+  TestVehicle vehicle_ = vehicle_at_start({}, 6);
+  std::size_t break_ = 0;
+  Backend backend_{BackendConfig{}, kSensor, BeamLayout::multiranger()};
+  MapBuilder map_{MapConfig{}, kSensor};
+};
+
+TEST_F(MapBuilderOfABrokenFlight, WaitsUntilThePlaceBehindARestartIsKnown) {
+  int most_missing = 0;
+  std::optional<ScanId> waited_from;
+  fly(vehicle_.samples(), [&] {
+    if (!backend_.doubted_since()) return;
+    waited_from = backend_.doubted_since();
+    most_missing = std::max(most_missing, cells_missing());
+  });
+  ASSERT_TRUE(waited_from);
+  EXPECT_EQ(index_of(*waited_from), break_);
+  EXPECT_GT(most_missing, 1000);
+  ASSERT_FALSE(backend_.doubted_since()) << "the place was found";
+  EXPECT_LT(cells_missing(), 200) << "some scans are up to half a cell from where they belong";
+  backend_.finish();
+  map_.settle(backend_);
+  EXPECT_EQ(cells_missing(), 0);
+}
+
+TEST_F(MapBuilderOfABrokenFlight, TakesOutWhatWasDrawnSinceTheMapWasContradicted) {
+  std::vector<RangeSample> samples = vehicle_.samples();
+  const Pose2 T_odom_restarted = samples[break_ - 1].T_odom_body * samples[break_].T_odom_body.inverse();
+  for (std::size_t i = break_; i < samples.size(); ++i) {  // unseen: the estimate runs on
+    samples[i].T_odom_body = T_odom_restarted * samples[i].T_odom_body;
+    samples[i].starts_segment = false;
+  }
+  std::optional<ScanId> doubted;
+  int missing_before = 0;
+  int missing_then = 0;
+  fly(samples, [&] {
+    if (index_of(backend_.scans().all().last_id()) < break_ || doubted) return;
+    doubted = backend_.doubted_since();
+    (doubted ? missing_then : missing_before) = cells_missing();
+  });
+  ASSERT_TRUE(doubted);
+  EXPECT_GE(index_of(*doubted) + 10, break_);
+  EXPECT_GT(missing_then, missing_before + 100);
+}
+
+TEST(MapBuilder, DrawsOnBehindARestartWhereNothingCanFindThePlace) {
+  std::vector<FrontendStep> steps = room_flight(100);
+  steps[60].sample.starts_segment = steps[60].made.starts_segment = true;
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  for (const FrontendStep& step : steps) {
+    backend.add(step);
+    map.update(backend, false);
+  }
+  MapBuilder drawn_at_once(MapConfig{}, kSensor);
+  drawn_at_once.settle(backend);
+  expect_same_map(map, drawn_at_once);
 }
 
 TEST(MapBuilder, HoldsNothingBeforeTheFirstScan) {
