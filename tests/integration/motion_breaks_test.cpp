@@ -49,6 +49,11 @@ TEST(TrackingState, IsUncertainBehindAJumpThatNobodyTellsWhichIsMended) {
       std::chrono::seconds(150));
 }
 
+TEST(TrackingState, IsDoubtedOnWhereACorrectionInterruptedTheDoubt) {
+  const CorrectedRun run = corrected_run("sim://office?seed=17&fault=jump@150:20");
+  EXPECT_LT(error_m(run), 0.3) << "places that were weighed before the correction count behind it";
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, MotionBreaksTest,
                          testing::Values("silence@150:60", "reset@150", "restart@150:60", "carried@150:60"));
 

@@ -8,8 +8,9 @@
 namespace swiftlet {
 namespace {
 
-/// A vehicle that was carried with its estimate running on: as long as that takes from room to room.
-constexpr Duration kUnnoticed = std::chrono::seconds(10);
+/// A vehicle that was moved while its estimate ran on: one that was carried to another room is not told from
+/// one that stands before the twin of where it was.
+constexpr Duration kUnnoticed = std::chrono::seconds(2);
 
 RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
   return {closure.from, closure.to, closure.T_from_to,
@@ -56,16 +57,33 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
 
 void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
   open_submaps_.clear();
-  unplaced_since_ = keyframe;
   unplaced_by_ = UnplacedBy::kContradiction;
+  if (resume_doubt()) return;
+  unplaced_since_ = keyframe;
   forget_places();
   places_.begin({kUnnoticed, chain_->all().previous(keyframe), log_odds});
 }
 
 void LoopCloser::end_doubt() {
-  if (!unplaced_since_ || unplaced_by_ != UnplacedBy::kContradiction) return;
-  unplaced_since_.reset();
-  forget_places();
+  if (unplaced_since_ && unplaced_by_ == UnplacedBy::kContradiction) suspend_doubt();
+}
+
+/// A correction or some scans that agree end the contradiction, and what was learnt of the places with it. If
+/// the motion was at fault, it comes back soon.
+void LoopCloser::suspend_doubt() {
+  suspended_since_ = std::exchange(unplaced_since_, std::nullopt);
+  suspended_at_m_ = chain_->path_m(chain_->all().last_id());
+  elsewhere_.stop();
+  proposed_.clear();
+}
+
+/// Before ground flown since the doubt ended counts as older map itself.
+bool LoopCloser::resume_doubt() {
+  const double since_m = chain_->path_m(chain_->all().last_id()) - suspended_at_m_;
+  if (!suspended_since_ || since_m > config_->tuning.confidence.old_after_m) return false;
+  unplaced_since_ = std::exchange(suspended_since_, std::nullopt);
+  places_.resume();
+  return true;
 }
 
 /// From where on a match with what lies before proves something alone. Of a contradiction nobody knows that
@@ -136,6 +154,7 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
 }
 
 void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
+  suspended_since_.reset();
   places_.begin_again(pruned);
   elsewhere_.stop();
   proposed_.clear();

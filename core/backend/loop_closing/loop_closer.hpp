@@ -41,7 +41,8 @@ class LoopCloser {
   /// Builds the submaps that end at the newest keyframe.
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
   /// What was seen since this keyframe contradicts the earlier map: where the travel from there lies is to be
-  /// found. Loops go on being closed as the graph has it. `log_odds`: the evidence.
+  /// found. Loops go on being closed as the graph has it. `log_odds`: the evidence. A doubt that ended not
+  /// long before without a place goes on.
   void doubt_since(KeyframeId keyframe, double log_odds);
   /// What is seen agrees with the earlier map again.
   void end_doubt();
@@ -76,6 +77,8 @@ class LoopCloser {
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
                                                     const PoseGraph& graph) const;
+  void suspend_doubt();
+  [[nodiscard]] bool resume_doubt();
   void forget_places(const IdRanges<KeyframeId>& pruned = {});
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
@@ -95,6 +98,8 @@ class LoopCloser {
   IdMap<ClosureId, LoopClosure> closures_;
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no group has placed it
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
+  std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...
+  double suspended_at_m_ = 0.0;                // ... and the travel at its end
   LoopCloserCounters counters_;
 };
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ranges>
 #include <utility>
 
 #include "core/backend/loop_closing/correlative_matcher.hpp"
@@ -58,6 +59,7 @@ bool may_be_seen(const Submap& submap, const Point2& p_submap, double reach_m) {
 
 void PlaceHypotheses::begin(const MotionBreak& motion_break) {
   break_ = motion_break;
+  is_graph_corrected_ = false;
   queries_.clear();
   hypotheses_.clear();
 }
@@ -126,6 +128,18 @@ void PlaceHypotheses::weigh(Query& query, std::span<const std::shared_ptr<const 
       graph.T_map_keyframe[found.match->from] * found.match->T_from_to * T_path_query.inverse();
 }
 
+/// Where the travel's end lies decides; from there back dead reckoning drifts.
+PlaceHypotheses::Hypothesis PlaceHypotheses::weighed_over_all(
+    const Pose2& T_map_path, double prior, std::span<const std::shared_ptr<const Submap>> submaps,
+    const PoseGraph& graph, const KeyframePoses& T_path_keyframe) {
+  Hypothesis weighed{T_map_path, prior, {}, {}};
+  for (Query& query : queries_ | std::views::reverse) weigh(query, submaps, graph, T_path_keyframe, weighed);
+  weighed.T_map_path = T_map_path;
+  std::ranges::reverse(weighed.log_likelihoods);
+  std::ranges::reverse(weighed.matches);
+  return weighed;
+}
+
 /// Of those that have come together the likeliest stays; in order of likelihood.
 void PlaceHypotheses::merge(const Pose2& T_path_query) {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
@@ -156,14 +170,15 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
               CrossCheck(*config_, *scans_, *chain_, recent, query, T_local_keyframe)};
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
   taken.reach_m = farthest_m(taken.points, 0.0);
-  if (hypotheses_.empty()) {
-    const double prior = std::log(tuning.not_moved_odds) - break_.log_odds_moved;
-    hypotheses_.push_back({graph.T_map_keyframe[query] * T_path_keyframe[query].inverse(), prior, {}, {}});
-  }
+  const Pose2 T_map_path = graph.T_map_keyframe[query] * T_path_keyframe[query].inverse();
+  const double prior = std::log(tuning.not_moved_odds) - break_.log_odds_moved;
+  if (hypotheses_.empty()) hypotheses_.push_back({T_map_path, prior, {}, {}});
   if (queries_.size() == tuning.max_queries) forget_oldest();
   for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, T_path_keyframe, h);
-  merge(T_path_keyframe[query]);
   queries_.push_back(std::move(taken));
+  if (std::exchange(is_graph_corrected_, false))
+    hypotheses_.push_back(weighed_over_all(T_map_path, prior, submaps, graph, T_path_keyframe));
+  merge(T_path_keyframe[query]);
   return true;
 }
 
@@ -230,13 +245,7 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   const Pose2 T_map_path = T_map_query * T_path_query.inverse();
   const double prior = log_prior(T_map_path, match.to, submaps.size(), graph, T_path_keyframe);
   if (prior == kImpossible) return;
-  Hypothesis proposed{T_map_path, prior, {}, {}};
-  for (std::size_t i = queries_.size(); i-- > 0;)  // from where it was found, dead reckoning drifts
-    weigh(queries_[i], submaps, graph, T_path_keyframe, proposed);
-  proposed.T_map_path = T_map_path;
-  std::ranges::reverse(proposed.log_likelihoods);
-  std::ranges::reverse(proposed.matches);
-  hypotheses_.push_back(std::move(proposed));
+  hypotheses_.push_back(weighed_over_all(T_map_path, prior, submaps, graph, T_path_keyframe));
   merge(T_path_query);
 }
 

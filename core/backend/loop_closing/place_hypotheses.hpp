@@ -38,6 +38,8 @@ class PlaceHypotheses {
 
   /// Starts anew: the first query begins with one hypothesis, that the travel lies where the graph puts it.
   void begin(const MotionBreak& motion_break);
+  /// Goes on after the graph was corrected without them: where it has the travel now is one more place.
+  void resume() { is_graph_corrected_ = true; }
   /// Starts anew with the same break; of `pruned` keyframes `moved_at` goes back to the nearest that stays.
   void begin_again(const IdRanges<KeyframeId>& pruned = {});
   /// The travel up to `query`, of scans `recent`, is evidence, if there is enough new travel in it.
@@ -79,6 +81,9 @@ class PlaceHypotheses {
                                   const PoseGraph& graph) const;
   void weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
              const KeyframePoses& T_path_keyframe, Hypothesis& hypothesis) const;
+  [[nodiscard]] Hypothesis weighed_over_all(const Pose2& T_map_path, double prior,
+                                            std::span<const std::shared_ptr<const Submap>> submaps,
+                                            const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
   void merge(const Pose2& T_path_query);
   void forget_oldest();
   [[nodiscard]] double log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
@@ -90,6 +95,7 @@ class PlaceHypotheses {
   const ScanStore* scans_;
   const KeyframeChain* chain_;
   MotionBreak break_;
+  bool is_graph_corrected_ = false;  // since the last query
   std::deque<Query> queries_;
   std::vector<Hypothesis> hypotheses_;
 };

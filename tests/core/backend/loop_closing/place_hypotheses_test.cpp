@@ -335,6 +335,28 @@ TEST_F(PlaceHypothesesTest, WhoWasCarriedIsNotLookedForAmongTurns) {
   EXPECT_THAT(places_.turned(submaps_, graph_, path()), IsEmpty());
 }
 
+TEST_F(PlaceHypothesesTest, ResumedWhereTheGraphHasTheTravelNowIsOneMorePlace) {
+  config_.tuning.places.max_sigma_m = kAny;
+  put_travel(kNowhere);
+  const KeyframePoses T_path_keyframe = path();  // no closure moves it
+  const auto take = [&] {
+    while (!places_.add_query(++newest_, recent(newest_), submaps_, graph_, run_.T_local_keyframe(),
+                              T_path_keyframe)) {
+    }
+  };
+  places_.begin(moved_unwatched(seconds(0)));
+  take();
+  put_travel(Pose2());
+  take();
+  EXPECT_EQ(places_.size(), 1U) << "a place stays, whatever the graph does";
+  places_.resume();
+  take();
+  EXPECT_EQ(places_.size(), 2U);
+  EXPECT_THAT(places_.decided(), SizeIs(3)) << "all the travel since the break is evidence for it";
+  take();
+  EXPECT_EQ(places_.size(), 2U) << "once";
+}
+
 TEST_F(PlaceHypothesesTest, BeginningAgainKeepsTheBreak) {
   put_travel(Pose2(10.0, 0.0, 0.0));
   places_.begin(carried_for(seconds(10), 100.0));
