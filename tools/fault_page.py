@@ -89,8 +89,8 @@ whose state said so; "after": how long after it had passed.
 
 Nothing tells of jumps of the heading, slips and teleports. They are noticed where what is seen contradicts the older map
 ([how often](confidence.md)): not on new ground. A turn that is noticed is mostly found, a slip by the loops that are closed.
-A vehicle that was carried to new ground is drawn where its estimate has it, bent or apart, as the final errors show; the
-error of a slip also holds the stretch over which the estimate stood still.
+A vehicle that was carried unseen over more than 6 m, or to new ground, is drawn where its estimate has it, bent or apart,
+as the final errors show; the error of a slip also holds the stretch over which the estimate stood still.
 
 The office looks nearly the same after half a turn around its middle. A vehicle that is carried to ground that it has not
 flown yet, but whose twin it has, is placed at the twin: nothing that it sees there speaks against it.

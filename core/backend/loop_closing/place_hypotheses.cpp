@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ranges>
 #include <utility>
 
 #include "core/backend/loop_closing/correlative_matcher.hpp"
@@ -133,7 +132,8 @@ PlaceHypotheses::Hypothesis PlaceHypotheses::weighed_over_all(
     const Pose2& T_map_path, double prior, std::span<const std::shared_ptr<const Submap>> submaps,
     const PoseGraph& graph, const KeyframePoses& T_path_keyframe) {
   Hypothesis weighed{T_map_path, prior, {}, {}};
-  for (Query& query : queries_ | std::views::reverse) weigh(query, submaps, graph, T_path_keyframe, weighed);
+  for (std::size_t i = queries_.size(); i-- > 0;)
+    weigh(queries_[i], submaps, graph, T_path_keyframe, weighed);
   weighed.T_map_path = T_map_path;
   std::ranges::reverse(weighed.log_likelihoods);
   std::ranges::reverse(weighed.matches);
