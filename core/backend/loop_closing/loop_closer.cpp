@@ -8,8 +8,8 @@
 namespace swiftlet {
 namespace {
 
-/// A vehicle that was moved while its estimate ran on: one that was carried to another room is not told from
-/// one that stands before the twin of where it was.
+/// For so long a vehicle may have been moved while its estimate ran on. Longer, and the twin of where it
+/// stands wins more often than a room that it was carried to.
 constexpr Duration kUnnoticed = std::chrono::seconds(2);
 
 RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {

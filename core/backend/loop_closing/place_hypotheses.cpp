@@ -19,6 +19,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kEvenPer255 = 127.5;
+constexpr double kMaxTurnRad = kPi / 2.0;  // of a vehicle whose estimate ran on, beyond it
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 /// Where tracking searches from one, the other may be found: as far as the corner of its window.
@@ -193,8 +194,9 @@ void PlaceHypotheses::forget_oldest() {
 }
 
 /// Behind an estimate that ran on: of what tracking takes for one place and heading. The vehicle turned by
-/// any angle more than its estimate says, or as often not at all; how far it moved has no scale beyond that
-/// of a slip (Student's t with one degree of freedom).
+/// any angle up to a quarter more than its estimate says, or as often not at all: most corridors and many
+/// buildings look the same after half a turn. How far it moved has no scale beyond that of a slip (Student's
+/// t with one degree of freedom).
 double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
                                   const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
@@ -204,9 +206,10 @@ double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std
   const double slip_m = tuning.unmoved_reach_m;
   if (far_m > slip_m + tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched)) return kImpossible;
   if (!break_.moved_at) return -std::log(tuning.places_per_submap * static_cast<double>(submaps));
+  if (std::abs(moved.yaw_rad()) > kMaxTurnRad) return kImpossible;
   const LoopDetectorTuning& window = config_->tuning.detector;
   const bool is_turned = std::abs(moved.yaw_rad()) > window.min_search_angle_rad;
-  const double heading = 0.5 * window.min_search_angle_rad / kPi + (is_turned ? 0.0 : 0.5);
+  const double heading = 0.5 * window.min_search_angle_rad / kMaxTurnRad + (is_turned ? 0.0 : 0.5);
   const double width = 2.0 * window.min_search_radius_m / slip_m;
   return std::log(heading * width * width / (2.0 * kPi)) -
          1.5 * std::log1p(far_m * far_m / (slip_m * slip_m));
@@ -225,8 +228,9 @@ std::vector<LoopClosure> PlaceHypotheses::turned(std::span<const std::shared_ptr
   const double step_rad = 2.0 * std::min(window.min_search_angle_rad, radius_m / std::max(way_m, radius_m));
   const int steps = static_cast<int>(std::ceil(2.0 * kPi / step_rad));
   for (int i = 1; i < steps; ++i) {
-    const Pose2 turn(0.0, 0.0, wrap_angle(i * step_rad));
-    const Pose2 T_map_query = graph.T_map_keyframe[*break_.moved_at] * turn * way;
+    const double turn_rad = wrap_angle(i * step_rad);
+    if (std::abs(turn_rad) > kMaxTurnRad) continue;
+    const Pose2 T_map_query = graph.T_map_keyframe[*break_.moved_at] * Pose2(0.0, 0.0, turn_rad) * way;
     const Evidence found = evidence(queries_.back(), T_map_query, submaps, graph);
     if (found.match && found.log_likelihood > 0.0 && found.match->score >= config_->min_score)
       matches.push_back(*found.match);

@@ -51,7 +51,7 @@ class PlaceHypotheses {
   /// A match of the travel with a submap is another hypothesis, unless it is one of them already.
   void propose(const LoopClosure& match, std::span<const std::shared_ptr<const Submap>> submaps,
                const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
-  /// Matches of the newest query with the vehicle turned in place at the break, by any angle.
+  /// Matches of the newest query with the vehicle turned in place at the break, by any angle up to a quarter.
   [[nodiscard]] std::vector<LoopClosure> turned(std::span<const std::shared_ptr<const Submap>> submaps,
                                                 const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
   /// The matches of the accepted hypothesis, one for each query that shows known walls; empty before.

@@ -288,7 +288,7 @@ TEST_F(PlaceHypothesesTest, NothingIsFartherOffThanItCanHaveBeenCarried) {
 }
 
 TEST_F(PlaceHypothesesTest, ATurnLeadsAsFarAsTheTravelSince) {
-  turn_travel(radians(170.0));
+  turn_travel(radians(85.0));
   places_.begin(moved_unwatched(seconds(0)));
   take_queries(6);
   ASSERT_GT(distance_m(graph_.T_map_keyframe[newest_].position(), T_world(newest_).position()), 10.0);
@@ -316,6 +316,17 @@ TEST_F(PlaceHypothesesTest, AVehicleThatTurnedUnwatchedIsFoundAmongItsTurns) {
                                                          T_world(query), 0.5, radians(3.0));
                 })))
         << queries;
+  }
+}
+
+TEST_F(PlaceHypothesesTest, UnwatchedItTurnsByNoMoreThanAQuarter) {
+  for (const double turn_rad : {radians(80.0), radians(100.0)}) {
+    turn_travel(turn_rad);
+    newest_ = since_;
+    places_.begin(moved_unwatched(seconds(0)));
+    take_query();
+    propose(Pose2());
+    EXPECT_EQ(places_.size(), turn_rad < kPi / 2.0 ? 2U : 1U) << turn_rad;
   }
 }
 
