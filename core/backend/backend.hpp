@@ -94,14 +94,14 @@ class Backend {
   [[nodiscard]] MapCorrection correction() const;
   /// What the newest pose can be relied on for.
   [[nodiscard]] TrackingFigures tracking() const;
-  /// The first scan of the travel whose place is in doubt: since an unwatched motion that no known ground has
-  /// placed, or since what is seen began to contradict the older map. Nothing while the pose can be relied
-  /// on, and without loop closing, which alone finds places.
-  [[nodiscard]] std::optional<ScanId> doubted_since() const;
   /// The same with the covariances of the newest keyframe's pose. They are computed anew, in O(n log n) of
   /// keyframes, once a closure was accepted and every few metres; between, they are carried on. Precondition:
   /// there is a keyframe, and finish() was not called.
   [[nodiscard]] PoseConfidence confidence();
+  /// The first scan of the travel whose place is in doubt: since an unwatched motion that no known ground has
+  /// placed, or since what is seen began to contradict the older map. Nothing while the pose can be relied
+  /// on, and without loop closing, which alone finds places.
+  [[nodiscard]] std::optional<ScanId> doubted_since() const;
   [[nodiscard]] const IdMap<ClosureId, LoopClosure>& closures() const;
   [[nodiscard]] const std::vector<Wall>& walls() const;
   /// Of the keyframes that were not pruned. Refinement moves scans, not these poses.
