@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/backend.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "core/backend/confidence/map_agreement.hpp"
 #include "core/backend/confidence/pose_covariances.hpp"
@@ -86,7 +88,8 @@ void Backend::State::doubt_motion_if_contradicted() {
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
   if (first >= chain.all().end_id()) return;
   graph.doubt_motion_to(first);
-  loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds);  // its returns count for half
+  loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds,
+                    graph);  // its returns count for half
 }
 
 /// Across a break with known motion (the vehicle's estimate ran on) only the covariance grows.
@@ -193,7 +196,9 @@ TrackingFigures Backend::tracking() const {
   if (s.chain.size() == 0) return {};
   const double here_m = s.chain.path_m(s.chain.all().last_id());
   const auto since_m = [&](KeyframeId id) { return here_m - s.chain.path_m(id); };
-  const IdMap<ClosureId, LoopClosure>& closures = s.loops.closures();
+  const std::span<const LoopClosure> closures = s.loops.closures().values();
+  const auto holds = [](const LoopClosure& closure) { return !closure.dropped; };
+  const auto newest = std::find_if(closures.rbegin(), closures.rend(), holds);
   const std::optional<KeyframeId> unplaced = s.loops.unplaced_since();
   return {.tracking = s.tracking(),
           .contradiction = s.agreement.contradiction(),
@@ -201,7 +206,7 @@ TrackingFigures Backend::tracking() const {
           .returns_compared = s.agreement.returns_compared(),
           .times_uncertain = s.agreement.times_contradicted(),
           .places_weighed = unplaced ? static_cast<std::uint32_t>(s.loops.places_weighed()) : 0,
-          .way_since_closure_m = closures.empty() ? here_m : since_m(closures.values().back().to),
+          .way_since_closure_m = newest == closures.rend() ? here_m : since_m(newest->to),
           .way_unplaced_m = unplaced ? since_m(s.chain.all().at_or_after(*unplaced)) : 0.0};
 }
 

@@ -125,7 +125,7 @@ void RunNarrator::see_closure(const SeenClosure& closure, bool is_dropped, std::
   begin_with_run();
   if (is_dropped)
     history_.add_event(utime_us, EventLevel::kWarning,
-                       fmt::format("loop {} dropped: it contradicts the others", closure.index));
+                       fmt::format("loop {} dropped: what else was seen contradicts it", closure.index));
   else
     history_.add_event(utime_us, EventLevel::kGood,
                        fmt::format("loop {} closed: keyframe {} meets {}, score {:.2f}", closure.index,

@@ -55,10 +55,11 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
   }
 }
 
-void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
+void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds, KeyframeGraph& graph) {
   open_submaps_.clear();
   unplaced_by_ = UnplacedBy::kContradiction;
   if (resume_doubt()) return;
+  drop_contact(graph);
   unplaced_since_ = keyframe;
   forget_places();
   places_.begin({kUnnoticed, chain_->all().previous(keyframe), log_odds});
@@ -160,7 +161,36 @@ void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
   proposed_.clear();
 }
 
+void LoopCloser::note_contact(KeyframeId query, const PoseGraph& graph) {
+  const double here_m = chain_->path_m(query);
+  if (!contact_ || here_m - contact_->newest_m > config_->tuning.confidence.old_after_m)
+    contact_ = {query, graph.T_map_keyframe[query], here_m};
+  contact_->newest_m = here_m;
+}
+
+/// Where older ground is met again, the first closures are matched in a wide window with the edge of what is
+/// known, and the next ones confirm them. If they moved the map and what is seen then contradicts it, they
+/// are at fault, or as likely as the motion is. True ones are found again, from more travel on known ground.
+void LoopCloser::drop_contact(KeyframeGraph& graph) {
+  const std::optional<Contact> contact = std::exchange(contact_, std::nullopt);
+  if (!contact) return;
+  const ConfidenceTuning& tuning = config_->tuning.confidence;
+  const double since_m = chain_->path_m(chain_->all().last_id()) - chain_->path_m(contact->since);
+  const Point2 is_map = graph.T_map_keyframe()[contact->since].position();
+  const double moved_m = distance_m(contact->T_map_since.position(), is_map);
+  if (since_m > tuning.old_after_m || moved_m < tuning.tolerance_m) return;
+  for (LoopClosure& closure : closures_.values())
+    if (closure.to >= contact->since && !closure.dropped) drop(closure, graph);
+}
+
+void LoopCloser::drop(LoopClosure& closure, KeyframeGraph& graph) {
+  closure.dropped = true;
+  ++counters_.closures_dropped;
+  graph.disable(closure.factor);
+}
+
 void LoopCloser::accept(LoopClosure closure, KeyframeGraph& graph) {
+  note_contact(closure.to, graph.graph());
   closure.id = closures_.end_id();
   closure.factor = graph.add_closure(factor_of(closure));
   closures_.push_back(closure);
@@ -190,9 +220,7 @@ bool LoopCloser::drop_worst(KeyframeGraph& graph) {
     if (worst == nullptr || closure.dcs_scale < worst->dcs_scale) worst = &closure;
   }
   if (worst == nullptr) return false;
-  worst->dropped = true;
-  ++counters_.closures_dropped;
-  graph.disable(worst->factor);
+  drop(*worst, graph);
   return true;
 }
 
@@ -202,6 +230,7 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
   groups_.clear();
+  if (contact_ && pruned.contains(contact_->since)) contact_.reset();
   forget_places(pruned);
 }
 

@@ -42,8 +42,9 @@ class LoopCloser {
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
   /// What was seen since this keyframe contradicts the earlier map: where the travel from there lies is to be
   /// found. Loops go on being closed as the graph has it. `log_odds`: the evidence. A doubt that ended not
-  /// long before without a place goes on.
-  void doubt_since(KeyframeId keyframe, double log_odds);
+  /// long before without a place goes on. Otherwise closures that moved the map on newly met ground are
+  /// dropped.
+  void doubt_since(KeyframeId keyframe, double log_odds, KeyframeGraph& graph);
   /// What is seen agrees with the earlier map again.
   void end_doubt();
   /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
@@ -73,6 +74,12 @@ class LoopCloser {
   [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
 
  private:
+  /// The travel since older ground was met again, which closures tell.
+  struct Contact {
+    KeyframeId since{};
+    Pose2 T_map_since;      // as the graph had it before the first closure
+    double newest_m = 0.0;  // the travel at the newest closure
+  };
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
@@ -82,6 +89,9 @@ class LoopCloser {
   void forget_places(const IdRanges<KeyframeId>& pruned = {});
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
+  void note_contact(KeyframeId query, const PoseGraph& graph);
+  void drop_contact(KeyframeGraph& graph);
+  void drop(LoopClosure& closure, KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);
   void accept_group(std::span<const LoopClosure> group, KeyframeGraph& graph);
 
@@ -96,6 +106,7 @@ class LoopCloser {
   std::vector<KeyframeId> open_submaps_;  // where those being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps_;
   IdMap<ClosureId, LoopClosure> closures_;
+  std::optional<Contact> contact_;            // the newest
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no group has placed it
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...

@@ -18,7 +18,7 @@ struct LoopClosure {
   Covariance3 covariance;  ///< of T_from_to, in the frame of `from`
   double score = 0.0;      ///< mean probability under the matched points
   double dcs_scale = 1.0;  ///< its present scale under DCS, 1 = full weight
-  bool dropped = false;    ///< refused in the final pass
+  bool dropped = false;    ///< contradicted by what was seen next, or refused in the final pass
 };
 
 }  // namespace swiftlet

@@ -122,6 +122,11 @@ bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> 
   return true;
 }
 
+void KeyframeGraph::disable(FactorId factor) {
+  graph_.factors[factor].information.setZero();
+  state_ = GraphState::kConverging;
+}
+
 bool KeyframeGraph::settle() {
   const bool due = is_due();
   new_closures_.clear();

@@ -51,8 +51,8 @@ class KeyframeGraph {
   bool settle();
   /// Optimises until it converges. True: poses have moved.
   bool optimize() { return optimize({tuning().final_step}); }
-  /// The factor no longer counts.
-  void disable(FactorId factor) { graph_.factors[factor].information.setZero(); }
+  /// The factor no longer counts, from the next optimisation on.
+  void disable(FactorId factor);
   /// Erases keyframes with their factors. The motion across each hole is unknown; `ties` hold its ends.
   void erase(const IdRanges<KeyframeId>& pruned, std::span<const RelativePoseFactor<KeyframeId>> ties);
 

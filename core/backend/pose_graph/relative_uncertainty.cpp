@@ -66,7 +66,7 @@ class Steps {
   using Factor = RelativePoseFactor<KeyframeId>;
 
   [[nodiscard]] bool is_used(const Factor& f) const {
-    return !f.is_closure || f.dcs_scale >= tuning_.min_dcs_scale;
+    return !f.is_closure || (f.dcs_scale >= tuning_.min_dcs_scale && !f.information.isZero(0.0));
   }
 
   /// While filling, first_[p + 1] is where the next step from p goes.
