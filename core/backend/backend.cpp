@@ -25,6 +25,7 @@ struct Backend::State {
   ScanRange refine_window(const BackendUpdate& update);
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
+  [[nodiscard]] bool newest_contact_is_at_fault() const;
   void doubt_motion_if_contradicted();
   [[nodiscard]] bool has_restarted_unplaced() const;
   [[nodiscard]] Tracking tracking() const;
@@ -80,6 +81,24 @@ void Backend::State::compare_newest_scan(const FrontendStep& step) {
   if (!has_restarted_unplaced()) agreement.add_newest_scan(T_map_body);
 }
 
+/// Where older ground is met again, the first closures are matched in a wide window with the edge of what is
+/// known, and the next ones confirm them. They are at fault where the travel since would contradict the older
+/// map less without them.
+bool Backend::State::newest_contact_is_at_fault() const {
+  const std::optional<LoopCloser::Contact> contact = loops.contact_that_moved(graph.graph());
+  if (!contact) return false;
+  KeyframePoses T_map_without = T_map_keyframe();
+  const KeyframePoses& T_local = T_local_keyframe();
+  for (KeyframeId k = contact->since; k < chain.all().end_id(); k = chain.all().at_or_after(k + 1))
+    T_map_without[k] = contact->T_map_since * between(T_local[contact->since], T_local[k]);
+  const ScanRange scans_since{chain.scan_of(contact->since), scans.all().end_id()};
+  const auto evidence = [&](const KeyframePoses& T_map_seen_from) {
+    return agreement.evidence_against(scans_since, chain, T_map_seen_from, loops.submaps(), T_map_keyframe());
+  };
+  const double corrected = evidence(T_map_keyframe());
+  return corrected > evidence(T_map_without) + 0.5 * config.tuning.confidence.alarm_log_odds;
+}
+
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
 void Backend::State::doubt_motion_if_contradicted() {
   if (!agreement.is_contradicted()) return loops.end_doubt();
@@ -87,9 +106,9 @@ void Backend::State::doubt_motion_if_contradicted() {
   const ScanId agreed = scans.all().at_or_after(agreement.agreed_last());  // it may have been pruned
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
   if (first >= chain.all().end_id()) return;
+  if (newest_contact_is_at_fault()) loops.drop_contact(graph);
   graph.doubt_motion_to(first);
-  loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds,
-                    graph);  // its returns count for half
+  loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds);  // its returns count for half
 }
 
 /// Across a break with known motion (the vehicle's estimate ran on) only the covariance grows.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace swiftlet {
 namespace {
@@ -80,10 +81,10 @@ ReturnVerdict verdict_of_end(const Submap& submap, const Point2& end_cells, cons
 
 }  // namespace
 
-void MapAgreement::look_around(const Pose2& T_map_body, double path_m,
-                               std::span<const std::shared_ptr<const Submap>> submaps,
-                               const KeyframePoses& T_map_keyframe) {
-  around_.clear();
+std::vector<MapAgreement::Around> MapAgreement::around(const Pose2& T_map_body, double path_m,
+                                                       std::span<const std::shared_ptr<const Submap>> submaps,
+                                                       const KeyframePoses& T_map_keyframe) const {
+  std::vector<Around> around;
   const double reach_m = tuning_->near_m;
   for (const auto& submap : submaps) {
     if (path_m - submap->end_path_m < tuning_->old_after_m) continue;
@@ -91,22 +92,71 @@ void MapAgreement::look_around(const Pose2& T_map_body, double path_m,
     const Point2 at = T_submap_map * T_map_body.position();
     if (at.x_m > submap->low_m.x_m - reach_m && at.x_m < submap->high_m.x_m + reach_m &&
         at.y_m > submap->low_m.y_m - reach_m && at.y_m < submap->high_m.y_m + reach_m)
-      around_.push_back({submap, T_submap_map});
+      around.push_back({submap, T_submap_map});
   }
+  return around;
+}
+
+void MapAgreement::look_around(const Pose2& T_map_body, double path_m,
+                               std::span<const std::shared_ptr<const Submap>> submaps,
+                               const KeyframePoses& T_map_keyframe) {
+  around_ = around(T_map_body, path_m, submaps, T_map_keyframe);
+}
+
+double MapAgreement::evidence_against(const ScanRange& scans, const KeyframeChain& chain,
+                                      const KeyframePoses& T_map_seen_from,
+                                      std::span<const std::shared_ptr<const Submap>> submaps,
+                                      const KeyframePoses& T_map_keyframe) const {
+  double evidence = 0.0;
+  std::optional<KeyframeId> looked_at;
+  std::optional<Pose2> T_map_compared;
+  std::vector<Around> near;
+  const std::vector<Pose2> T_map_body = chain.T_w_bodies(scans, T_map_seen_from);
+  std::size_t i = 0;
+  for (const StoredScan& scan : scans_->all().values(scans)) {
+    const Pose2& T = T_map_body[i++];
+    if (T_map_compared && !is_farther_on(*T_map_compared, T)) continue;
+    T_map_compared = T;
+    if (looked_at != scan.keyframe) near = around(T, scan.path_m, submaps, T_map_keyframe);
+    looked_at = scan.keyframe;
+    const std::span<const ScanReturn> returns = scans_->returns(scan);
+    for (const ScanReturn& beam : returns)
+      if (beam.is_hit) evidence += weight_of(returns) * log_odds_of(verdict(near, T, beam));
+  }
+  return evidence;
+}
+
+bool MapAgreement::is_farther_on(const Pose2& T_map_compared, const Pose2& T_map_body) const {
+  const Pose2 moved = between(T_map_compared, T_map_body);
+  return std::hypot(moved.x_m(), moved.y_m()) >= tuning_->way_between_m ||
+         std::abs(moved.yaw_rad()) >= tuning_->turn_between_rad;
+}
+
+double MapAgreement::weight_of(std::span<const ScanReturn> returns) const {
+  return std::min(1.0, tuning_->returns_in_full / static_cast<double>(returns.size()));
+}
+
+double MapAgreement::log_odds_of(ReturnVerdict verdict) const {
+  if (verdict == ReturnVerdict::kUnknown) return 0.0;
+  const double right = tuning_->share_if_right;
+  const double off = tuning_->share_if_off;
+  return verdict == ReturnVerdict::kContradicts ? std::log(off / right)
+                                                : std::log((1.0 - off) / (1.0 - right));
 }
 
 /// A wall in the way in one submap contradicts, whatever others show; else a wall near the end in any agrees.
-ReturnVerdict MapAgreement::verdict(const Pose2& T_map_body, const ScanReturn& beam) const {
+ReturnVerdict MapAgreement::verdict(std::span<const Around> around, const Pose2& T_map_body,
+                                    const ScanReturn& beam) const {
   const Point2 from_map = T_map_body.position();
   const Point2 end_map = T_map_body * scans_->point_body(beam);
   ReturnVerdict verdict = ReturnVerdict::kUnknown;
-  for (const Around& around : around_) {
-    const Point2 from_cells = around.submap->geometry.in_cells(around.T_submap_map * from_map);
-    const Point2 end_cells = around.submap->geometry.in_cells(around.T_submap_map * end_map);
-    if (passes_a_wall_on_any_side(*around.submap, from_cells, end_cells, *tuning_))
+  for (const Around& older : around) {
+    const Point2 from_cells = older.submap->geometry.in_cells(older.T_submap_map * from_map);
+    const Point2 end_cells = older.submap->geometry.in_cells(older.T_submap_map * end_map);
+    if (passes_a_wall_on_any_side(*older.submap, from_cells, end_cells, *tuning_))
       return ReturnVerdict::kContradicts;
     if (verdict == ReturnVerdict::kAgrees) continue;
-    const ReturnVerdict here = verdict_of_end(*around.submap, end_cells, *tuning_);
+    const ReturnVerdict here = verdict_of_end(*older.submap, end_cells, *tuning_);
     if (here != ReturnVerdict::kUnknown) verdict = here;
   }
   return verdict;
@@ -115,15 +165,11 @@ ReturnVerdict MapAgreement::verdict(const Pose2& T_map_body, const ScanReturn& b
 void MapAgreement::add_newest_scan(const Pose2& T_map_body) {
   if (log_odds_ <= 0.0) agreed_last_ = scans_->all().last_id();
   if (around_.empty()) return;
-  const Pose2 moved = between(T_map_compared_, T_map_body);
-  if (std::hypot(moved.x_m(), moved.y_m()) < tuning_->way_between_m &&
-      std::abs(moved.yaw_rad()) < tuning_->turn_between_rad)
-    return;
+  if (!is_farther_on(T_map_compared_, T_map_body)) return;
   T_map_compared_ = T_map_body;
   const std::span<const ScanReturn> returns = scans_->returns(scans_->all().last_id());
-  const double weight = std::min(1.0, tuning_->returns_in_full / static_cast<double>(returns.size()));
   for (const ScanReturn& beam : returns)
-    if (beam.is_hit) weigh(verdict(T_map_body, beam), weight);
+    if (beam.is_hit) weigh(verdict(around_, T_map_body, beam), weight_of(returns));
 }
 
 void MapAgreement::weigh(ReturnVerdict verdict, double weight) {
@@ -131,9 +177,7 @@ void MapAgreement::weigh(ReturnVerdict verdict, double weight) {
   const bool contradicts = verdict == ReturnVerdict::kContradicts;
   ++returns_compared_;
   share_ += ((contradicts ? 1.0 : 0.0) - share_) / tuning_->recent_returns;
-  const double right = tuning_->share_if_right;
-  const double off = tuning_->share_if_off;
-  log_odds_ += weight * (contradicts ? std::log(off / right) : std::log((1.0 - off) / (1.0 - right)));
+  log_odds_ += weight * log_odds_of(verdict);
   log_odds_ = std::clamp(log_odds_, 0.0, tuning_->alarm_log_odds);
   if (log_odds_ <= 0.0) is_contradicted_ = false;
   if (log_odds_ >= tuning_->alarm_log_odds && !is_contradicted_) {

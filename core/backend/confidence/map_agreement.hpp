@@ -35,6 +35,13 @@ class MapAgreement {
                    const KeyframePoses& T_map_keyframe);
   /// Compares the newest scan.
   void add_newest_scan(const Pose2& T_map_body);
+  /// Log odds of the pose being off rather than right, by all these scans against what was mapped long before
+  /// each, were their keyframes at `T_map_seen_from`. `T_map_keyframe`: of the submaps. Changes nothing;
+  /// allocates.
+  [[nodiscard]] double evidence_against(const ScanRange& scans, const KeyframeChain& chain,
+                                        const KeyframePoses& T_map_seen_from,
+                                        std::span<const std::shared_ptr<const Submap>> submaps,
+                                        const KeyframePoses& T_map_keyframe) const;
   /// The pose was corrected: what contradicted the old one is forgotten.
   void begin_again();
 
@@ -53,7 +60,14 @@ class MapAgreement {
     std::shared_ptr<const Submap> submap;
     Pose2 T_submap_map;
   };
-  [[nodiscard]] ReturnVerdict verdict(const Pose2& T_map_body, const ScanReturn& beam) const;
+  [[nodiscard]] std::vector<Around> around(const Pose2& T_map_body, double path_m,
+                                           std::span<const std::shared_ptr<const Submap>> submaps,
+                                           const KeyframePoses& T_map_keyframe) const;
+  [[nodiscard]] bool is_farther_on(const Pose2& T_map_compared, const Pose2& T_map_body) const;
+  [[nodiscard]] double weight_of(std::span<const ScanReturn> returns) const;
+  [[nodiscard]] ReturnVerdict verdict(std::span<const Around> around, const Pose2& T_map_body,
+                                      const ScanReturn& beam) const;
+  [[nodiscard]] double log_odds_of(ReturnVerdict verdict) const;
   void weigh(ReturnVerdict verdict, double weight);
 
   const ConfidenceTuning* tuning_;

@@ -55,11 +55,10 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
   }
 }
 
-void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds, KeyframeGraph& graph) {
+void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
   open_submaps_.clear();
   unplaced_by_ = UnplacedBy::kContradiction;
   if (resume_doubt()) return;
-  drop_contact(graph);
   unplaced_since_ = keyframe;
   forget_places();
   places_.begin({kUnnoticed, chain_->all().previous(keyframe), log_odds});
@@ -168,19 +167,21 @@ void LoopCloser::note_contact(KeyframeId query, const PoseGraph& graph) {
   contact_->newest_m = here_m;
 }
 
-/// Where older ground is met again, the first closures are matched in a wide window with the edge of what is
-/// known, and the next ones confirm them. If they moved the map and what is seen then contradicts it, they
-/// are at fault, or as likely as the motion is. True ones are found again, from more travel on known ground.
-void LoopCloser::drop_contact(KeyframeGraph& graph) {
-  const std::optional<Contact> contact = std::exchange(contact_, std::nullopt);
-  if (!contact) return;
+std::optional<LoopCloser::Contact> LoopCloser::contact_that_moved(const PoseGraph& graph) const {
+  if (!contact_) return std::nullopt;
   const ConfidenceTuning& tuning = config_->tuning.confidence;
-  const double since_m = chain_->path_m(chain_->all().last_id()) - chain_->path_m(contact->since);
-  const Point2 is_map = graph.T_map_keyframe()[contact->since].position();
-  const double moved_m = distance_m(contact->T_map_since.position(), is_map);
-  if (since_m > tuning.old_after_m || moved_m < tuning.tolerance_m) return;
+  const double since_m = chain_->path_m(chain_->all().last_id()) - chain_->path_m(contact_->since);
+  const Point2 is_map = graph.T_map_keyframe[contact_->since].position();
+  const double moved_m = distance_m(contact_->T_map_since.position(), is_map);
+  if (since_m > tuning.old_after_m || moved_m < tuning.tolerance_m) return std::nullopt;
+  return contact_;
+}
+
+void LoopCloser::drop_contact(KeyframeGraph& graph) {
+  if (!contact_) return;
   for (LoopClosure& closure : closures_.values())
-    if (closure.to >= contact->since && !closure.dropped) drop(closure, graph);
+    if (closure.to >= contact_->since && !closure.dropped) drop(closure, graph);
+  contact_.reset();
 }
 
 void LoopCloser::drop(LoopClosure& closure, KeyframeGraph& graph) {

@@ -35,6 +35,13 @@ struct LoopCloserCounters {
 /// once a group of them agrees. One thread at a time; allocates.
 class LoopCloser {
  public:
+  /// The travel since older ground was met again, which closures tell.
+  struct Contact {
+    KeyframeId since{};
+    Pose2 T_map_since;      ///< as the graph had it before the first closure
+    double newest_m = 0.0;  ///< the travel at the newest closure
+  };
+
   /// Views its arguments, which must outlive it.
   LoopCloser(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain);
 
@@ -42,9 +49,8 @@ class LoopCloser {
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
   /// What was seen since this keyframe contradicts the earlier map: where the travel from there lies is to be
   /// found. Loops go on being closed as the graph has it. `log_odds`: the evidence. A doubt that ended not
-  /// long before without a place goes on. Otherwise closures that moved the map on newly met ground are
-  /// dropped.
-  void doubt_since(KeyframeId keyframe, double log_odds, KeyframeGraph& graph);
+  /// long before without a place goes on.
+  void doubt_since(KeyframeId keyframe, double log_odds);
   /// What is seen agrees with the earlier map again.
   void end_doubt();
   /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
@@ -52,6 +58,10 @@ class LoopCloser {
   /// After each scan that makes no keyframe, while it is not known where the vehicle is: looks elsewhere, in
   /// one submap, or weighs one place that was found.
   void search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph);
+  /// The newest contact, if it is new and has moved the map.
+  [[nodiscard]] std::optional<Contact> contact_that_moved(const PoseGraph& graph) const;
+  /// Its closures no longer count.
+  void drop_contact(KeyframeGraph& graph);
   /// Takes over what DCS makes of each closure.
   void take_scales(const PoseGraph& graph);
   /// Drops the closure that DCS scales down most, if any lies below config.drop_scale. False: none does.
@@ -74,12 +84,6 @@ class LoopCloser {
   [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
 
  private:
-  /// The travel since older ground was met again, which closures tell.
-  struct Contact {
-    KeyframeId since{};
-    Pose2 T_map_since;      // as the graph had it before the first closure
-    double newest_m = 0.0;  // the travel at the newest closure
-  };
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
@@ -90,7 +94,6 @@ class LoopCloser {
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
   void note_contact(KeyframeId query, const PoseGraph& graph);
-  void drop_contact(KeyframeGraph& graph);
   void drop(LoopClosure& closure, KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);
   void accept_group(std::span<const LoopClosure> group, KeyframeGraph& graph);

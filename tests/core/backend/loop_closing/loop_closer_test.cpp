@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <optional>
 
+#include "core/backend/confidence/map_agreement.hpp"
 #include "core/backend/store/frontend_estimates.hpp"
 #include "tests/support/dead_reckoning_frontend.hpp"
 #include "tests/support/loop_corridor.hpp"
@@ -18,8 +20,6 @@ namespace {
 using testing::Each;
 using testing::Field;
 using testing::Not;
-
-constexpr double kEvidence = 9.8;  // of a contradiction, as log odds
 
 /// Two laps of the corridor: a lap brings the vehicle off, and the second meets ground of the first.
 TestVehicle two_laps(double drift_rad_per_m) {
@@ -52,9 +52,25 @@ class FlownLoops {
   void feed_metres(double way_m) {
     for (const double from_m = here_m(); here_m() - from_m < way_m && !is_over();) feed_one();
   }
-  /// As a contradiction that began at the newest keyframe.
-  void doubt() { loops_.doubt_since(chain_.all().last_id(), kEvidence, graph_); }
-  void end_doubt() { loops_.end_doubt(); }
+  void drop_contact() { loops_.drop_contact(graph_); }
+  [[nodiscard]] std::optional<LoopCloser::Contact> contact_that_moved() const {
+    return loops_.contact_that_moved(graph_.graph());
+  }
+  /// Of what was seen since a contact against what was mapped long before, from where the graph has it and
+  /// from where dead reckoning has it.
+  struct Evidence {
+    double by_graph;
+    double by_dead_reckoning;
+  };
+  [[nodiscard]] Evidence evidence_since(const LoopCloser::Contact& contact) const {
+    const MapAgreement agreement(config_.tuning.confidence, scans_);
+    const ScanRange since{chain_.scan_of(contact.since), scans_.all().end_id()};
+    const auto against = [&](const KeyframePoses& T_map_seen_from) {
+      return agreement.evidence_against(since, chain_, T_map_seen_from, loops_.submaps(),
+                                        graph_.T_map_keyframe());
+    };
+    return {against(graph_.T_map_keyframe()), against(local())};
+  }
   /// How far the graph has the newest keyframe from where dead reckoning has it.
   [[nodiscard]] double correction_m() const {
     const Pose2& T_map_newest = graph_.T_map_keyframe().values().back();
@@ -88,58 +104,55 @@ class DriftedLoops : public testing::Test {
   FlownLoops flown_{vehicle_};
 };
 
-TEST_F(DriftedLoops, AContradictionSoonAfterAContactTakesItsClosuresBack) {
+TEST_F(DriftedLoops, WithoutTheClosuresOfAContactTheGraphIsAsBefore) {
   flown_.feed_until_contact();
   flown_.feed_metres(3.0);
   ASSERT_GT(flown_.correction_m(), 0.5) << "they moved the map";
+  ASSERT_TRUE(flown_.contact_that_moved());
   const std::size_t closures = flown_.loops().closures().size();
-  flown_.doubt();
+  flown_.drop_contact();
   EXPECT_THAT(flown_.loops().closures().values(), Each(kIsDropped));
   EXPECT_EQ(flown_.loops().counters().closures_dropped, closures);
+  EXPECT_FALSE(flown_.contact_that_moved());
   flown_.optimize();
-  EXPECT_LT(flown_.correction_m(), 1e-3) << "the graph is free of them";
+  EXPECT_LT(flown_.correction_m(), 1e-3);
 }
 
 TEST_F(DriftedLoops, TrueOnesAreFoundAgain) {
   flown_.feed_until_contact();
   flown_.feed_metres(3.0);
-  flown_.doubt();
-  const std::size_t taken_back = flown_.loops().closures().size();
+  flown_.drop_contact();
+  const std::size_t dropped = flown_.loops().closures().size();
   flown_.feed_metres(6.0);
-  const auto found_again = flown_.loops().closures().values().subspan(taken_back);
+  const auto found_again = flown_.loops().closures().values().subspan(dropped);
   ASSERT_FALSE(found_again.empty());
   EXPECT_THAT(found_again, Each(Not(kIsDropped)));
   EXPECT_GT(flown_.correction_m(), 0.5);
 }
 
-TEST_F(DriftedLoops, AfterMuchTravelOnKnownGroundTheyStay) {
+TEST_F(DriftedLoops, AfterMuchTravelOnKnownGroundAContactIsOld) {
   flown_.feed_until_contact();
   flown_.feed_metres(16.0);
-  flown_.doubt();
-  EXPECT_THAT(flown_.loops().closures().values(), Each(Not(kIsDropped)));
+  EXPECT_FALSE(flown_.contact_that_moved());
 }
 
-TEST_F(DriftedLoops, WhatACorrectionOfADoubtfulMotionFoundStays) {
-  flown_.feed_metres(38.0);
-  ASSERT_TRUE(flown_.loops().closures().empty());
-  flown_.doubt();
+TEST_F(DriftedLoops, TheTravelSinceATrueContactContradictsTheMapWithoutIt) {
   flown_.feed_until_contact();
-  flown_.end_doubt();
-  flown_.feed_metres(3.0);
-  flown_.doubt();
-  ASSERT_FALSE(flown_.loops().closures().empty());
-  EXPECT_THAT(flown_.loops().closures().values(), Each(Not(kIsDropped)))
-      << "they are the cure, not the fault";
+  flown_.feed_metres(10.0);
+  const std::optional<LoopCloser::Contact> contact = flown_.contact_that_moved();
+  ASSERT_TRUE(contact);
+  const auto [by_graph, by_dead_reckoning] = flown_.evidence_since(*contact);
+  EXPECT_LT(by_graph, 0.0);
+  EXPECT_GT(by_dead_reckoning, by_graph + 9.8) << "the evidence that an alarm takes";
 }
 
-TEST(LoopCloser, ClosuresThatMovedNothingAreNotAtFault) {
+TEST(LoopCloser, AContactThatMovedNothingIsNotAtFault) {
   const TestVehicle vehicle = two_laps(0.0);
   FlownLoops flown(vehicle);
   flown.feed_until_contact();
   flown.feed_metres(3.0);
-  flown.doubt();
   ASSERT_FALSE(flown.loops().closures().empty());
-  EXPECT_THAT(flown.loops().closures().values(), Each(Not(kIsDropped)));
+  EXPECT_FALSE(flown.contact_that_moved());
 }
 
 }  // namespace
