@@ -35,7 +35,7 @@ struct RangeSample {
   bool odometry_ran_on = false;  ///< with starts_segment: the link was silent, but the vehicle's dead
                                  ///< reckoning ran on: the step is the best guess, over an unknown path
   std::uint8_t beam_count = 0;   ///< beams in use; bearings are in the BeamLayout of the input
-  std::array<float, kMaxBeams> distance_m{};  ///< from body to the hit, along the beam
+  std::array<float, kMaxBeams> distance_m{};  ///< horizontal, from body to the hit
   std::array<RangeStatus, kMaxBeams> status{};
 };
 static_assert(std::is_trivially_copyable_v<RangeSample>);

@@ -30,7 +30,10 @@ Json input_json(const RunView& run) {
           {"unpaired", counters.unpaired},
           {"segments", counters.segments},
           {"beams",
-           {{"hits", counters.hits}, {"no_returns", counters.no_returns}, {"invalid", counters.invalid}}},
+           {{"hits", counters.hits},
+            {"no_returns", counters.no_returns},
+            {"invalid", counters.invalid},
+            {"floor_returns", counters.floor_returns}}},
           {"reversed_m", input.reversed_m},
           {"notes", input.notes},
           {"problems", input.problems}};

@@ -13,9 +13,26 @@ struct Quaternion {
   double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
 };
 
+/// How far the body is from level: the vertical component, up, of the unit vector along each of its
+/// horizontal axes.
+struct BodyTilt {
+  double x_up = 0.0;
+  double y_up = 0.0;
+};
+
 /// Heading of the body's x axis, counter-clockwise, -pi..pi (Diebel 2006, "Representing Attitude", eq. 290).
 inline double yaw_of(const Quaternion& q) {
   return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+}
+
+/// The last row of the rotation matrix (Diebel 2006, eq. 125).
+inline BodyTilt tilt_of(const Quaternion& q) {
+  return {2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x)};
+}
+
+/// The same of Euler angles about z, y, x; `pitch_rad` is nose up, as the firmware logs it.
+inline BodyTilt tilt_of(double roll_rad, double pitch_rad) {
+  return {std::sin(pitch_rad), std::sin(roll_rad) * std::cos(pitch_rad)};
 }
 
 /// The firmware's 32-bit form (stateEstimateZ.quat): bits 31..30 select the largest of x, y, z, w, which is

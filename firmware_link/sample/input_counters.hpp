@@ -24,6 +24,7 @@ struct InputCounters {
   std::uint64_t hits = 0;             ///< beams by status
   std::uint64_t no_returns = 0;
   std::uint64_t invalid = 0;
+  std::uint64_t floor_returns = 0;  ///< of the invalid ones: a tilted beam can have met the floor
 };
 static_assert(std::is_trivially_copyable_v<InputCounters>);
 

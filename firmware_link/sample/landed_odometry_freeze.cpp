@@ -2,46 +2,60 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample/landed_odometry_freeze.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "firmware_link/sample/level_range.hpp"
 #include "firmware_link/session/vehicle_monitor.hpp"
 
 namespace swiftlet {
 
 Reading LandedOdometryFreeze::hold(const Reading& reading) {
-  if (!reading.position_odom || !reading.yaw_odom_rad) return reading;
-  const Pose2 T_vehicle_body(reading.position_odom->x_m, reading.position_odom->y_m, *reading.yaw_odom_rad);
-  follow(reading, T_vehicle_body);
+  if (reading.boot != boot_) {
+    *this = LandedOdometryFreeze();
+    boot_ = reading.boot;
+  }
+  if (reading.position_odom) position_vehicle_ = reading.position_odom;
+  if (reading.yaw_odom_rad) yaw_vehicle_rad_ = reading.yaw_odom_rad;
+  const std::optional<bool> is_flying = flies(reading);
   Reading held = reading;
-  const Pose2 T_odom_body = T_odom_vehicle_ * T_vehicle_body;
-  held.position_odom = T_odom_body.position();
-  held.yaw_odom_rad = T_odom_body.yaw_rad();
-  held.odometry_restarted = std::exchange(restart_pending_, false);
+  if (position_vehicle_ && yaw_vehicle_rad_) {
+    T_vehicle_body_ = Pose2(position_vehicle_->x_m, position_vehicle_->y_m, *yaw_vehicle_rad_);
+    if (is_flying) follow(*is_flying);
+    if (state_ == State::kStanding) hold_still();
+    const Pose2 T_odom_body = T_odom_vehicle_ * T_vehicle_body_;
+    if (held.position_odom) held.position_odom = T_odom_body.position();
+    if (held.yaw_odom_rad) held.yaw_odom_rad = T_odom_body.yaw_rad();
+    held.odometry_restarted = std::exchange(restart_pending_, false);
+  }
   if (state_ == State::kStanding)
     for (float& distance : held.distance_m) distance = std::numeric_limits<float>::quiet_NaN();
   return held;
 }
 
-void LandedOdometryFreeze::follow(const Reading& reading, const Pose2& T_vehicle_body) {
-  if (reading.boot != boot_) {
-    *this = LandedOdometryFreeze();
-    boot_ = reading.boot;
-  }
-  if (!reading.is_flying) return;
-  if (*reading.is_flying) {
+std::optional<bool> LandedOdometryFreeze::flies(const Reading& reading) {
+  reports_flight_ = reports_flight_ || reading.is_flying.has_value();
+  if (reports_flight_ || !reading.height_m || !std::isfinite(*reading.height_m)) return reading.is_flying;
+  return *reading.height_m > kStandingM;
+}
+
+void LandedOdometryFreeze::follow(bool is_flying) {
+  if (is_flying) {
     state_ = State::kFlying;
   } else if (state_ == State::kFlying) {
     state_ = State::kStanding;
-    T_vehicle_landed_ = T_vehicle_body;
-    T_odom_landed_ = T_odom_vehicle_ * T_vehicle_body;
+    T_vehicle_landed_ = T_vehicle_body_;
+    T_odom_landed_ = T_odom_vehicle_ * T_vehicle_body_;
   }
-  if (state_ != State::kStanding) return;
-  if (distance_m(T_vehicle_landed_.position(), T_vehicle_body.position()) > kCarriedM) {
+}
+
+void LandedOdometryFreeze::hold_still() {
+  if (distance_m(T_vehicle_landed_.position(), T_vehicle_body_.position()) > kCarriedM) {
     state_ = State::kNotFlown;
     restart_pending_ = true;
   } else {
-    T_odom_vehicle_ = T_odom_landed_ * T_vehicle_body.inverse();
+    T_odom_vehicle_ = T_odom_landed_ * T_vehicle_body_.inverse();
   }
 }
 

@@ -14,20 +14,28 @@ namespace swiftlet {
 /// pulls the yaw estimate back to kalman.initialYaw with a time constant of ten seconds, and the map would
 /// turn under a vehicle that has landed. Ranges measured on the floor meanwhile do not belong into the map
 /// either. After the next take-off the dead reckoning continues from where the vehicle stood. A vehicle that
-/// was carried elsewhere restarts it; one that has not flown yet may be carried on purpose and is not frozen,
-/// nor is one that does not report whether it flies. One thread at a time; allocates nothing.
+/// was carried elsewhere restarts it; one that has not flown yet may be carried on purpose and is not frozen.
+/// Where the vehicle reports neither whether it flies nor its thrust, its height tells; where it reports no
+/// height either, nothing is frozen. One thread at a time; allocates nothing.
 class LandedOdometryFreeze {
  public:
-  /// Only readings with both position and yaw are held; others pass as they are.
+  /// Position and yaw may come in different readings.
   [[nodiscard]] Reading hold(const Reading& reading);
 
  private:
   enum class State : std::uint8_t { kNotFlown, kFlying, kStanding };
-  void follow(const Reading& reading, const Pose2& T_vehicle_body);
+  /// nullopt: this reading does not tell.
+  [[nodiscard]] std::optional<bool> flies(const Reading& reading);
+  void follow(bool is_flying);
+  void hold_still();
 
   State state_ = State::kNotFlown;
   std::uint32_t boot_ = 0;
+  bool reports_flight_ = false;
   bool restart_pending_ = false;
+  std::optional<Point2> position_vehicle_;  ///< the newest, by the vehicle's own dead reckoning
+  std::optional<double> yaw_vehicle_rad_;
+  Pose2 T_vehicle_body_;    ///< of both
   Pose2 T_odom_vehicle_;    ///< from the vehicle's own dead reckoning to the one that was held
   Pose2 T_vehicle_landed_;  ///< where it landed, by its own dead reckoning
   Pose2 T_odom_landed_;

@@ -11,6 +11,7 @@
 #include "core/base/time.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/geometry/pose2.hpp"
+#include "firmware_link/sample/attitude.hpp"
 
 namespace swiftlet {
 
@@ -29,8 +30,18 @@ struct YawReading {
   double yaw_rad = 0.0;
 };
 
+struct HeightReading {
+  double height_m = 0.0;
+};
+
 inline Point2 interpolate(const Point2& a, const Point2& b, double fraction) {
   return {a.x_m + fraction * (b.x_m - a.x_m), a.y_m + fraction * (b.y_m - a.y_m)};
+}
+inline HeightReading interpolate(const HeightReading& a, const HeightReading& b, double fraction) {
+  return {a.height_m + fraction * (b.height_m - a.height_m)};
+}
+inline BodyTilt interpolate(const BodyTilt& a, const BodyTilt& b, double fraction) {
+  return {a.x_up + fraction * (b.x_up - a.x_up), a.y_up + fraction * (b.y_up - a.y_up)};
 }
 /// The shorter of both ways around the circle.
 inline YawReading interpolate(const YawReading& a, const YawReading& b, double fraction) {
@@ -45,8 +56,14 @@ inline bool is_motion(const YawReading& a, const YawReading& b, Duration elapsed
   return std::abs(wrap_angle(b.yaw_rad - a.yaw_rad)) <= limits.top_turn_rate_rad_per_s * to_seconds(elapsed);
 }
 
-/// The latest readings of one part of the dead reckoning (position or yaw), interpolated in time. Fixed
-/// storage: the oldest reading is overwritten. One thread at a time.
+/// The ground below may step, and a body may turn over: no step of these is too wide.
+inline bool is_motion(const HeightReading&, const HeightReading&, Duration, const ContinuityLimits&) {
+  return true;
+}
+inline bool is_motion(const BodyTilt&, const BodyTilt&, Duration, const ContinuityLimits&) { return true; }
+
+/// The latest readings of one part of the dead reckoning (position, yaw, tilt or height), interpolated in
+/// time. Fixed storage: the oldest reading is overwritten. One thread at a time.
 template <typename Value, std::size_t kCapacity = 128>
 class OdometryTimeline {
  public:

@@ -19,29 +19,57 @@ std::optional<bool> is_flying(double value, unsigned mask) {
   return (static_cast<unsigned>(value) & mask) != 0;
 }
 
+// Beyond that the estimator does not use it either.
+constexpr double kZrangeEndsMm = 5000.0;
+
 }  // namespace
+
+const std::array<ReadingExtractor::Form, 3> ReadingExtractor::kPositionForms{
+    {{ValueKind::kMetres, 2, {"stateEstimate.x", "stateEstimate.y"}},
+     {ValueKind::kMetres, 2, {"kalman.stateX", "kalman.stateY"}},
+     {ValueKind::kMillimetres, 2, {"stateEstimateZ.x", "stateEstimateZ.y"}}}};
+const std::array<ReadingExtractor::Form, 5> ReadingExtractor::kYawForms{
+    {{ValueKind::kDegrees, 1, {"stateEstimate.yaw"}},
+     {ValueKind::kQuaternion,
+      4,
+      {"stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz", "stateEstimate.qw"}},
+     {ValueKind::kQuaternion, 4, {"kalman.q1", "kalman.q2", "kalman.q3", "kalman.q0"}},
+     {ValueKind::kPackedQuaternion, 1, {"stateEstimateZ.quat"}},
+     {ValueKind::kDegrees, 1, {"stabilizer.yaw"}}}};  // stateEstimate.yaw by another name
+const std::array<ReadingExtractor::Form, 5> ReadingExtractor::kTiltForms{
+    {kYawForms[1],
+     kYawForms[2],
+     kYawForms[3],
+     {ValueKind::kDegrees, 2, {"stateEstimate.roll", "stateEstimate.pitch"}},
+     {ValueKind::kDegrees, 2, {"stabilizer.roll", "stabilizer.pitch"}}}};
+const std::array<ReadingExtractor::Form, 4> ReadingExtractor::kHeightForms{
+    {{ValueKind::kMillimetres, 1, {"range.zrange"}},
+     {ValueKind::kMetres, 1, {"stateEstimate.z"}},
+     {ValueKind::kMetres, 1, {"kalman.stateZ"}},
+     {ValueKind::kMillimetres, 1, {"stateEstimateZ.z"}}}};
 
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
-  const auto offers_position = [](const Slots& of) { return of.position != PositionKind::kNone; };
-  const auto offers_yaw = [](const Slots& of) { return of.yaw != YawKind::kNone; };
   const auto offers_ranges = [](const Slots& of) { return of.has_ranges; };
   Reading reading;
   reading.stream = record.block_id;
   reading.boot = record.boot;
   reading.at = record.at;
   reading.received = record.received;
-  if (offers_position(slots) && take_from(position_source_, record, offers_position))
-    reading.position_odom = read_position(record, slots);
-  if (offers_yaw(slots) && take_from(yaw_source_, record, offers_yaw))
-    reading.yaw_odom_rad = read_yaw_rad(record, slots);
+  if (takes(position_source_, record, &Slots::position))
+    reading.position_odom = read_position(record, slots.position);
+  if (takes(yaw_source_, record, &Slots::yaw)) reading.yaw_odom_rad = read_yaw_rad(record, slots.yaw);
+  if (takes(tilt_source_, record, &Slots::tilt)) reading.tilt = read_tilt(record, slots.tilt);
+  if (takes(height_source_, record, &Slots::height)) reading.height_m = read_height_m(record, slots.height);
   if (offers_ranges(slots) && take_from(range_source_, record, offers_ranges)) {
     for (const Slot& slot : slots.ranges) {
       const double distance_m = slot ? record.value(*slot) * 1e-3 : std::numeric_limits<double>::quiet_NaN();
       static_cast<void>(reading.distance_m.try_push_back(static_cast<float>(distance_m)));
     }
   }
-  if (!reading.position_odom && !reading.yaw_odom_rad && reading.distance_m.empty()) return std::nullopt;
+  const bool is_needed = reading.position_odom || reading.yaw_odom_rad || reading.tilt || reading.height_m ||
+                         !reading.distance_m.empty();
+  if (!is_needed) return std::nullopt;
   if (slots.flying) reading.is_flying = is_flying(record.value(*slots.flying), slots.flying_mask);
   return reading;
 }
@@ -66,6 +94,8 @@ const ReadingExtractor::Slots& ReadingExtractor::slots_of(const LogRecord& recor
     range_source_.reset();
     position_source_.reset();
     yaw_source_.reset();
+    tilt_source_.reset();
+    height_source_.reset();
   }
   Slots& slots = slots_[record.block_id];
   if (!slots.resolved) resolve(record, slots);
@@ -79,8 +109,10 @@ void ReadingExtractor::resolve(const LogRecord& record, Slots& slots) const {
     slots.ranges[i] = find(record, kRangeVariables[i]);
     slots.has_ranges = slots.has_ranges || slots.ranges[i].has_value();
   }
-  resolve_position(record, slots);
-  resolve_yaw(record, slots);
+  slots.position = find_first(record, kPositionForms);
+  slots.yaw = find_first(record, kYawForms);
+  slots.tilt = find_first(record, kTiltForms);
+  slots.height = find_first(record, kHeightForms);
   resolve_flying(record, slots);
 }
 
@@ -88,61 +120,35 @@ void ReadingExtractor::resolve_flying(const LogRecord& record, Slots& slots) con
   slots.flying = find(record, "supervisor.info");
   slots.flying_mask = kSupervisorFlying;
   if (slots.flying) return;
-  slots.flying = find(record, "sys.isFlying");  // firmware before 2023.06
   slots.flying_mask = ~0U;
+  slots.flying = find(record, "sys.isFlying");                          // firmware before 2023.06
+  if (!slots.flying) slots.flying = find(record, "stabilizer.thrust");  // none: the motors are off
 }
 
-void ReadingExtractor::resolve_position(const LogRecord& record, Slots& slots) const {
-  struct Row {
-    PositionKind kind;
-    std::array<std::string_view, 2> names;
-  };
-  static constexpr std::array<Row, 3> kRows{
-      {{PositionKind::kMetres, {"stateEstimate.x", "stateEstimate.y"}},
-       {PositionKind::kMetres, {"kalman.stateX", "kalman.stateY"}},
-       {PositionKind::kMillimetres, {"stateEstimateZ.x", "stateEstimateZ.y"}}}};
-  for (const Row& row : kRows) {
-    if (!find_all(record, row.names, slots.position_slots)) continue;
-    slots.position = row.kind;
-    return;
+ReadingExtractor::Quantity ReadingExtractor::find_first(const LogRecord& record,
+                                                        std::span<const Form> forms) const {
+  for (const Form& form : forms) {
+    Quantity quantity{.kind = form.kind};
+    bool is_whole = true;
+    for (std::size_t i = 0; i < form.count; ++i) {
+      quantity.slots[i] = find(record, form.names[i]);
+      is_whole = is_whole && quantity.slots[i].has_value();
+    }
+    if (is_whole) return quantity;
   }
-}
-
-void ReadingExtractor::resolve_yaw(const LogRecord& record, Slots& slots) const {
-  struct Row {
-    YawKind kind;
-    std::size_t count;
-    std::array<std::string_view, 4> names;
-  };
-  static constexpr std::array<Row, 5> kRows{
-      {{YawKind::kDegrees, 1, {"stateEstimate.yaw"}},
-       {YawKind::kQuaternion,
-        4,
-        {"stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz", "stateEstimate.qw"}},
-       {YawKind::kQuaternion, 4, {"kalman.q1", "kalman.q2", "kalman.q3", "kalman.q0"}},
-       {YawKind::kPackedQuaternion, 1, {"stateEstimateZ.quat"}},
-       {YawKind::kDegrees, 1, {"stabilizer.yaw"}}}};  // stateEstimate.yaw by another name
-  for (const Row& row : kRows) {
-    if (!find_all(record, std::span(row.names).first(row.count), slots.yaw_slots)) continue;
-    slots.yaw = row.kind;
-    return;
-  }
-}
-
-bool ReadingExtractor::find_all(const LogRecord& record, std::span<const std::string_view> names,
-                                std::span<Slot> slots) const {
-  bool complete = true;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    slots[i] = find(record, names[i]);
-    complete = complete && slots[i].has_value();
-  }
-  return complete;
+  return {};
 }
 
 ReadingExtractor::Slot ReadingExtractor::find(const LogRecord& record, std::string_view name) const {
   for (std::size_t i = 0; i < record.entry_count; ++i)
     if (session_.name_of(record, i) == name) return static_cast<std::uint8_t>(i);
   return std::nullopt;
+}
+
+bool ReadingExtractor::takes(std::optional<Source>& source, const LogRecord& record,
+                             Quantity Slots::*quantity) {
+  const auto offers = [quantity](const Slots& of) { return static_cast<bool>(of.*quantity); };
+  return offers(slots_of(record)) && take_from(source, record, offers);
 }
 
 template <typename Offers>
@@ -181,10 +187,10 @@ Duration ReadingExtractor::period_of(const std::optional<Source>& source) {
   return source ? source->period : Duration::zero();
 }
 
-Point2 ReadingExtractor::read_position(const LogRecord& record, const Slots& slots) {
-  const double x = record.value(*slots.position_slots[0]);
-  const double y = record.value(*slots.position_slots[1]);
-  if (slots.position == PositionKind::kMetres) return {x, y};
+Point2 ReadingExtractor::read_position(const LogRecord& record, const Quantity& position) {
+  const double x = record.value(*position.slots[0]);
+  const double y = record.value(*position.slots[1]);
+  if (position.kind == ValueKind::kMetres) return {x, y};
   return {x_.unwrap_m(x), y_.unwrap_m(y)};
 }
 
@@ -195,23 +201,31 @@ double ReadingExtractor::WrappedMillimetres::unwrap_m(double wrapped_mm) {
   return static_cast<double>(value_mm) * 1e-3;
 }
 
-double ReadingExtractor::read_yaw_rad(const LogRecord& record, const Slots& slots) {
-  switch (slots.yaw) {
-    case YawKind::kDegrees:
-      return wrap_angle(radians(record.value(*slots.yaw_slots[0])));
-    case YawKind::kQuaternion:
-      return yaw_of({record.value(*slots.yaw_slots[0]), record.value(*slots.yaw_slots[1]),
-                     record.value(*slots.yaw_slots[2]), record.value(*slots.yaw_slots[3])});
-    case YawKind::kPackedQuaternion: {
-      const double packed = record.value(*slots.yaw_slots[0]);
-      const bool is_packed = packed >= 0.0 && packed <= std::numeric_limits<std::uint32_t>::max();
-      if (!is_packed) break;  // requested in a type that cannot hold it
-      return yaw_of(unpack_quaternion(static_cast<std::uint32_t>(packed)));
-    }
-    case YawKind::kNone:
-      break;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+double ReadingExtractor::read_yaw_rad(const LogRecord& record, const Quantity& yaw) {
+  if (yaw.kind == ValueKind::kDegrees) return wrap_angle(radians(record.value(*yaw.slots[0])));
+  return yaw_of(read_quaternion(record, yaw));
+}
+
+BodyTilt ReadingExtractor::read_tilt(const LogRecord& record, const Quantity& tilt) {
+  if (tilt.kind == ValueKind::kDegrees)
+    return tilt_of(radians(record.value(*tilt.slots[0])), radians(record.value(*tilt.slots[1])));
+  return tilt_of(read_quaternion(record, tilt));
+}
+
+double ReadingExtractor::read_height_m(const LogRecord& record, const Quantity& height) {
+  const double value = record.value(*height.slots[0]);
+  if (height.kind == ValueKind::kMetres) return value;
+  return value < kZrangeEndsMm ? value * 1e-3 : std::numeric_limits<double>::quiet_NaN();
+}
+
+Quaternion ReadingExtractor::read_quaternion(const LogRecord& record, const Quantity& quantity) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto value = [&](std::size_t i) { return record.value(*quantity.slots[i]); };
+  if (quantity.kind == ValueKind::kQuaternion) return {value(0), value(1), value(2), value(3)};
+  const double packed = value(0);
+  const bool is_packed = packed >= 0.0 && packed <= std::numeric_limits<std::uint32_t>::max();
+  return is_packed ? unpack_quaternion(static_cast<std::uint32_t>(packed))
+                   : Quaternion{kNan, kNan, kNan, kNan};
 }
 
 }  // namespace swiftlet

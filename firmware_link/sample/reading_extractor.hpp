@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/time.hpp"
+#include "firmware_link/sample/attitude.hpp"
 #include "firmware_link/sample/sample_assembler.hpp"
 #include "firmware_link/session/log_session.hpp"
 
@@ -23,10 +24,13 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 
 /// Extracts from the vehicle's log records what samples need, by the names of the variables, from any blocks:
 /// the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or stateEstimateZ.x/y);
-/// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ, or stabilizer.yaw).
-/// Each of the three is taken from one block: of those that run, the one with the lowest number; of blocks
-/// whose start was not seen, the first one received. Names are resolved when a layout changes, not per
-/// packet: fixed storage. One thread at a time; `session` must outlive it.
+/// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ, or stabilizer.yaw);
+/// if there, the tilt (of such a quaternion, or roll and pitch of stateEstimate or stabilizer) and the height
+/// above the ground (range.zrange, or z of the position's groups). Each of the five is taken from one block:
+/// of those that run, the one with the lowest number; of blocks whose start was not seen, the first one
+/// received. Whether the vehicle flies is taken from any of them (supervisor.info, sys.isFlying,
+/// stabilizer.thrust). Names are resolved when a layout changes, not per packet: fixed storage. One thread at
+/// a time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
@@ -45,17 +49,35 @@ class ReadingExtractor {
 
  private:
   using Slot = std::optional<std::uint8_t>;  ///< entry of a block
-  enum class PositionKind : std::uint8_t { kNone, kMetres, kMillimetres };
-  enum class YawKind : std::uint8_t { kNone, kDegrees, kQuaternion, kPackedQuaternion };
-  /// Where a block holds which value.
+  enum class ValueKind : std::uint8_t {
+    kNone,
+    kMetres,
+    kMillimetres,
+    kDegrees,
+    kQuaternion,
+    kPackedQuaternion
+  };
+  /// Where a block holds a quantity, in which form; a quaternion as x, y, z, w.
+  struct Quantity {
+    ValueKind kind = ValueKind::kNone;
+    std::array<Slot, 4> slots{};
+    explicit operator bool() const { return kind != ValueKind::kNone; }
+  };
+  /// A form in which firmware logs a quantity.
+  struct Form {
+    ValueKind kind = ValueKind::kNone;
+    std::size_t count = 0;
+    std::array<std::string_view, 4> names;
+  };
+  /// What a block holds.
   struct Slots {
     bool resolved = false;
     std::array<Slot, 4> ranges{};
     bool has_ranges = false;
-    PositionKind position = PositionKind::kNone;
-    std::array<Slot, 2> position_slots{};
-    YawKind yaw = YawKind::kNone;
-    std::array<Slot, 4> yaw_slots{};  ///< x, y, z, w for a quaternion
+    Quantity position;
+    Quantity yaw;
+    Quantity tilt;
+    Quantity height;
     Slot flying;
     unsigned flying_mask = 0;
   };
@@ -72,20 +94,28 @@ class ReadingExtractor {
   const Slots& slots_of(const LogRecord& record);
   const Slots& slots_of_running(std::uint8_t block_id);
   void resolve(const LogRecord& record, Slots& slots) const;
-  void resolve_position(const LogRecord& record, Slots& slots) const;
-  void resolve_yaw(const LogRecord& record, Slots& slots) const;
   void resolve_flying(const LogRecord& record, Slots& slots) const;
-  /// The slot of each name; false when one is missing.
-  bool find_all(const LogRecord& record, std::span<const std::string_view> names,
-                std::span<Slot> slots) const;
+  /// The first form that the block holds whole.
+  [[nodiscard]] Quantity find_first(const LogRecord& record, std::span<const Form> forms) const;
   [[nodiscard]] Slot find(const LogRecord& record, std::string_view name) const;
+  /// Whether this record's block holds the quantity and is the one that it is taken from.
+  bool takes(std::optional<Source>& source, const LogRecord& record, Quantity Slots::*quantity);
   template <typename Offers>
   bool take_from(std::optional<Source>& source, const LogRecord& record, Offers offers);
   template <typename Offers>
   [[nodiscard]] Source source_for(const LogRecord& record, Offers offers);
   static Duration period_of(const std::optional<Source>& source);
-  Point2 read_position(const LogRecord& record, const Slots& slots);
-  static double read_yaw_rad(const LogRecord& record, const Slots& slots);
+  Point2 read_position(const LogRecord& record, const Quantity& position);
+  static double read_yaw_rad(const LogRecord& record, const Quantity& yaw);
+  static BodyTilt read_tilt(const LogRecord& record, const Quantity& tilt);
+  static double read_height_m(const LogRecord& record, const Quantity& height);
+  /// Precondition: one of the two kinds. NaN: requested in a type that cannot hold it.
+  static Quaternion read_quaternion(const LogRecord& record, const Quantity& quantity);
+
+  static const std::array<Form, 3> kPositionForms;
+  static const std::array<Form, 5> kYawForms;
+  static const std::array<Form, 5> kTiltForms;
+  static const std::array<Form, 4> kHeightForms;
 
   const LogSession& session_;
   std::uint32_t revision_ = 0;
@@ -93,6 +123,8 @@ class ReadingExtractor {
   std::optional<Source> range_source_;
   std::optional<Source> position_source_;
   std::optional<Source> yaw_source_;
+  std::optional<Source> tilt_source_;
+  std::optional<Source> height_source_;
   WrappedMillimetres x_;
   WrappedMillimetres y_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/check.hpp"
+#include "firmware_link/sample/level_range.hpp"
 
 namespace swiftlet {
 namespace {
@@ -25,13 +26,20 @@ RangeStatus classify_distance(double distance_m, const SensorModel& sensor) {
 }
 
 SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputCounters& counters)
-    : config_(config), counters_(counters), positions_(config.continuity), yaws_(config.continuity) {}
+    : config_(config),
+      counters_(counters),
+      positions_(config.continuity),
+      yaws_(config.continuity),
+      tilts_(config.continuity),
+      heights_(config.continuity) {}
 
 void SampleAssembler::set_periods(Duration range_period, Duration odometry_period) {
   config_.range_period = range_period;
   config_.continuity.longest_interpolation = scaled(odometry_period, kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
+  tilts_.set_limits(config_.continuity);
+  heights_.set_limits(config_.continuity);
 }
 
 void SampleAssembler::add(const Reading& reading) {
@@ -51,6 +59,10 @@ void SampleAssembler::add(const Reading& reading) {
   if (reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad))
     leaps = yaws_.add(reading.at, {*reading.yaw_odom_rad}) || leaps;
   if (leaps) ++counters_.leaps;
+  if (reading.tilt && std::isfinite(reading.tilt->x_up) && std::isfinite(reading.tilt->y_up))
+    static_cast<void>(tilts_.add(reading.at, *reading.tilt));
+  if (reading.height_m && std::isfinite(*reading.height_m))
+    static_cast<void>(heights_.add(reading.at, {*reading.height_m}));
   if (!reading.distance_m.empty()) hold_ranges(reading);
 }
 
@@ -83,6 +95,8 @@ void SampleAssembler::restart() {
   last_ranges_at_.reset();
   positions_.restart();
   yaws_.restart();
+  tilts_.restart();
+  heights_.restart();
 }
 
 void SampleAssembler::hold_ranges(const Reading& reading) {
@@ -167,17 +181,33 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
   sample.odometry_ran_on = runs_on && !was_watched;
   last_motion_ = motion;
   sample.beam_count = config_.beams.count;
+  fill_beams(ranges, sample);
+  ++counters_.samples;
+  if (sample.starts_segment) ++counters_.segments;
+  return sample;
+}
+
+void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sample) {
+  const auto tilt = tilts_.at(ranges.measured_at);
+  const auto height = heights_.at(ranges.measured_at);
+  const bool knows_tilt = tilt.outcome == OdometryTimeline<BodyTilt>::Outcome::kFound;
+  const bool knows_height = height.outcome == OdometryTimeline<HeightReading>::Outcome::kFound;
   for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {
-    const RangeStatus status = classify_distance(static_cast<double>(ranges.distance_m[i]), config_.sensor);
+    const auto range_m = static_cast<double>(ranges.distance_m[i]);
+    const double rise = knows_tilt ? rise_of_beam(config_.beams.bearing_rad[i], tilt.value) : 0.0;
+    RangeStatus status = classify_distance(range_m, config_.sensor);
+    const bool is_floor = status == RangeStatus::kHit && knows_tilt && knows_height &&
+                          can_be_floor(range_m, rise, height.value.height_m);
+    if (is_floor) {
+      status = RangeStatus::kInvalid;
+      ++counters_.floor_returns;
+    }
     sample.status[i] = status;
-    if (status == RangeStatus::kHit) sample.distance_m[i] = ranges.distance_m[i];
+    if (status == RangeStatus::kHit) sample.distance_m[i] = static_cast<float>(level_range_m(range_m, rise));
     if (status == RangeStatus::kHit) ++counters_.hits;
     if (status == RangeStatus::kNoReturn) ++counters_.no_returns;
     if (status == RangeStatus::kInvalid) ++counters_.invalid;
   }
-  ++counters_.samples;
-  if (sample.starts_segment) ++counters_.segments;
-  return sample;
 }
 
 void SampleAssembler::drop_oldest() {

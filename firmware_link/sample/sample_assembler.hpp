@@ -24,6 +24,8 @@ struct Reading {
   HostTime received{};
   std::optional<Point2> position_odom;
   std::optional<double> yaw_odom_rad;
+  std::optional<BodyTilt> tilt;
+  std::optional<double> height_m;   ///< above the ground below
   std::optional<bool> is_flying;    ///< nullopt: the vehicle does not report it
   bool odometry_restarted = false;  ///< the dead reckoning has restarted
   /// One distance a beam, or empty: no ranges in this packet. NaN is no measurement; out-of-range values stay
@@ -43,7 +45,9 @@ struct AssemblyConfig {
 /// Assembles range samples from readings: pairs ranges with dead reckoning of the same instant (the packet's
 /// time less the range's age), position and yaw each interpolated on its own time line, because they may come
 /// in different packets. Waits for dead reckoning that is still to come, for a short time; keeps the order;
-/// counts what it drops. Fixed storage, no allocation, one thread at a time.
+/// counts what it drops. Where tilt and height of that instant are known, too (they are not waited for),
+/// ranges become horizontal distances, and those that can be the floor's become invalid. Fixed storage, no
+/// allocation, one thread at a time.
 class SampleAssembler {
  public:
   /// Counts into `counters`, which must outlive the assembler.
@@ -83,12 +87,15 @@ class SampleAssembler {
   /// False when the dead reckoning has run away.
   bool is_within_reach(const Point2& position_odom, const Motion& motion);
   RangeSample finish(const PendingRanges& ranges, const Pose2& T_odom_body, const Motion& motion);
+  void fill_beams(const PendingRanges& ranges, RangeSample& sample);
   void drop_oldest();
 
   AssemblyConfig config_;
   InputCounters& counters_;
   OdometryTimeline<Point2> positions_;
   OdometryTimeline<YawReading> yaws_;
+  OdometryTimeline<BodyTilt> tilts_;
+  OdometryTimeline<HeightReading> heights_;
   FixedVector<PendingRanges, 16> pending_;
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
   std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart

@@ -34,16 +34,20 @@ std::optional<std::array<double, kCount>> numbers(std::string_view& row) {
 }
 
 bool read_position(std::string_view row, Reading& reading) {
-  const auto position = numbers<2>(row);
-  if (position) reading.position_odom = Point2{(*position)[0], (*position)[1]};
-  return position.has_value();
+  const auto position = numbers<3>(row);
+  if (!position) return false;
+  reading.position_odom = Point2{(*position)[0], (*position)[1]};
+  reading.height_m = (*position)[2];
+  return true;
 }
 
 bool read_attitude_and_ranges(std::string_view row, Reading& reading) {
   const auto q = numbers<4>(row);  // w, x, y, z
   const auto ranges = q ? numbers<4>(row) : std::nullopt;
   if (!ranges) return false;
-  reading.yaw_odom_rad = yaw_of({.x = (*q)[1], .y = (*q)[2], .z = (*q)[3], .w = (*q)[0]});
+  const Quaternion attitude{.x = (*q)[1], .y = (*q)[2], .z = (*q)[3], .w = (*q)[0]};
+  reading.yaw_odom_rad = yaw_of(attitude);
+  reading.tilt = tilt_of(attitude);
   const auto [front_m, back_m, left_m, right_m] = *ranges;
   for (const double distance_m : {front_m, left_m, back_m, right_m})
     static_cast<void>(reading.distance_m.try_push_back(static_cast<float>(distance_m)));
@@ -108,7 +112,7 @@ void FlightTableSource::feed() {
   if (!row) return end_with(row.error().code == ErrorCode::kDamaged ? row.error().message : "");
   ++report_.counters.frames;
   if (row->starts_with('#')) return;
-  if (const std::optional<Reading> reading = read_row(*row)) return assembler_.add(*reading);
+  if (const std::optional<Reading> reading = read_row(*row)) return assembler_.add(ground_.hold(*reading));
   end_with(path_ + ", line " + std::to_string(lines_.line_number()) +
            ": is no row of a log block; the table is used up to there");
 }

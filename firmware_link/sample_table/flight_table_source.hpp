@@ -7,6 +7,7 @@
 
 #include "core/base/result.hpp"
 #include "firmware_link/file/gzip_lines.hpp"
+#include "firmware_link/sample/landed_odometry_freeze.hpp"
 #include "firmware_link/sample/sample_assembler.hpp"
 #include "firmware_link/sample/sample_source.hpp"
 
@@ -45,6 +46,7 @@ class FlightTableSource final : public SampleSource {
   BeamLayout beams_ = BeamLayout::multiranger();
   SensorModel sensor_;
   InputReport report_;
+  LandedOdometryFreeze ground_;
   SampleAssembler assembler_;
   bool has_ended_ = false;
 };

@@ -31,10 +31,11 @@ constexpr std::array<std::string_view, 8> kRangeBlock{
     "stateEstimate.qw", "stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz",
     "range.front",      "range.back",       "range.left",       "range.right"};
 constexpr std::array<std::string_view, 1> kRangeBlockExtras{"range.zrange"};
+// Beside kOneBlock: the tilt that ranges are levelled by.
+constexpr std::array<std::string_view, 2> kTiltBlock{"stateEstimate.roll", "stateEstimate.pitch"};
 // The vehicle's health, for the status and for readers of the recording.
-constexpr std::array<std::string_view, 8> kSlowBlock{
-    "pm.state",           "radio.rssi",          "range.up",    "stateEstimate.z",
-    "stateEstimate.roll", "stateEstimate.pitch", "kalman.varX", "kalman.varY"};
+constexpr std::array<std::string_view, 6> kSlowBlock{"pm.state",        "radio.rssi",  "range.up",
+                                                     "stateEstimate.z", "kalman.varX", "kalman.varY"};
 constexpr std::uint8_t kSlowBlockId = 3;
 static_assert(kSlowBlockId <= kMaxOwnLogBlocks);
 static_assert(kPositionBlock.size() + kPositionBlockExtras.size() + kRangeBlock.size() +
@@ -151,7 +152,9 @@ void LogHandshake::restate_cached_toc() {
 
 void LogHandshake::plan_blocks() {
   plan_.clear();
-  if (!plan_block(1, kFast10ms, kOneBlock, {})) {
+  if (plan_block(1, kFast10ms, kOneBlock, {})) {
+    if (plan_block(2, kFast10ms, kTiltBlock, {})) plan_.back().optional = true;
+  } else {
     plan_.clear();
     if (!plan_block(1, kFast10ms, kPositionBlock, kPositionBlockExtras) ||
         !plan_block(2, kFast10ms, kRangeBlock, kRangeBlockExtras)) {

@@ -30,9 +30,9 @@ inline constexpr std::size_t kMaxOwnLogVariables = 25;
 
 /// Starts the log of a live vehicle: determines the next request from the replies. One is outstanding, of
 /// the table of contents several; what is not answered is repeated. Source, protocol version, reset of the
-/// log, table of contents, then creates and starts the blocks: pose and ranges at 10 Hz, the vehicle's health
-/// at 1 Hz. No link, no clock: the caller passes the time. One thread at a time; allocates; `session` must
-/// outlive it and receive each packet first, `cache` must outlive it.
+/// log, table of contents, then creates and starts the blocks: pose, ranges and tilt at 10 Hz, the vehicle's
+/// health at 1 Hz. No link, no clock: the caller passes the time. One thread at a time; allocates; `session`
+/// must outlive it and receive each packet first, `cache` must outlive it.
 class LogHandshake {
  public:
   LogHandshake(const LogSession& session, TocCache& cache);

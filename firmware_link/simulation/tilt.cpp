@@ -23,7 +23,6 @@ SimulatedTilt::SimulatedTilt(const TiltModel& model, std::uint64_t seed)
     : model_(model), noise_(seed, "tilt"), sigma_rad_(model.calm_rad), recent_(kRemembered) {}
 
 void SimulatedTilt::step(const Tilt& by_motion) {
-  if (is_level()) return;
   const double onset_s = kGustS * (1.0 - model_.gust_share) / model_.gust_share;
   if (noise_.chance(kFlightStepS / (is_gust_ ? kGustS : onset_s))) is_gust_ = !is_gust_;
   sigma_rad_ += ((is_gust_ ? model_.gust_rad : model_.calm_rad) - sigma_rad_) * kFlightStepS / kOnsetS;

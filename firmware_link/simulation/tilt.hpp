@@ -12,7 +12,6 @@
 namespace swiftlet {
 
 /// How air and control tilt the vehicle, besides its accelerations: standard deviations of roll and pitch.
-/// Both 0: beams stay level whatever the vehicle does.
 struct TiltModel {
   double calm_rad = 0.0;
   double gust_rad = 0.0;
@@ -29,7 +28,6 @@ class SimulatedTilt {
  public:
   SimulatedTilt(const TiltModel& model, std::uint64_t seed);
 
-  [[nodiscard]] bool is_level() const { return model_.calm_rad == 0.0 && model_.gust_rad == 0.0; }
   /// One kFlightStep; `by_motion`: what the acceleration asks for.
   void step(const Tilt& by_motion);
   [[nodiscard]] const Tilt& now() const { return recent_[newest_]; }

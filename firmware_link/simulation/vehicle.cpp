@@ -286,7 +286,7 @@ void SimulatedVehicle::show(const FlightState& truth) {
   state_.yaw_rate_rad_s = odometry_.yaw_rate_rad_s();
   state_.ax_body_m_s2 = truth.ax_body_m_s2;
   state_.ay_body_m_s2 = truth.ay_body_m_s2;
-  const Tilt tilt = tilt_.is_level() ? tilt_by(truth) : tilt_.now();
+  const Tilt& tilt = tilt_.now();
   state_.roll_rad = tilt.roll_rad;
   state_.pitch_rad = tilt.pitch_rad;
   state_.position_variance_m2 = odometry_.position_variance_m2();
@@ -311,8 +311,7 @@ void SimulatedVehicle::read_rangers() {
       const double direction_rad = T_world_body_then.yaw_rad() + ranger.bearing_rad;
       std::optional<double> range_m =
           measure_range(walls, T_world_body_then.position(), direction_rad, model_.ranger, ranger.noise);
-      if (!tilt_.is_level())
-        range_m = tilted_range_m(range_m, ranger.bearing_rad, tilt_.before(model_.range_age), state_.z_m);
+      range_m = tilted_range_m(range_m, ranger.bearing_rad, tilt_.before(model_.range_age), state_.z_m);
       state_.*ranger.shown_mm = filtered_range_mm(range_m);
     }
     const double up_m = kCeilingM - state_.z_m;

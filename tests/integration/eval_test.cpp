@@ -185,9 +185,11 @@ TEST_P(PublishedFlightPath, HitsTheKnownCells) {
   SWIFTLET_REQUIRE_REFERENCE(trajectory);
   SWIFTLET_REQUIRE_REFERENCE(capture);
   const json figures = figures_of(trajectory, capture);
-  EXPECT_EQ(figures["returns"], known.returns);
-  EXPECT_EQ(figures["cells_10_cm"], known.cells_10_cm);
-  EXPECT_EQ(figures["cells_20_cm"], known.cells_20_cm);
+  // Known of the readings as logged: levelled, some more are nearer than 2 m, and some cells change.
+  constexpr double kLevelled = 0.003;
+  EXPECT_NEAR(figures["returns"], known.returns, kLevelled * known.returns);
+  EXPECT_NEAR(figures["cells_10_cm"], known.cells_10_cm, kLevelled * known.cells_10_cm);
+  EXPECT_NEAR(figures["cells_20_cm"], known.cells_20_cm, kLevelled * known.cells_20_cm);
 }
 
 INSTANTIATE_TEST_SUITE_P(Recorded, PublishedFlightPath,

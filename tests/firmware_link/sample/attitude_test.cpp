@@ -48,6 +48,22 @@ TEST(Attitude, YawIsTheHeadingOfTheBodysXAxisWhenTilted) {
   }
 }
 
+TEST(Attitude, TiltOfAQuaternionIsThatOfItsEulerAngles) {
+  const double roll_rad = 0.2;
+  const double pitch_rad = 0.3;  // nose up: about -y
+  const double yaw_rad = 1.0;
+  const double cr = std::cos(roll_rad / 2.0), sr = std::sin(roll_rad / 2.0);
+  const double cp = std::cos(-pitch_rad / 2.0), sp = std::sin(-pitch_rad / 2.0);
+  const double cy = std::cos(yaw_rad / 2.0), sy = std::sin(yaw_rad / 2.0);
+  const Quaternion q{sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy,
+                     cr * cp * cy + sr * sp * sy};
+  EXPECT_NEAR(yaw_of(q), yaw_rad, 1e-12);
+  EXPECT_NEAR(tilt_of(q).x_up, std::sin(pitch_rad), 1e-12) << "the nose points up";
+  EXPECT_NEAR(tilt_of(q).y_up, std::sin(roll_rad) * std::cos(pitch_rad), 1e-12);
+  EXPECT_NEAR(tilt_of(roll_rad, pitch_rad).x_up, tilt_of(q).x_up, 1e-12);
+  EXPECT_NEAR(tilt_of(roll_rad, pitch_rad).y_up, tilt_of(q).y_up, 1e-12);
+}
+
 TEST(Attitude, PackedQuaternionComesBackToItsResolution) {
   std::mt19937 random(42);
   std::normal_distribution<double> normal;

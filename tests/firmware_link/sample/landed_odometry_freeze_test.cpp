@@ -78,6 +78,60 @@ TEST(LandedOdometryFreeze, IgnoresAVehicleThatHasNotFlownOrDoesNotReportIt) {
   expect_pose(ground.hold(reading_of({2.0, 0.0, 0.1}, std::nullopt)), {2.0, 0.0, 0.1});
 }
 
+TEST(LandedOdometryFreeze, ByItsHeightWhereNothingElseTells) {
+  LandedOdometryFreeze ground;
+  const auto reading_at = [](double height_m, const Pose2& T_vehicle_body) {
+    Reading reading = reading_of(T_vehicle_body, std::nullopt);
+    reading.height_m = height_m;
+    return reading;
+  };
+  expect_pose(ground.hold(reading_at(0.0, {1.0, 0.0, 0.5})), {1.0, 0.0, 0.5});
+  expect_pose(ground.hold(reading_at(0.5, {2.0, 0.0, 0.6})), {2.0, 0.0, 0.6});
+  static_cast<void>(ground.hold(reading_at(0.02, {2.0, 0.0, 0.6})));
+  const Reading held = ground.hold(reading_at(0.02, {2.0, 0.0, 0.1}));
+  expect_pose(held, {2.0, 0.0, 0.6});
+  EXPECT_TRUE(std::isnan(held.distance_m[0]));
+}
+
+TEST(LandedOdometryFreeze, WhatTheVehicleReportsOutvotesItsHeight) {
+  LandedOdometryFreeze ground;
+  Reading reading = reading_of({2.0, 0.0, 0.6}, true);
+  reading.height_m = 0.5;
+  static_cast<void>(ground.hold(reading));
+  reading.height_m = 0.02;  // over a box
+  EXPECT_EQ(ground.hold(reading).distance_m[0], 1.F);
+  reading.is_flying.reset();  // of a block without it
+  EXPECT_EQ(ground.hold(reading).distance_m[0], 1.F);
+}
+
+/// As log blocks without room for both have it.
+TEST(LandedOdometryFreeze, FreezesPositionAndYawOfDifferentReadings) {
+  LandedOdometryFreeze ground;
+  const auto position = [&ground](double x_m, bool is_flying) {
+    Reading reading;
+    reading.position_odom = Point2{x_m, 0.0};
+    reading.is_flying = is_flying;
+    return ground.hold(reading);
+  };
+  const auto yaw = [&ground](double yaw_rad) {
+    Reading reading = reading_of({0.0, 0.0, yaw_rad}, std::nullopt);
+    reading.position_odom.reset();
+    return ground.hold(reading);
+  };
+  static_cast<void>(position(1.0, true));
+  static_cast<void>(yaw(0.5));
+  EXPECT_DOUBLE_EQ(position(2.0, true).position_odom->x_m, 2.0);
+  static_cast<void>(position(2.0, false));
+  const Reading held = yaw(0.1);
+  EXPECT_NEAR(*held.yaw_odom_rad, 0.5, 1e-12);
+  EXPECT_FALSE(held.position_odom.has_value());
+  EXPECT_TRUE(std::isnan(held.distance_m[0]));
+  EXPECT_NEAR(position(2.0, false).position_odom->x_m, 2.0, 1e-12);
+  // It takes off again and flies along its nose; the estimate is turned by -0.4 by now.
+  const Point2 flown = *position(2.0 + std::cos(0.1), true).position_odom;
+  EXPECT_NEAR(flown.x_m, 2.0 + std::cos(0.1) * std::cos(0.4), 1e-9);
+}
+
 TEST(LandedOdometryFreeze, ARebootDiscardsTheLanding) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, 2.0}, true)));

@@ -89,6 +89,51 @@ TEST_F(SampleAssemblerTest, PairsRangesWithTheDeadReckoningOfTheTimeTheyWereMeas
   EXPECT_EQ(counters_.segments, 1U);
 }
 
+TEST_F(SampleAssemblerTest, LevelsRangesByTheTiltOfTheMomentOfMeasurement) {
+  const auto attitude = [this](std::int64_t ms, double x_up, double height_m) {
+    Reading reading;
+    reading.stream = 3;
+    reading.at = device_ms(ms);
+    reading.tilt = BodyTilt{.x_up = x_up, .y_up = 0.0};
+    reading.height_m = height_m;
+    feed(reading);
+  };
+  for (std::int64_t ms = 0; ms <= 600; ms += 100) {
+    position(ms, 0.0);
+    if (ms <= 300) attitude(ms, -1e-3 * static_cast<double>(ms), 0.5);  // then not logged any more
+    ranges(ms + 50, 0.0, {1.F, 2.F, 2.F, 3.9F});
+  }
+  end();
+  ASSERT_GE(samples_.size(), 5U);
+  EXPECT_EQ(samples_[1].measured_at, device_ms(150));
+  EXPECT_NEAR(samples_[1].distance_m[0], std::sqrt(1.0 - 0.15 * 0.15), 1e-6);
+  EXPECT_NEAR(samples_[1].distance_m[2], 2.0 * std::sqrt(1.0 - 0.15 * 0.15), 1e-6) << "behind, it points up";
+  EXPECT_EQ(samples_[1].distance_m[1], 2.F) << "the tilt is about its axis";
+  EXPECT_EQ(counters_.floor_returns, 0U);
+  EXPECT_EQ(samples_[4].distance_m[2], 2.F) << "unknown";
+}
+
+TEST_F(SampleAssemblerTest, LeavesOutWhatCanBeTheFloor) {
+  for (std::int64_t ms = 0; ms <= 200; ms += 100) {
+    position(ms, 0.0);
+    Reading attitude;
+    attitude.stream = 3;
+    attitude.at = device_ms(ms);
+    attitude.tilt = BodyTilt{.x_up = -0.2, .y_up = 0.0};
+    attitude.height_m = 0.5;
+    feed(attitude);
+    ranges(ms + 4, 0.0, {2.5F, 2.5F, 2.5F, 2.5F});
+  }
+  end();
+  ASSERT_GE(samples_.size(), 1U);
+  EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
+  EXPECT_EQ(samples_[0].distance_m[0], 0.F);
+  EXPECT_EQ(samples_[0].status[1], RangeStatus::kHit);
+  EXPECT_EQ(samples_[0].status[2], RangeStatus::kHit);
+  EXPECT_EQ(counters_.floor_returns, samples_.size());
+  EXPECT_EQ(counters_.invalid, samples_.size());
+}
+
 TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
   AssemblyConfig ageless = config();
   ageless.sensor.range_age = Duration::zero();

@@ -88,6 +88,16 @@ TEST_F(LogHandshakeTest, StartsOneBlockWithAllVariablesIfTheFirmwareHasThem) {
   EXPECT_EQ(byte_count(session_.blocks()[1].entries), 26U);
 }
 
+TEST_F(LogHandshakeTest, LogsTheTiltBesideItAsOftenWhereTheFirmwareHasIt) {
+  link_.vehicle.variables.push_back({"stateEstimate", "roll", LogType::kFloat});
+  link_.vehicle.variables.push_back({"stateEstimate", "pitch", LogType::kFloat});
+  run();
+  ASSERT_TRUE(handshake_.finished());
+  EXPECT_THAT(names_of(2), ElementsAre("stateEstimate.roll", "stateEstimate.pitch"));
+  EXPECT_EQ(session_.blocks()[2].period, std::chrono::milliseconds(100));
+  EXPECT_THAT(handshake_.essential_blocks(), ElementsAre(1)) << "samples do not need it";
+}
+
 TEST_F(LogHandshakeTest, StartsTwoBlocksOnOlderFirmware) {
   remove("supervisor.info");
   remove("radio.rssi");

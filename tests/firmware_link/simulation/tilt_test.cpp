@@ -15,11 +15,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-TEST(SimulatedTilt, IsLevelWithoutAModel) {
+TEST(SimulatedTilt, IsThatOfTheMotionWithoutAModel) {
   SimulatedTilt tilt({}, 1);
-  EXPECT_TRUE(tilt.is_level());
-  for (int i = 0; i < 100; ++i) tilt.step({0.1, 0.1});
-  EXPECT_EQ(tilt.now().roll_rad, 0.0);
+  for (int i = 0; i < 100; ++i) tilt.step({0.1, 0.2});
+  EXPECT_EQ(tilt.now().roll_rad, 0.1);
+  EXPECT_EQ(tilt.now().pitch_rad, 0.2);
 }
 
 TEST(SimulatedTilt, IsSmallMostOfTheTimeAndLargeInGusts) {
