@@ -226,11 +226,10 @@ std::vector<LoopClosure> PlaceHypotheses::turned(std::span<const std::shared_ptr
   const double way_m = std::hypot(way.x_m(), way.y_m());
   const double radius_m = window.min_search_radius_m;
   const double step_rad = 2.0 * std::min(window.min_search_angle_rad, radius_m / std::max(way_m, radius_m));
-  const int steps = static_cast<int>(std::ceil(2.0 * kPi / step_rad));
-  for (int i = 1; i < steps; ++i) {
-    const double turn_rad = wrap_angle(i * step_rad);
-    if (std::abs(turn_rad) > kMaxTurnRad) continue;
-    const Pose2 T_map_query = graph.T_map_keyframe[*break_.moved_at] * Pose2(0.0, 0.0, turn_rad) * way;
+  const int steps = static_cast<int>(kMaxTurnRad / step_rad);
+  for (int i = -steps; i <= steps; ++i) {
+    if (i == 0) continue;
+    const Pose2 T_map_query = graph.T_map_keyframe[*break_.moved_at] * Pose2(0.0, 0.0, i * step_rad) * way;
     const Evidence found = evidence(queries_.back(), T_map_query, submaps, graph);
     if (found.match && found.log_likelihood > 0.0 && found.match->score >= config_->min_score)
       matches.push_back(*found.match);

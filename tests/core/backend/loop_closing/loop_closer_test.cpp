@@ -12,7 +12,6 @@
 #include "core/backend/store/frontend_estimates.hpp"
 #include "tests/support/dead_reckoning_frontend.hpp"
 #include "tests/support/loop_corridor.hpp"
-#include "tests/support/pose_near.hpp"
 
 namespace swiftlet {
 namespace {
