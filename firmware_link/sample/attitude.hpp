@@ -18,6 +18,9 @@ struct Quaternion {
 struct BodyTilt {
   double x_up = 0.0;
   double y_up = 0.0;
+
+  /// False for what no rotation gives: NaN, or a quaternion that is not of unit length.
+  [[nodiscard]] bool is_possible() const { return x_up * x_up + y_up * y_up <= 1.0; }
 };
 
 /// Heading of the body's x axis, counter-clockwise, -pi..pi (Diebel 2006, "Representing Attitude", eq. 290).

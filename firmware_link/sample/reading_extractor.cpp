@@ -67,11 +67,10 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
       static_cast<void>(reading.distance_m.try_push_back(static_cast<float>(distance_m)));
     }
   }
-  const bool is_needed = reading.position_odom || reading.yaw_odom_rad || reading.tilt || reading.height_m ||
-                         !reading.distance_m.empty();
-  if (!is_needed) return std::nullopt;
   if (slots.flying) reading.is_flying = is_flying(record.value(*slots.flying), slots.flying_mask);
-  return reading;
+  const bool is_needed = reading.position_odom || reading.yaw_odom_rad || reading.tilt || reading.height_m ||
+                         reading.is_flying || !reading.distance_m.empty();
+  return is_needed ? std::optional(reading) : std::nullopt;
 }
 
 Duration ReadingExtractor::odometry_period() const {

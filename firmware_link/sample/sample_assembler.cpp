@@ -59,8 +59,7 @@ void SampleAssembler::add(const Reading& reading) {
   if (reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad))
     leaps = yaws_.add(reading.at, {*reading.yaw_odom_rad}) || leaps;
   if (leaps) ++counters_.leaps;
-  if (reading.tilt && std::isfinite(reading.tilt->x_up) && std::isfinite(reading.tilt->y_up))
-    static_cast<void>(tilts_.add(reading.at, *reading.tilt));
+  if (reading.tilt && reading.tilt->is_possible()) static_cast<void>(tilts_.add(reading.at, *reading.tilt));
   if (reading.height_m && std::isfinite(*reading.height_m))
     static_cast<void>(heights_.add(reading.at, {*reading.height_m}));
   if (!reading.distance_m.empty()) hold_ranges(reading);
@@ -195,7 +194,10 @@ void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sampl
   for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {
     const auto range_m = static_cast<double>(ranges.distance_m[i]);
     const double rise = knows_tilt ? rise_of_beam(config_.beams.bearing_rad[i], tilt.value) : 0.0;
+    const double level_m = level_range_m(range_m, rise);
     RangeStatus status = classify_distance(range_m, config_.sensor);
+    if (status == RangeStatus::kHit)
+      status = classify_distance(level_m, config_.sensor);  // of a body on its side
     const bool is_floor = status == RangeStatus::kHit && knows_tilt && knows_height &&
                           can_be_floor(range_m, rise, height.value.height_m);
     if (is_floor) {
@@ -203,7 +205,7 @@ void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sampl
       ++counters_.floor_returns;
     }
     sample.status[i] = status;
-    if (status == RangeStatus::kHit) sample.distance_m[i] = static_cast<float>(level_range_m(range_m, rise));
+    if (status == RangeStatus::kHit) sample.distance_m[i] = static_cast<float>(level_m);
     if (status == RangeStatus::kHit) ++counters_.hits;
     if (status == RangeStatus::kNoReturn) ++counters_.no_returns;
     if (status == RangeStatus::kInvalid) ++counters_.invalid;

@@ -34,11 +34,10 @@ std::optional<std::array<double, kCount>> numbers(std::string_view& row) {
 }
 
 bool read_position(std::string_view row, Reading& reading) {
-  const auto position = numbers<3>(row);
-  if (!position) return false;
-  reading.position_odom = Point2{(*position)[0], (*position)[1]};
-  reading.height_m = (*position)[2];
-  return true;
+  const auto position = numbers<2>(row);
+  if (position) reading.position_odom = Point2{(*position)[0], (*position)[1]};
+  if (const auto height = numbers<1>(row)) reading.height_m = (*height)[0];
+  return position.has_value();
 }
 
 bool read_attitude_and_ranges(std::string_view row, Reading& reading) {

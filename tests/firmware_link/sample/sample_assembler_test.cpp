@@ -113,6 +113,26 @@ TEST_F(SampleAssemblerTest, LevelsRangesByTheTiltOfTheMomentOfMeasurement) {
   EXPECT_EQ(samples_[4].distance_m[2], 2.F) << "unknown";
 }
 
+TEST_F(SampleAssemblerTest, TakesNoTiltThatIsNoneAndNoRangeOfABodyOnItsSide) {
+  const auto attitude = [this](std::int64_t ms, const BodyTilt& tilt) {
+    Reading reading;
+    reading.stream = 3;
+    reading.at = device_ms(ms);
+    reading.tilt = tilt;
+    feed(reading);
+  };
+  for (std::int64_t ms = 0; ms <= 300; ms += 100) {
+    position(ms, 0.0);
+    attitude(ms, ms < 200 ? BodyTilt{.x_up = 0.9, .y_up = 0.9} : BodyTilt{.x_up = 1.0, .y_up = 0.0});
+    ranges(ms, 0.0);
+  }
+  end();
+  ASSERT_EQ(samples_.size(), 3U);
+  EXPECT_EQ(samples_[0].distance_m[0], 1.F) << "of no rotation: unknown";
+  EXPECT_EQ(samples_[2].status[0], RangeStatus::kInvalid) << "it points up";
+  EXPECT_EQ(samples_[2].distance_m[1], 1.F);
+}
+
 TEST_F(SampleAssemblerTest, LeavesOutWhatCanBeTheFloor) {
   for (std::int64_t ms = 0; ms <= 200; ms += 100) {
     position(ms, 0.0);
