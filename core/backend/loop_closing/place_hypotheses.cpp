@@ -225,7 +225,8 @@ std::vector<LoopClosure> PlaceHypotheses::turned(std::span<const std::shared_ptr
   const Pose2 way = between(T_path_keyframe[*break_.moved_at], T_path_keyframe[queries_.back().id]);
   const double way_m = std::hypot(way.x_m(), way.y_m());
   const double radius_m = window.min_search_radius_m;
-  const double step_rad = 2.0 * std::min(window.min_search_angle_rad, radius_m / std::max(way_m, radius_m));
+  const double step_rad = 2.0 * config_->tuning.matcher.edge_of_window *
+                          std::min(window.min_search_angle_rad, radius_m / std::max(way_m, radius_m));
   const int steps = static_cast<int>(kMaxTurnRad / step_rad);
   for (int i = -steps; i <= steps; ++i) {
     if (i == 0) continue;
