@@ -9,12 +9,13 @@
 
 namespace swiftlet {
 
-/// Of a tilt at the moment of measurement: it is logged ten times a second, and gusts are faster. From the
-/// spread of 160 returns from the floor, seen at half a metre of height: their distances scatter by a
-/// quarter.
+/// Of a tilt at the moment of measurement: it is logged ten times a second, and gusts are faster. The 160
+/// returns of the flight olsson, half a metre high, that tilt sends to the floor within 3 m scatter by a
+/// quarter in distance.
 inline constexpr double kTiltSigmaRad = 0.044;
 
-/// A Crazyflie that is lower than this above what is below it stands there, level.
+/// A Crazyflie that is lower than this above what is below it stands there, level: its ranger stands some 3
+/// cm high, and the usual take-off ends at 0.3 m.
 inline constexpr double kStandingM = 0.1;
 
 /// How far the unit vector along a beam points up.
