@@ -32,7 +32,10 @@ RigidNodes nodes_of(std::span<const CalibrationScan> scans, const OdometryNoise&
   for (std::size_t i = 1; i < scans.size(); ++i) {
     const Pose2 step = scans[i].starts_segment ? between(T_map_body[i - 1], T_map_body[i])
                                                : between(scans[i - 1].T_odom_body, scans[i].T_odom_body);
-    const OdometrySigma sigma = scans[i].starts_segment ? kUnknownMotion : odometry_sigma(noise, step);
+    const OdometrySigma sigma =
+        scans[i].starts_segment
+            ? kUnknownMotion
+            : odometry_sigma(noise, step, scans[i].measured_at - scans[i - 1].measured_at);
     variance_to[i] = {sigma.xy_m * sigma.xy_m, sigma.yaw_rad * sigma.yaw_rad};
     odometry[i].T_odom_body = odometry[i - 1].T_odom_body * step;
   }

@@ -124,7 +124,7 @@ void Frontend::State::track_motion(const RangeSample& sample) {
                             T_previous_body.yaw_rad() + correction_rad);
     motion = sample.starts_segment
                  ? unwatched_step(odometry_noise, T_corrected, sample.measured_at - previous_at)
-                 : uncertain_step(odometry_noise, T_corrected);
+                 : uncertain_step(odometry_noise, T_corrected, sample.measured_at - previous_at);
     since_keyframe = since_keyframe * motion;
     step.T_dead_body = step.T_dead_body * motion.T_from_to;
   }

@@ -32,8 +32,8 @@ struct OdometrySigma {
     return {1.0 / (xy_m * xy_m), 1.0 / (xy_m * xy_m), 1.0 / (yaw_rad * yaw_rad)};
   }
 };
-/// As OdometryNoise gives them, the floor of a motion of nothing too.
-OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion);
+/// As OdometryNoise gives them, of a motion that took `duration`; less than a millisecond counts as one.
+OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& motion, Duration duration);
 
 /// Of a motion that was neither measured nor guessed: anywhere in a building, any heading. Weak enough that
 /// it decides nothing, strong enough that every system of equations stays solvable.
@@ -44,7 +44,7 @@ inline constexpr OdometrySigma kUnknownMotion{100.0, 10.0};
 inline constexpr OdometrySigma kStoodStill{0.4, radians(10.0)};
 
 /// One step of dead reckoning with its error; exactly no motion has none (the vehicle stood still).
-UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this);
+UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration duration);
 
 /// A step of dead reckoning over a silence: the vehicle moved from one end to the other on an unknown path.
 /// The error of an assumed detour, which grows with the silence, is added.

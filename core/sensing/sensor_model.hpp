@@ -22,18 +22,28 @@ struct BeamLayout {
   static BeamLayout multiranger() { return {4, {0.0, kPi / 2.0, kPi, -kPi / 2.0}}; }
 };
 
-/// Errors of dead reckoning. Independent errors of one step, as functions of its length d (m) and turn (rad):
-/// sigma_xy = xy_floor + xy_per_metre * d + xy_per_radian * turn,
-/// sigma_yaw = yaw_floor + yaw_per_radian * turn + yaw_per_metre * d;
-/// and errors that persist over the whole run, which the frontend estimates and removes (none where 0).
+/// Errors that add up independently: their variance grows with way, turn and time, in however many steps a
+/// motion is measured. Standard deviations after a metre, a radian and a second.
+struct RandomWalk {
+  double after_metre = 0.0;
+  double after_radian = 0.0;
+  double after_second = 0.0;
+
+  [[nodiscard]] double variance(double way_m, double turn_rad, double seconds) const {
+    return after_metre * after_metre * way_m + after_radian * after_radian * turn_rad +
+           after_second * after_second * seconds;
+  }
+  [[nodiscard]] RandomWalk scaled(double factor) const {
+    return {factor * after_metre, factor * after_radian, factor * after_second};
+  }
+};
+
+/// Errors of dead reckoning: a random walk of position and yaw, and errors that persist over the whole run,
+/// which the frontend estimates and removes (none where 0).
 struct OdometryNoise {
-  double xy_floor_m = 0.002;
-  double xy_per_metre = 0.05;
-  double xy_per_radian_m = 0.01;
-  double yaw_floor_rad = radians(0.05);
-  double yaw_per_radian = 0.05;
-  double yaw_per_metre_rad = radians(1.0);
-  double steps_err_together = 1.0;  ///< so many consecutive steps share their error: a sum over single steps
+  RandomWalk xy_m{0.02, 0.02, 0.005};
+  RandomWalk yaw_rad{radians(0.4), radians(1.3), radians(0.1)};
+  double steps_err_together = 1.0;  ///< so many steps in a row share their error: a sum over single steps
                                     ///< gives each that much less weight
   double drift_yaw_per_metre_rad =
       0.0;  ///< standard deviation of the yaw that is missed with each metre forward
@@ -78,14 +88,10 @@ struct SensorModel {
   static SensorModel carmen_laser() {
     SensorModel model;
     model.max_range_m = 5.0;
-    model.odometry = {.xy_floor_m = 0.004,
-                      .xy_per_metre = 0.1,
-                      .xy_per_radian_m = 0.02,
-                      .yaw_floor_rad = radians(0.1),
-                      .yaw_per_radian = 0.1,
-                      .yaw_per_metre_rad = radians(2.0),
-                      .drift_yaw_per_metre_rad = radians(2.0),
-                      .drift_yaw_per_radian = 0.02};
+    model.odometry.xy_m = model.odometry.xy_m.scaled(2.0);
+    model.odometry.yaw_rad = model.odometry.yaw_rad.scaled(2.75);
+    model.odometry.drift_yaw_per_metre_rad = radians(2.0);
+    model.odometry.drift_yaw_per_radian = 0.02;
     return model;
   }
 };

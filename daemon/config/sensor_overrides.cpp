@@ -30,9 +30,11 @@ SensorModel SensorOverrides::applied_to(SensorModel model) const {
   model.max_range_m = max_range_m.value_or(model.max_range_m);
   model.range_sigma_m = range_sigma_m.value_or(model.range_sigma_m);
   if (range_age_s) model.range_age = from_seconds(*range_age_s);
-  model.odometry.xy_per_metre = odometry_xy_per_metre.value_or(model.odometry.xy_per_metre);
-  model.odometry.yaw_per_radian = odometry_yaw_per_radian.value_or(model.odometry.yaw_per_radian);
-  model.odometry.yaw_per_metre_rad = odometry_yaw_per_metre_rad.value_or(model.odometry.yaw_per_metre_rad);
+  model.odometry.xy_m.after_metre = odometry_xy_after_metre_m.value_or(model.odometry.xy_m.after_metre);
+  model.odometry.yaw_rad.after_radian =
+      odometry_yaw_after_radian_rad.value_or(model.odometry.yaw_rad.after_radian);
+  model.odometry.yaw_rad.after_metre =
+      odometry_yaw_after_metre_rad.value_or(model.odometry.yaw_rad.after_metre);
   model.odometry.drift_yaw_per_metre_rad =
       drift_yaw_per_metre_rad.value_or(model.odometry.drift_yaw_per_metre_rad);
   model.odometry.drift_yaw_per_radian = drift_yaw_per_radian.value_or(model.odometry.drift_yaw_per_radian);

@@ -17,9 +17,9 @@ struct SensorOverrides {
   std::optional<double> max_range_m;
   std::optional<double> range_sigma_m;
   std::optional<double> range_age_s;
-  std::optional<double> odometry_xy_per_metre;
-  std::optional<double> odometry_yaw_per_radian;
-  std::optional<double> odometry_yaw_per_metre_rad;
+  std::optional<double> odometry_xy_after_metre_m;
+  std::optional<double> odometry_yaw_after_radian_rad;
+  std::optional<double> odometry_yaw_after_metre_rad;
   std::optional<double> drift_yaw_per_metre_rad;
   std::optional<double> drift_yaw_per_radian;
   std::optional<double> expected_drift_yaw_per_metre_rad;
@@ -41,12 +41,12 @@ struct SensorOverrides {
        "standard deviation of a reading, along the beam", 0.0001, 1},
       {"range_age_s", &SensorOverrides::range_age_s, "s",
        "how much older the ranges of a packet are than its stamp", 0, to_seconds(kMaxRangeAge)},
-      {"odometry_xy_per_metre", &SensorOverrides::odometry_xy_per_metre, "m/m",
-       "standard deviation of a step's position, per metre travelled", 0, 1},
-      {"odometry_yaw_per_radian", &SensorOverrides::odometry_yaw_per_radian, "rad/rad",
-       "standard deviation of a step's heading, per radian turned", 0, 1},
-      {"odometry_yaw_per_metre_rad", &SensorOverrides::odometry_yaw_per_metre_rad, "rad/m",
-       "standard deviation of a step's heading, per metre travelled", 0, 1},
+      {"odometry_xy_after_metre_m", &SensorOverrides::odometry_xy_after_metre_m, "m",
+       "standard deviation of the position after a metre travelled; it grows with the root of the way", 0, 1},
+      {"odometry_yaw_after_radian_rad", &SensorOverrides::odometry_yaw_after_radian_rad, "rad",
+       "standard deviation of the heading after a radian turned; likewise", 0, 1},
+      {"odometry_yaw_after_metre_rad", &SensorOverrides::odometry_yaw_after_metre_rad, "rad",
+       "standard deviation of the heading after a metre travelled; likewise", 0, 1},
       {"drift_yaw_per_metre_rad", &SensorOverrides::drift_yaw_per_metre_rad, "rad/m",
        "standard deviation of the yaw that dead reckoning misses with every metre; 0: none is learnt", 0, 1},
       {"drift_yaw_per_radian", &SensorOverrides::drift_yaw_per_radian, "rad/rad",

@@ -46,7 +46,7 @@ std::vector<MultiscanView> views_of_a_lap(const FrontendConfig& config, const Be
   for (std::size_t i = 0; i < drive.samples.size(); ++i) {
     const Pose2 step =
         i == 0 ? Pose2() : between(drive.samples[i - 1].T_odom_body, drive.samples[i].T_odom_body);
-    multiscan.add(drive.samples[i], uncertain_step(sensor.odometry, step));
+    multiscan.add(drive.samples[i], uncertain_step(sensor.odometry, step, std::chrono::milliseconds(100)));
     if (i % kSamplesPerKeyframe == kSamplesPerKeyframe - 1) multiscan.assemble(views.emplace_back());
   }
   return views;
@@ -107,7 +107,9 @@ std::unique_ptr<Graph> graph_of(std::size_t poses) {
     } else {
       const Pose2 step =
           between(drive.samples[at - kSamplesPerKeyframe].T_odom_body, drive.samples[at].T_odom_body);
-      SWIFTLET_CHECK(graph->try_add_pose(id, uncertain_step(sensor.odometry, step)), "the graph has room");
+      SWIFTLET_CHECK(
+          graph->try_add_pose(id, uncertain_step(sensor.odometry, step, std::chrono::milliseconds(100))),
+          "the graph has room");
     }
     for (std::size_t w = 0; w < walls.size(); ++w) {
       const std::optional<LineSegment> segment = seen_from(drive.T_room_body[at], walls[w], random);

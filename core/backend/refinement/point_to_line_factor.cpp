@@ -45,7 +45,7 @@ Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to,
     const UncertainMotion guess = unwatched_step(noise, T_from_to, to.stamp - from.stamp);
     sigma = {std::sqrt(guess.covariance(0, 0)), std::sqrt(guess.covariance(2, 2))};
   } else if (!to.starts_segment) {
-    sigma = odometry_sigma(noise, T_from_to);
+    sigma = odometry_sigma(noise, T_from_to, to.stamp - from.stamp);
   }
   return sigma.information().asDiagonal();
 }

@@ -34,7 +34,7 @@ class LandmarkGraphSolverTest : public testing::Test {
       } else {
         const Pose2 step(0.5, 0.0, 0.15);
         T_local_body = T_local_body * step;
-        UncertainMotion motion = uncertain_step(OdometryNoise(), step);
+        UncertainMotion motion = uncertain_step(OdometryNoise(), step, std::chrono::milliseconds(100));
         motion.covariance *= 4.0;
         motion.T_from_to = test::pose_of(step.vector() + noise_scale * Eigen::Vector3d(random.normal(0.03),
                                                                                        random.normal(0.03),

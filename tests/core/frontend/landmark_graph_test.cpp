@@ -11,7 +11,9 @@ namespace {
 
 using TinyGraph = LandmarkGraph<LandmarkGraphCapacity{3, 2, 4}>;
 
-UncertainMotion forward(double x_m) { return uncertain_step(OdometryNoise(), Pose2(x_m, 0.0, 0.0)); }
+UncertainMotion forward(double x_m) {
+  return uncertain_step(OdometryNoise(), Pose2(x_m, 0.0, 0.0), std::chrono::milliseconds(100));
+}
 
 // The wall y = 1 between two places along x, as seen from a pose on the x axis.
 LineSegment wall_segment(double x_from_m, double x_to_m, double y_m = 1.0) {

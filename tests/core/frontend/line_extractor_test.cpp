@@ -108,7 +108,7 @@ TEST(LineCovariance, TellsHowFarLinesAreFromTheTruth) {
   FrontendConfig config;
   config.wall_sigma_m = config.wall_sigma_rad = 1e-9;
   SensorModel sensor;
-  sensor.odometry.yaw_per_metre_rad = radians(5.0);  // enough for the motions to matter
+  sensor.odometry.yaw_rad.after_metre = radians(2.0);  // enough for the motions to matter
   test::RandomGeometry random(7);
   LineExtractor extractor(config, sensor.range_sigma_m);
   auto view = std::make_unique<MultiscanView>();
@@ -118,7 +118,7 @@ TEST(LineCovariance, TellsHowFarLinesAreFromTheTruth) {
   for (int drive = 0; drive < kDrives; ++drive) {
     Multiscan multiscan(sensor, BeamLayout::multiranger(), 120);
     const Pose2 true_step(0.05, 0.0, 0.0);
-    const UncertainMotion step = uncertain_step(sensor.odometry, true_step);
+    const UncertainMotion step = uncertain_step(sensor.odometry, true_step, std::chrono::milliseconds(100));
     Pose2 T_room_body;
     for (int i = 0; i < 30; ++i) {
       if (i > 0) T_room_body = T_room_body * true_step;

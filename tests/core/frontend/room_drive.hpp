@@ -92,7 +92,8 @@ inline RoomDrive drive_around(int laps, const BeamLayout& beams, const SensorMod
     sample.T_odom_body = T_odom_body;
     if (i == steps.size()) break;
     T_room_body = T_room_body * steps[i];
-    const Eigen::Matrix3d covariance = uncertain_step(sensor.odometry, steps[i]).covariance;
+    const Eigen::Matrix3d covariance =
+        uncertain_step(sensor.odometry, steps[i], std::chrono::milliseconds(100)).covariance;
     const double sigma_xy_m = errors.odometry_noise_scale * std::sqrt(covariance(0, 0));
     const double sigma_yaw_rad = errors.odometry_noise_scale * std::sqrt(covariance(2, 2));
     T_odom_body = T_odom_body * Pose2(steps[i].x_m() + random.normal(sigma_xy_m), random.normal(sigma_xy_m),

@@ -23,7 +23,7 @@ RangeSample hits(std::initializer_list<float> distances_m) {
 }
 
 UncertainMotion step(double x_m, double y_m, double yaw_rad) {
-  return uncertain_step(OdometryNoise(), Pose2(x_m, y_m, yaw_rad));
+  return uncertain_step(OdometryNoise(), Pose2(x_m, y_m, yaw_rad), std::chrono::milliseconds(100));
 }
 
 class MultiscanTest : public testing::Test {

@@ -55,10 +55,8 @@ std::vector<Pose2> in_large_waves(std::vector<Pose2> path) {
 /// Dead reckoning that is thought so many times worse than it is.
 SensorModel with_odometry_noise(double factor) {
   SensorModel sensor = SensorModel::crazyflie();
-  OdometryNoise& noise = sensor.odometry;
-  for (double* sigma : {&noise.xy_floor_m, &noise.xy_per_metre, &noise.xy_per_radian_m, &noise.yaw_floor_rad,
-                        &noise.yaw_per_radian, &noise.yaw_per_metre_rad})
-    *sigma *= factor;
+  sensor.odometry.xy_m = sensor.odometry.xy_m.scaled(factor);
+  sensor.odometry.yaw_rad = sensor.odometry.yaw_rad.scaled(factor);
   return sensor;
 }
 

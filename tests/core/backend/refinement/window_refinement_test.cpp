@@ -145,9 +145,8 @@ TEST(WindowRefinement, RefusesWhatExplainsTheHeldOutReturnsWorse) {
   for (std::size_t i = 0; i < poses.T_local_body.size(); ++i)
     poses.T_local_body[i] = Pose2(0.0, 0.0, 0.003 * static_cast<double>(i)) * poses.T_local_body[i];
   OdometryNoise believed = kNoise;
-  for (double* sigma : {&believed.xy_floor_m, &believed.xy_per_metre, &believed.xy_per_radian_m,
-                        &believed.yaw_floor_rad, &believed.yaw_per_radian, &believed.yaw_per_metre_rad})
-    *sigma *= 0.001;
+  believed.xy_m = kNoise.xy_m.scaled(0.001);
+  believed.yaw_rad = kNoise.yaw_rad.scaled(0.001);
   const WindowPoses start = poses;
   WindowRefinement refinement(flight().scans(), believed);
   const Result<WindowReport> report = refinement.refine(flight().window(), flight().way_there(), poses);
