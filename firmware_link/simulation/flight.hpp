@@ -48,8 +48,9 @@ class RepeatedScript {
 };
 
 /// The flight through a world's script from take-off to landing, flown step by step, in memory that does not
-/// grow with its length. A copy continues the same flight. Noise source: "pilot". One thread at a time;
-/// step() allocates nothing.
+/// grow with its length. It stops at both ends of stairs and flies them at a moderate climb, at its height
+/// above the steps. A copy continues the same flight. Noise source: "pilot". One thread at a time; step()
+/// allocates nothing.
 class SimulatedFlight {
  public:
   /// On the ground, in the first state. Allocates.
@@ -76,6 +77,10 @@ class SimulatedFlight {
   static constexpr int kLandingSteps = 200;
 
   [[nodiscard]] bool arrived() const { return next_ == script_.size(); }
+  [[nodiscard]] bool is_stairs(std::size_t leg) const;
+  [[nodiscard]] bool stops_at_next() const;
+  [[nodiscard]] double ground_m() const;
+  [[nodiscard]] double cruise_m_s() const;
   void follow_script();
   void hover(double height_m);
   void move_aim();
@@ -83,6 +88,7 @@ class SimulatedFlight {
   void steer(double wander_yaw_rad);
 
   RepeatedScript script_;
+  double storey_height_m_;
   PilotModel model_;
   NoiseSource noise_;
   Wander wander_x_;

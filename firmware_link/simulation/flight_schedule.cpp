@@ -42,7 +42,8 @@ double FlightSchedule::progress(Duration at) const {
 
 FlightState FlightSchedule::state(Duration now) {
   const FlightState& state = state_at(index(now));
-  return is_going() ? state : FlightState{.T_world_body = state.T_world_body};
+  if (is_going()) return state;
+  return {.T_world_body = state.T_world_body, .ground_m = state.ground_m};
 }
 
 Pose2 FlightSchedule::T_world_body(Duration at) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "firmware_link/simulation/building_generator.hpp"
@@ -17,19 +18,28 @@ namespace swiftlet {
 namespace {
 
 constexpr double kDoorWidth = 0.9;
+constexpr double kHouseDoorWidth = 1.0;
 
 /// Collects the walls of a plan.
 class FloorPlan {
  public:
+  explicit FloorPlan(double door_width = kDoorWidth) : half_door_(door_width / 2.0) {}
+
   /// A wall along x, with doors centred at `doors_x` (ascending).
   void wall_x(double y, double x0, double x1, std::initializer_list<double> doors_x = {}) {
     for (const double door : doors_x) {
-      walls_.push_back({{x0, y}, {door - kDoorWidth / 2.0, y}});
-      x0 = door + kDoorWidth / 2.0;
+      walls_.push_back({{x0, y}, {door - half_door_, y}});
+      x0 = door + half_door_;
     }
     walls_.push_back({{x0, y}, {x1, y}});
   }
-  void wall_y(double x, double y0, double y1) { walls_.push_back({{x, y0}, {x, y1}}); }
+  void wall_y(double x, double y0, double y1, std::initializer_list<double> doors_y = {}) {
+    for (const double door : doors_y) {
+      walls_.push_back({{x, y0}, {x, door - half_door_}});
+      y0 = door + half_door_;
+    }
+    walls_.push_back({{x, y0}, {x, y1}});
+  }
   /// Four walls: a block of the building, a cupboard, a pillar.
   void box(double x0, double y0, double x1, double y1) {
     wall_x(y0, x0, x1);
@@ -40,6 +50,7 @@ class FloorPlan {
   [[nodiscard]] std::vector<WallSegment> take() { return std::move(walls_); }
 
  private:
+  double half_door_;
   std::vector<WallSegment> walls_;
 };
 
@@ -273,6 +284,84 @@ std::vector<Waypoint> patrol_flight() {
   return {{{1.2, 1.2}}, {{6.8, 1.2}}, {{6.8, 4.8}, kTravel, 2.0 * kPi}, {{1.2, 4.8}}, {{1.2, 1.2}}};
 }
 
+/// What the floors of the house share: the outer walls, 16 m x 12 m, and along one of them the stairwell,
+/// whose door is centred at `stair_door_x`.
+FloorPlan house_shell(double stair_door_x) {
+  FloorPlan plan(kHouseDoorWidth);
+  plan.box(0.0, 0.0, 16.0, 12.0);
+  plan.wall_y(4.4, 10.6, 12.0);
+  plan.wall_y(11.8, 10.6, 12.0);
+  plan.wall_x(10.6, 4.4, 11.8, {stair_door_x});
+  return plan;
+}
+
+/// Three rooms on either side of a corridor, the middle one of those above it in front of the stairs.
+std::vector<WallSegment> house_lower_walls() {
+  FloorPlan plan = house_shell(5.0);
+  plan.wall_x(5.2, 0.0, 16.0, {2.8, 8.2, 13.4});
+  plan.wall_x(7.0, 0.0, 16.0, {2.2, 8.0, 14.0});
+  plan.wall_y(5.5, 0.0, 5.2, {2.0});
+  plan.wall_y(10.8, 0.0, 5.2, {3.0});
+  plan.wall_y(4.4, 7.0, 10.6, {8.6});
+  plan.wall_y(11.8, 7.0, 10.6, {9.2});
+  // Furniture.
+  plan.box(6.2, 0.0, 7.6, 0.5);
+  plan.box(15.4, 0.6, 16.0, 2.4);
+  plan.box(0.0, 0.4, 0.6, 1.8);
+  plan.box(0.0, 11.4, 1.8, 12.0);
+  plan.box(15.5, 10.0, 16.0, 11.4);
+  plan.box(10.2, 7.0, 11.4, 7.4);
+  plan.box(0.0, 5.6, 0.4, 6.6);
+  plan.box(11.0, 6.7, 11.6, 7.0);
+  return plan.take();
+}
+
+/// Five rooms, whose walls stand 0.6 to 1.8 m beside those below.
+std::vector<WallSegment> house_upper_walls() {
+  FloorPlan plan = house_shell(11.2);
+  plan.wall_x(4.4, 0.0, 16.0, {2.0, 7.0, 12.5});
+  plan.wall_x(6.4, 0.0, 16.0, {3.5, 9.5, 14.5});
+  plan.wall_y(4.2, 0.0, 4.4, {2.2});
+  plan.wall_y(6.2, 6.4, 10.6, {8.0});
+  plan.wall_y(13.0, 6.4, 12.0, {9.0});
+  // Furniture.
+  plan.box(0.0, 0.0, 1.6, 0.6);
+  plan.box(8.2, 0.0, 9.2, 0.5);
+  plan.box(15.2, 0.0, 16.0, 1.8);
+  plan.box(0.0, 9.2, 0.6, 11.2);
+  plan.box(7.2, 10.0, 9.0, 10.6);
+  plan.box(15.4, 11.0, 16.0, 12.0);
+  plan.box(5.0, 6.1, 5.8, 6.4);
+  return plan.take();
+}
+
+constexpr Point2 kHouseLoopBelow[] = {{6.5, 6.1},  {8.2, 6.1},  {8.2, 3.0}, {13.4, 3.0}, {13.4, 6.1},
+                                      {14.0, 6.1}, {14.0, 9.2}, {9.0, 9.2}, {9.0, 8.6},  {2.2, 8.6},
+                                      {2.2, 6.1},  {2.8, 6.1},  {2.8, 2.0}, {8.2, 2.0},  {8.2, 6.1},
+                                      {8.0, 6.1},  {8.0, 8.6},  {5.0, 8.6}, {5.0, 11.3}, {5.6, 11.3}};
+constexpr Point2 kHouseLoopAbove[] = {{10.6, 11.3}, {11.2, 11.3}, {11.2, 9.0},  {14.5, 9.0}, {14.5, 5.4},
+                                      {12.5, 5.4},  {12.5, 2.2},  {2.0, 2.2},   {2.0, 5.4},  {3.5, 5.4},
+                                      {3.5, 8.0},   {11.2, 8.0},  {11.2, 11.3}, {10.6, 11.3}};
+constexpr Point2 kHouseAgainBelow[] = {
+    {5.6, 11.3}, {5.0, 11.3}, {5.0, 8.6},  {8.0, 8.6}, {8.0, 6.1}, {8.2, 6.1}, {8.2, 3.0}, {13.4, 3.0},
+    {13.4, 6.1}, {14.0, 6.1}, {14.0, 9.2}, {9.0, 9.2}, {9.0, 8.6}, {8.0, 8.6}, {8.0, 6.1}, {6.5, 6.1}};
+
+/// Through all rooms below, up the stairs, round above, down, and once more through half of the rooms below.
+std::vector<Waypoint> house_flight() {
+  std::vector<Waypoint> flight;
+  const auto add = [&flight](std::span<const Point2> way, int storey) {
+    for (const Point2& position : way) flight.push_back({.position = position, .storey = storey});
+  };
+  add(kHouseLoopBelow, 0);
+  add(kHouseLoopAbove, 1);
+  add(kHouseAgainBelow, 0);
+  return flight;
+}
+
+SimulatedWorld house(std::uint64_t /*seed*/) {
+  return {.walls = house_lower_walls(), .flight = house_flight(), .upper_walls = {house_upper_walls()}};
+}
+
 template <std::vector<WallSegment> (*kWalls)(), std::vector<Waypoint> (*kFlight)()>
 SimulatedWorld by_hand(std::uint64_t /*seed*/) {
   return {kWalls(), kFlight()};
@@ -288,6 +377,7 @@ constexpr std::array kWorlds{
     WorldPlan{"wings", "the corridors, those of one half 20 degrees askew",
               by_hand<wings_walls, wings_flight>},
     WorldPlan{"patrol", "one room of 8 m x 6 m, flown round in 46 s", by_hand<patrol_walls, patrol_flight>},
+    WorldPlan{"storeys", "two floors of a house of 16 m x 12 m, joined by stairs", house},
     WorldPlan{"building", "drawn at random, like the flight and the sensors' errors: another for each seed",
               draw_building},
 };

@@ -19,7 +19,7 @@ namespace swiftlet {
 struct VehicleState {
   double x_m = 0.0;
   double y_m = 0.0;
-  double z_m = 0.0;
+  double z_m = 0.0;  ///< above the ground below
   double roll_rad = 0.0;
   double pitch_rad = 0.0;  ///< nose down positive, unlike stateEstimate.pitch
   double yaw_rad = 0.0;
@@ -36,6 +36,8 @@ struct VehicleState {
   double right_mm = 0.0;
   double up_mm = 0.0;
   double down_mm = 0.0;
+  double ground_m = 0.0;      ///< elevation of the ground below, relative to the lowest storey
+  double baro_error_m = 0.0;  ///< of the barometer's altitude
   double battery_v = 0.0;
   double battery_percent = 0.0;
   double rssi_db = 0.0;  ///< positive: 45 stands for -45 dBm

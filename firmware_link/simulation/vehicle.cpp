@@ -83,6 +83,7 @@ SimulatedVehicle::SimulatedVehicle(SimulatedWorld world, const VehicleModel& mod
       alias_noise_(seed, "range_alias"),
       rssi_noise_(seed, "rssi"),
       boot_noise_(seed, "boot"),
+      barometer_(model.barometer, whole_milliseconds(model.clock_start), seed),
       battery_(model.battery_endurance, seed),
       log_(seed),
       now_(whole_milliseconds(model.clock_start)) {
@@ -272,6 +273,7 @@ void SimulatedVehicle::move() {
   tilt_.step(state.height_m > 0.0 ? tilt_by(state) : Tilt());
   odometry_.step(state, model_.has_flow_deck && params_.number(ids().disable_flow) == 0.0);
   if (state.height_m <= 0.0) odometry_.pull_yaw(bounded(ids().initial_yaw));
+  barometer_.advance(now_);
   show(state);
 }
 
@@ -281,6 +283,8 @@ void SimulatedVehicle::show(const FlightState& truth) {
   state_.y_m = has_position ? odometry_.T_odom_body().y_m() : 0.0;
   state_.yaw_rad = odometry_.T_odom_body().yaw_rad();
   state_.z_m = truth.height_m;
+  state_.ground_m = truth.ground_m;
+  state_.baro_error_m = barometer_.error_m();
   state_.vx_body_m_s = has_position ? odometry_.vx_body_m_s() : 0.0;
   state_.vy_body_m_s = has_position ? odometry_.vy_body_m_s() : 0.0;
   state_.yaw_rate_rad_s = odometry_.yaw_rate_rad_s();
@@ -306,7 +310,7 @@ void SimulatedVehicle::read_rangers() {
   if (model_.has_multiranger) {
     const Pose2 T_world_body_then = T_world_body(now() - model_.range_age);
     const std::vector<WallSegment> walls =
-        walls_near(world_.walls, T_world_body_then.position(), model_.ranger.max_range_m);
+        walls_near(world_.walls_at(state_.ground_m), T_world_body_then.position(), model_.ranger.max_range_m);
     for (Ranger& ranger : rangers_) {
       const double direction_rad = T_world_body_then.yaw_rad() + ranger.bearing_rad;
       std::optional<double> range_m =

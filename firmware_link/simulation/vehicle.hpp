@@ -11,6 +11,7 @@
 
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
+#include "firmware_link/simulation/barometer.hpp"
 #include "firmware_link/simulation/battery.hpp"
 #include "firmware_link/simulation/console.hpp"
 #include "firmware_link/simulation/flight_schedule.hpp"
@@ -36,6 +37,7 @@ struct VehicleModel {
   FlowOdometryModel odometry;
   RangerModel ranger;
   TiltModel tilt;
+  BarometerModel barometer;
   /// The Multiranger task reads all sensors once in a period and restarts each; a reading's light was
   /// gathered that long before it is published.
   Duration range_period = std::chrono::milliseconds(100);
@@ -63,7 +65,8 @@ struct SentPacket {
 class SimulatedVehicle {
  public:
   /// Noise sources: "pilot", "flow", "gyro", "slip", "yaw_jump", "tilt", "range_phase", "range_front" ..
-  /// "range_up", "range_down", "range_alias", "battery", "rssi", "boot", "log_jitter/<block>".
+  /// "range_up", "range_down", "range_alias", "battery", "baro", "baro_drift", "rssi", "boot",
+  /// "log_jitter/<block>".
   SimulatedVehicle(SimulatedWorld world, const VehicleModel& model, std::uint64_t seed);
 
   /// The time of the simulation, which never goes back; the vehicle's clock shows the same until it reboots.
@@ -152,6 +155,7 @@ class SimulatedVehicle {
   NoiseSource alias_noise_;
   NoiseSource rssi_noise_;
   NoiseSource boot_noise_;
+  SimulatedBarometer barometer_;
   SimulatedBattery battery_;
   SimulatedLog log_;
   SimulatedParams params_;

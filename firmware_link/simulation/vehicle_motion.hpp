@@ -18,7 +18,8 @@ struct FlightState {
   double yaw_rate_rad_s = 0.0;
   double ax_body_m_s2 = 0.0;
   double ay_body_m_s2 = 0.0;
-  double height_m = 0.0;  ///< above the floor
+  double height_m = 0.0;  ///< above the ground below
+  double ground_m = 0.0;  ///< elevation of the ground below, relative to storey 0
 };
 
 /// Between two states of a flight.
@@ -37,6 +38,7 @@ class VehicleMotion {
 
   [[nodiscard]] const FlightState& state() const { return state_; }
   void set_height(double height_m) { state_.height_m = height_m; }
+  void set_ground(double ground_m) { state_.ground_m = ground_m; }
   /// One kFlightStep towards that velocity, in the world frame, and that yaw rate.
   void step(double vx_m_s, double vy_m_s, double yaw_rate_rad_s);
 

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/simulation/world.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace swiftlet {
 namespace {
@@ -25,6 +27,12 @@ std::optional<RayHit> intersect(const WallSegment& wall, const Point2& origin, c
 }
 
 }  // namespace
+
+std::span<const WallSegment> SimulatedWorld::walls_at(double ground_m) const {
+  const auto highest = static_cast<long>(upper_walls.size());
+  const long storey = std::clamp(std::lround(ground_m / storey_height_m), 0L, highest);
+  return storey == 0 ? walls : upper_walls[static_cast<std::size_t>(storey - 1)];
+}
 
 std::optional<RayHit> cast_ray(std::span<const WallSegment> walls, const Point2& origin, double direction_rad,
                                double max_distance_m) {

@@ -39,22 +39,29 @@ enum class PilotHeading : std::uint8_t {
   kKeep,        ///< keeps the nose where it points: flies sideways or backwards
 };
 
-/// One leg of a flight: how to get to `position` and what to do there.
+/// One leg of a flight: how to get to `position` and what to do there. Between two storeys the leg is a
+/// straight flight of stairs, a metre long or more.
 struct Waypoint {
   Point2 position;
   PilotHeading heading = PilotHeading::kIntoTravel;
   double spin_rad = 0.0;  ///< on arrival the pilot stops and looks around by this much, left positive
   double hover_s = 0.0;   ///< ... and then stays for this long
+  int storey = 0;         ///< on which floor of the building: 0 the lowest
 };
 
 /// Rooms and the flight through them. The first waypoint is where the vehicle stands before take-off, its
 /// nose towards the second.
 struct SimulatedWorld {
-  std::vector<WallSegment> walls;
+  std::vector<WallSegment> walls;  ///< of storey 0
   std::vector<Waypoint> flight;
   std::vector<FloorPatch> floor_patches = {};
   /// Of a building drawn at random, whose vehicle has errors drawn at random, too; else empty.
   std::string_view kind = {};
+  std::vector<std::vector<WallSegment>> upper_walls = {};  ///< of storey 1, 2, ...
+  double storey_height_m = 3.2;                            ///< from floor to floor
+
+  /// Those around a vehicle above ground of that elevation, relative to storey 0: of the nearest storey.
+  [[nodiscard]] std::span<const WallSegment> walls_at(double ground_m) const;
 };
 
 /// A world that can be chosen: one row of the table in floor_plans.cpp, from which all else about it derives.

@@ -67,6 +67,17 @@ TEST(FlightSchedule, HoldsTheVehicleWhileInterruptedAndContinuesFromThere) {
   EXPECT_TRUE(flight.is_over(seconds(5) + duration_of_hop()));
 }
 
+TEST(FlightSchedule, HoldsTheVehicleOnTheStairs) {
+  const SimulatedWorld stairs{{}, {{{0.0, 0.0}}, {.position = {5.0, 0.0}, .storey = 1}}};
+  FlightSchedule flight(SimulatedFlight(stairs, PilotModel{}, 1));
+  flight.go(seconds(0));
+  const double ground_m = flight.state(seconds(10)).ground_m;
+  EXPECT_GT(ground_m, 0.5);
+  flight.halt(seconds(10));
+  EXPECT_EQ(flight.state(seconds(11)).ground_m, ground_m);
+  EXPECT_EQ(flight.state(seconds(11)).height_m, 0.0);
+}
+
 TEST(FlightSchedule, StaysInItsLastStateWhenOver) {
   FlightSchedule flight = hop_schedule();
   flight.go(seconds(0));

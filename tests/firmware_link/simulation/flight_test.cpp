@@ -138,6 +138,48 @@ TEST(Fly, StaysOnTheGroundWhenItIsOver) {
   EXPECT_EQ(flight.state().height_m, 0.0);
 }
 
+/// 3 m on storey 0, stairs of 5 m, 3 m on storey 1.
+SimulatedWorld with_stairs() {
+  return {{},
+          {{{0.0, 0.0}},
+           {{3.0, 0.0}},
+           {.position = {8.0, 0.0}, .storey = 1},
+           {.position = {8.0, 3.0}, .storey = 1}}};
+}
+
+TEST(Fly, ClimbsStairsAtItsHeightAboveThem) {
+  const std::vector<FlightState> flight = fly(with_stairs(), steady_pilot(), 1);
+  EXPECT_EQ(flight.front().ground_m, 0.0);
+  EXPECT_EQ(flight.back().ground_m, 3.2);
+  for (std::size_t i = 1; i < flight.size(); ++i) {
+    const double along_m = flight[i].T_world_body.x_m() - 3.1;  // the landings are 0.1 m
+    ASSERT_NEAR(flight[i].ground_m, 3.2 * std::clamp(along_m / 4.8, 0.0, 1.0), 1e-9) << i;
+    ASSERT_LT(std::abs(flight[i].ground_m - flight[i - 1].ground_m), 0.22 * kStepS) << i;
+    if (along_m > 0.0 && along_m < 4.8) {
+      ASSERT_NEAR(flight[i].height_m, 0.5, 1e-9);
+      ASSERT_LT(std::abs(flight[i].vx_body_m_s), 0.35);
+    }
+  }
+}
+
+TEST(Fly, ReturnsDownTheStairsBetweenTwoLaps) {
+  PilotModel pilot = steady_pilot();
+  pilot.laps = 2;
+  const std::vector<FlightState> flight = fly(with_stairs(), pilot, 1);
+  double climbed_m = 0.0;
+  for (std::size_t i = 1; i < flight.size(); ++i)
+    climbed_m += std::abs(flight[i].ground_m - flight[i - 1].ground_m);
+  EXPECT_NEAR(climbed_m, 3.0 * 3.2, 0.01) << "up, down and up";
+  EXPECT_EQ(flight.back().ground_m, 3.2);
+}
+
+TEST(RepeatedScript, IsOpenWhereItEndsAboveItsBeginning) {
+  const RepeatedScript script({{{0.0, 0.0}}, {{5.0, 0.0}}, {.position = {0.0, 0.0}, .storey = 1}}, 2);
+  EXPECT_EQ(script.passes(), 3);
+  EXPECT_EQ(script[2].storey, 1);
+  EXPECT_EQ(script[3].storey, 0);
+}
+
 TEST(RepeatedScript, RestartsAtTheEndOfAClosedScript) {
   const RepeatedScript script({{{0.0, 0.0}}, {{1.0, 0.0}}, {{2.0, 0.0}, {}, 3.0}, {{0.0, 0.0}}}, 3);
   ASSERT_EQ(script.size(), 10U);

@@ -122,6 +122,16 @@ TEST(LogTable, PacksTheQuaternionToWithinItsResolution) {
   }
 }
 
+TEST(LogTable, ShowsTheAltitudeThatTheBarometerMeasures) {
+  VehicleState state;
+  const double on_ground_m = read("baro.asl", state);
+  state.z_m = 0.5;
+  state.ground_m = 3.2;
+  state.baro_error_m = -0.1;
+  EXPECT_NEAR(read("baro.asl", state), on_ground_m + 3.6, 1e-9);
+  EXPECT_EQ(read("stateEstimate.z", state), 0.5) << "above the ground below";
+}
+
 TEST(LogTable, ShowsFlyingInTheSupervisorsBit) {
   VehicleState state;
   EXPECT_EQ(static_cast<unsigned>(read("supervisor.info", state)) & 0x10U, 0U);

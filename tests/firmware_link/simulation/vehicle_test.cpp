@@ -4,14 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "firmware_link/crtp/byte_order.hpp"
 #include "firmware_link/crtp/crtp_packet.hpp"
 #include "tests/firmware_link/simulated_log_id.hpp"
+#include "tests/support/flown_states.hpp"
 
 namespace swiftlet {
 namespace {
@@ -46,13 +51,19 @@ std::vector<Bytes> ask(SimulatedVehicle& vehicle, const Bytes& packet) {
   return answers;
 }
 
-/// Logs one variable as int16 every 100 ms under block 1.
-void log_as_int16(SimulatedVehicle& vehicle, std::string_view group, std::string_view name) {
-  const Bytes created =
-      ask(vehicle, {0x5D, 0x06, 0x01, 0x05, low_byte(simulated_log_id(group, name)), 0x00}).at(0);
+/// Logs one variable every 100 ms under block 1.
+void log_as(LogType type, SimulatedVehicle& vehicle, std::string_view group, std::string_view name) {
+  const std::uint8_t id = low_byte(simulated_log_id(group, name));
+  const Bytes created = ask(vehicle, {0x5D, 0x06, 0x01, static_cast<std::uint8_t>(type), id, 0x00}).at(0);
   ASSERT_EQ(created.back(), 0);
   const Bytes started = ask(vehicle, {0x5D, 0x03, 0x01, 0x0A}).at(0);
   ASSERT_EQ(started.back(), 0);
+}
+void log_as_int16(SimulatedVehicle& vehicle, std::string_view group, std::string_view name) {
+  log_as(LogType::kInt16, vehicle, group, name);
+}
+double float_of(const SentPacket& sent) {
+  return static_cast<double>(std::bit_cast<float>(load_u32({sent.bytes.data(), sent.bytes.size()}, 5)));
 }
 double value_of(const SentPacket& sent) {
   return static_cast<std::int16_t>(sent.bytes[5] | sent.bytes[6] << 8U);
@@ -175,6 +186,71 @@ TEST(SimulatedVehicle, RangesInTheFourDirectionsOfItsBody) {
     log_as_int16(vehicle, "range", name);
     EXPECT_NEAR(value_of(vehicle.advance(after(vehicle, 1.0)).back()), distance_mm, 1.0) << name;
   }
+}
+
+/// A corridor of 2 m below, one of 1 m above; stairs of 5 m.
+SimulatedWorld two_corridors() {
+  return {.walls = {{{-50.0, 1.0}, {50.0, 1.0}}, {{-50.0, -1.0}, {50.0, -1.0}}},
+          .flight = {{{0.0, 0.0}},
+                     {{2.0, 0.0}},
+                     {.position = {7.0, 0.0}, .storey = 1},
+                     {.position = {10.0, 0.0}, .storey = 1}},
+          .upper_walls = {{{{-50.0, 0.5}, {50.0, 0.5}}, {{-50.0, -0.5}, {50.0, -0.5}}}}};
+}
+
+TEST(SimulatedVehicle, RangesToTheWallsOfItsStorey) {
+  SimulatedVehicle vehicle(two_corridors(), exact(), 1);
+  log_as_int16(vehicle, "range", "left");
+  int below = 0;
+  int above = 0;
+  for (const SentPacket& sent : vehicle.advance(after(vehicle, 40.0))) {
+    const double x_m = vehicle.T_world_body(sent.at).x_m();
+    if (x_m > 4.3 && x_m < 4.7) continue;  // about the middle of the stairs
+    EXPECT_NEAR(value_of(sent), x_m < 4.5 ? 1000.0 : 500.0, 60.0) << x_m;
+    ++(x_m < 4.5 ? below : above);
+  }
+  EXPECT_GT(below, 50);
+  EXPECT_GT(above, 50);
+}
+
+TEST(SimulatedVehicle, EstimatesItsHeightAboveTheGroundBelowOnStairs) {
+  for (const auto& [group, name] : {std::pair("stateEstimateZ", "z"), std::pair("range", "zrange")}) {
+    SimulatedVehicle vehicle(two_corridors(), exact(), 1);
+    log_as_int16(vehicle, group, name);
+    for (const SentPacket& sent : vehicle.advance(after(vehicle, 20.0))) {
+      if (vehicle.T_world_body(sent.at).x_m() > 1.0) {
+        EXPECT_NEAR(value_of(sent), 500.0, 20.0) << name;
+      }
+    }
+  }
+}
+
+TEST(SimulatedVehicle, MeasuresAltitudeWithItsBarometer) {
+  VehicleModel model = exact();
+  model.barometer = {.noise_sigma_m = 0.0, .drift_sigma_m = 0.0};
+  SimulatedVehicle vehicle(two_corridors(), model, 1);
+  log_as_int16(vehicle, "baro", "asl");  // whole metres
+  const std::vector<SentPacket> sent = vehicle.advance(after(vehicle, 60.0));
+  EXPECT_TRUE(vehicle.is_finished());
+  EXPECT_EQ(value_of(sent.front()), 50.0);
+  EXPECT_EQ(value_of(sent.back()), 53.0);
+}
+
+TEST(SimulatedVehicle, MeasuresAltitudeToAMetreOverAFlightThroughTwoStoreys) {
+  const SimulatedWorld world = make_simulated_world("storeys").value();
+  const std::vector<FlightState> flight = fly(world, PilotModel{}, 1);
+  SimulatedVehicle vehicle(world, {}, 1);
+  log_as(LogType::kFloat, vehicle, "baro", "asl");
+  const DeviceTime start = vehicle.now();
+  std::optional<double> offset_m;
+  for (const SentPacket& sent : vehicle.advance(after(vehicle, 420.0))) {
+    const auto i = static_cast<std::size_t>((sent.at - start) / kFlightStep);
+    if (i >= flight.size()) break;
+    const double above_m = float_of(sent) - flight[i].height_m;
+    if (!offset_m) offset_m = above_m;
+    ASSERT_NEAR(above_m - *offset_m, flight[i].ground_m, 1.0) << i;
+  }
+  EXPECT_TRUE(vehicle.is_finished());
 }
 
 TEST(SimulatedVehicle, DischargesItsBattery) {

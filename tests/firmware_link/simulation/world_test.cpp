@@ -5,9 +5,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace swiftlet {
 namespace {
+
+TEST(SimulatedWorld, HasTheWallsOfTheStoreyThatTheGroundIsNearestTo) {
+  using Walls = std::vector<WallSegment>;
+  const SimulatedWorld house{
+      .walls = Walls(1), .flight = {}, .upper_walls = {Walls(2), Walls(3)}, .storey_height_m = 3.0};
+  const std::pair<double, std::size_t> cases[] = {{-4.0, 1}, {0.0, 1}, {1.4, 1}, {1.6, 2},
+                                                  {3.0, 2},  {4.4, 2}, {4.6, 3}, {20.0, 3}};
+  for (const auto& [ground_m, walls] : cases) EXPECT_EQ(house.walls_at(ground_m).size(), walls) << ground_m;
+}
 
 TEST(CastRay, MeetsAWallSquarely) {
   const WallSegment wall{{2.0, -1.0}, {2.0, 1.0}};
