@@ -15,6 +15,8 @@ enum class ScanId : std::uint32_t {};
 enum class TraversalId : std::uint32_t {};
 enum class ClosureId : std::uint32_t {};
 enum class FactorId : std::uint32_t {};
+/// In the order in which they were first flown.
+enum class StoreyId : std::uint8_t {};
 
 /// A pose among those of one solver's problem, which are dense. Never leaves the solver.
 enum class PoseIndex : std::uint32_t {};
@@ -22,7 +24,7 @@ enum class PoseIndex : std::uint32_t {};
 template <typename T>
 concept AnId = std::same_as<T, KeyframeId> || std::same_as<T, LandmarkId> || std::same_as<T, ScanId> ||
     std::same_as<T, TraversalId> || std::same_as<T, ClosureId> || std::same_as<T, FactorId> ||
-    std::same_as<T, PoseIndex>;
+    std::same_as<T, StoreyId> || std::same_as<T, PoseIndex>;
 
 template <AnId Id>
 constexpr std::uint32_t index_of(Id id) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/base/ids.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 
@@ -14,6 +15,9 @@ namespace swiftlet {
 
 /// The most beams one sample can carry (a Multiranger deck has 4; laser logs are thinned to fit).
 inline constexpr std::size_t kMaxBeams = 64;
+
+/// The most storeys of a building that are told apart.
+inline constexpr std::size_t kMaxStoreys = 32;
 
 enum class RangeStatus : std::uint8_t {
   kHit,       ///< distance_m is the distance to something
@@ -34,6 +38,7 @@ struct RangeSample {
               ///< silence, estimator reset): the step between the two is not a measured motion
   bool odometry_ran_on = false;  ///< with starts_segment: the link was silent, but the vehicle's dead
                                  ///< reckoning ran on: the step is the best guess, over an unknown path
+  StoreyId storey{};             ///< of the building, where the ranges were measured
   std::uint8_t beam_count = 0;   ///< beams in use; bearings are in the BeamLayout of the input
   std::array<float, kMaxBeams> distance_m{};  ///< horizontal, from body to the hit
   std::array<RangeStatus, kMaxBeams> status{};

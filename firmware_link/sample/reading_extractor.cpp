@@ -47,6 +47,8 @@ const std::array<ReadingExtractor::Form, 4> ReadingExtractor::kHeightForms{
      {ValueKind::kMetres, 1, {"stateEstimate.z"}},
      {ValueKind::kMetres, 1, {"kalman.stateZ"}},
      {ValueKind::kMillimetres, 1, {"stateEstimateZ.z"}}}};
+const std::array<ReadingExtractor::Form, 1> ReadingExtractor::kAltitudeForms{
+    {{ValueKind::kMetres, 1, {"baro.asl"}}}};
 
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
@@ -61,6 +63,8 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   if (takes(yaw_source_, record, &Slots::yaw)) reading.yaw_odom_rad = read_yaw_rad(record, slots.yaw);
   if (takes(tilt_source_, record, &Slots::tilt)) reading.tilt = read_tilt(record, slots.tilt);
   if (takes(height_source_, record, &Slots::height)) reading.height_m = read_height_m(record, slots.height);
+  if (takes(altitude_source_, record, &Slots::altitude))
+    reading.altitude_m = record.value(*slots.altitude.slots[0]);
   if (offers_ranges(slots) && take_from(range_source_, record, offers_ranges)) {
     for (const Slot& slot : slots.ranges) {
       const double distance_m = slot ? record.value(*slot) * 1e-3 : std::numeric_limits<double>::quiet_NaN();
@@ -69,7 +73,7 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   }
   if (slots.flying) reading.is_flying = is_flying(record.value(*slots.flying), slots.flying_mask);
   const bool is_needed = reading.position_odom || reading.yaw_odom_rad || reading.tilt || reading.height_m ||
-                         reading.is_flying || !reading.distance_m.empty();
+                         reading.altitude_m || reading.is_flying || !reading.distance_m.empty();
   return is_needed ? std::optional(reading) : std::nullopt;
 }
 
@@ -95,6 +99,7 @@ const ReadingExtractor::Slots& ReadingExtractor::slots_of(const LogRecord& recor
     yaw_source_.reset();
     tilt_source_.reset();
     height_source_.reset();
+    altitude_source_.reset();
   }
   Slots& slots = slots_[record.block_id];
   if (!slots.resolved) resolve(record, slots);
@@ -112,6 +117,7 @@ void ReadingExtractor::resolve(const LogRecord& record, Slots& slots) const {
   slots.yaw = find_first(record, kYawForms);
   slots.tilt = find_first(record, kTiltForms);
   slots.height = find_first(record, kHeightForms);
+  slots.altitude = find_first(record, kAltitudeForms);
   resolve_flying(record, slots);
 }
 

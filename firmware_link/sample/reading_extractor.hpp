@@ -25,12 +25,12 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 /// Extracts from the vehicle's log records what samples need, by the names of the variables, from any blocks:
 /// the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or stateEstimateZ.x/y);
 /// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ, or stabilizer.yaw);
-/// if there, the tilt (of such a quaternion, or roll and pitch of stateEstimate or stabilizer) and the height
-/// above the ground (range.zrange, or z of the position's groups). Each of the five is taken from one block:
-/// of those that run, the one with the lowest number; of blocks whose start was not seen, the first one
-/// received. Whether the vehicle flies is taken from any of them (supervisor.info, sys.isFlying,
-/// stabilizer.thrust). Names are resolved when a layout changes, not per packet: fixed storage. One thread at
-/// a time; `session` must outlive it.
+/// if there, the tilt (of such a quaternion, or roll and pitch of stateEstimate or stabilizer), the height
+/// above the ground (range.zrange, or z of the position's groups) and the barometer's altitude (baro.asl).
+/// Each of the six is taken from one block: of those that run, the one with the lowest number; of blocks
+/// whose start was not seen, the first one received. Whether the vehicle flies is taken from any of them
+/// (supervisor.info, sys.isFlying, stabilizer.thrust). Names are resolved when a layout changes, not per
+/// packet: fixed storage. One thread at a time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
@@ -78,6 +78,7 @@ class ReadingExtractor {
     Quantity yaw;
     Quantity tilt;
     Quantity height;
+    Quantity altitude;
     Slot flying;
     unsigned flying_mask = 0;
   };
@@ -116,6 +117,7 @@ class ReadingExtractor {
   static const std::array<Form, 5> kYawForms;
   static const std::array<Form, 5> kTiltForms;
   static const std::array<Form, 4> kHeightForms;
+  static const std::array<Form, 1> kAltitudeForms;
 
   const LogSession& session_;
   std::uint32_t revision_ = 0;
@@ -125,6 +127,7 @@ class ReadingExtractor {
   std::optional<Source> yaw_source_;
   std::optional<Source> tilt_source_;
   std::optional<Source> height_source_;
+  std::optional<Source> altitude_source_;
   WrappedMillimetres x_;
   WrappedMillimetres y_;
 };

@@ -62,7 +62,15 @@ void SampleAssembler::add(const Reading& reading) {
   if (reading.tilt && reading.tilt->is_possible()) static_cast<void>(tilts_.add(reading.at, *reading.tilt));
   if (reading.height_m && std::isfinite(*reading.height_m))
     static_cast<void>(heights_.add(reading.at, {*reading.height_m}));
+  follow_ground(reading);
   if (!reading.distance_m.empty()) hold_ranges(reading);
+}
+
+/// A height that is no number is over a void, or over none that the sensor reaches.
+void SampleAssembler::follow_ground(const Reading& reading) {
+  if (reading.height_m) last_height_m_ = std::isfinite(*reading.height_m) ? reading.height_m : std::nullopt;
+  if (last_height_m_ && reading.altitude_m && std::isfinite(*reading.altitude_m))
+    storeys_.add(reading.at, *reading.altitude_m - *last_height_m_);
 }
 
 bool SampleAssembler::accept_time(const Reading& reading) {
@@ -96,6 +104,8 @@ void SampleAssembler::restart() {
   yaws_.restart();
   tilts_.restart();
   heights_.restart();
+  last_height_m_.reset();
+  storeys_.restart();
 }
 
 void SampleAssembler::hold_ranges(const Reading& reading) {
@@ -179,6 +189,7 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
   sample.starts_segment = !was_watched;
   sample.odometry_ran_on = runs_on && !was_watched;
   last_motion_ = motion;
+  sample.storey = storeys_.current();
   sample.beam_count = config_.beams.count;
   fill_beams(ranges, sample);
   ++counters_.samples;

@@ -11,6 +11,7 @@
 #include "core/base/time.hpp"
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
+#include "core/sensing/storey_tracker.hpp"
 #include "firmware_link/sample/input_counters.hpp"
 #include "firmware_link/sample/odometry_timeline.hpp"
 
@@ -25,9 +26,10 @@ struct Reading {
   std::optional<Point2> position_odom;
   std::optional<double> yaw_odom_rad;
   std::optional<BodyTilt> tilt;
-  std::optional<double> height_m;   ///< above the ground below
-  std::optional<bool> is_flying;    ///< nullopt: the vehicle does not report it
-  bool odometry_restarted = false;  ///< the dead reckoning has restarted
+  std::optional<double> height_m;    ///< above the ground below
+  std::optional<double> altitude_m;  ///< by a barometer; only differences count
+  std::optional<bool> is_flying;     ///< nullopt: the vehicle does not report it
+  bool odometry_restarted = false;   ///< the dead reckoning has restarted
   /// One distance a beam, or empty: no ranges in this packet. NaN is no measurement; out-of-range values stay
   /// as they are.
   FixedVector<float, kMaxBeams> distance_m;
@@ -46,8 +48,8 @@ struct AssemblyConfig {
 /// time less the range's age), position and yaw each interpolated on its own time line, because they may come
 /// in different packets. Waits for dead reckoning that is still to come, for a short time; keeps the order;
 /// counts what it drops. Where tilt and height of that instant are known, too (they are not waited for),
-/// ranges become horizontal distances, and those that can be the floor's become invalid. Fixed storage, no
-/// allocation, one thread at a time.
+/// ranges become horizontal distances, and those that can be the floor's become invalid. Altitude and height
+/// tell the storey. Fixed storage, no allocation, one thread at a time.
 class SampleAssembler {
  public:
   /// Counts into `counters`, which must outlive the assembler.
@@ -63,6 +65,7 @@ class SampleAssembler {
   void end() { ended_ = true; }
   /// The next finished sample, if any. Call until empty after each add().
   [[nodiscard]] std::optional<RangeSample> take();
+  [[nodiscard]] const StoreyTracker& storeys() const { return storeys_; }
 
  private:
   struct PendingRanges {
@@ -80,6 +83,7 @@ class SampleAssembler {
   /// False when the reading is a duplicate or late.
   bool accept_time(const Reading& reading);
   void restart();
+  void follow_ground(const Reading& reading);
   void count_gap(const Reading& reading);
   void hold_ranges(const Reading& reading);
   /// Whether motion joins it with the last sample.
@@ -96,6 +100,8 @@ class SampleAssembler {
   OdometryTimeline<YawReading> yaws_;
   OdometryTimeline<BodyTilt> tilts_;
   OdometryTimeline<HeightReading> heights_;
+  std::optional<double> last_height_m_;  ///< as last measured; nothing where it could not be
+  StoreyTracker storeys_;
   FixedVector<PendingRanges, 16> pending_;
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
   std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart

@@ -25,14 +25,15 @@ constexpr std::array<std::string_view, 10> kOneBlock{
 // For firmware that lacks one of those.
 constexpr std::array<std::string_view, 2> kPositionBlock{"stateEstimateZ.x", "stateEstimateZ.y"};
 // The vehicle's health as in kOneBlock, also by the names of other firmware releases.
-constexpr std::array<std::string_view, 6> kPositionBlockExtras{
-    "stateEstimateZ.z", "pm.vbatMV", "pm.vbat", "radio.rssi", "supervisor.info", "sys.isFlying"};
+constexpr std::array<std::string_view, 7> kPositionBlockExtras{
+    "stateEstimateZ.z", "pm.vbatMV", "pm.vbat", "radio.rssi", "supervisor.info", "sys.isFlying", "baro.asl"};
 constexpr std::array<std::string_view, 8> kRangeBlock{
     "stateEstimate.qw", "stateEstimate.qx", "stateEstimate.qy", "stateEstimate.qz",
     "range.front",      "range.back",       "range.left",       "range.right"};
 constexpr std::array<std::string_view, 1> kRangeBlockExtras{"range.zrange"};
-// Beside kOneBlock: the tilt that ranges are levelled by.
+// Beside kOneBlock: the tilt that ranges are levelled by, and what tells storeys.
 constexpr std::array<std::string_view, 2> kTiltBlock{"stateEstimate.roll", "stateEstimate.pitch"};
+constexpr std::array<std::string_view, 1> kTiltBlockExtras{"baro.asl"};
 // The vehicle's health, for the status and for readers of the recording.
 constexpr std::array<std::string_view, 6> kSlowBlock{"pm.state",        "radio.rssi",  "range.up",
                                                      "stateEstimate.z", "kalman.varX", "kalman.varY"};
@@ -153,7 +154,7 @@ void LogHandshake::restate_cached_toc() {
 void LogHandshake::plan_blocks() {
   plan_.clear();
   if (plan_block(1, kFast10ms, kOneBlock, {})) {
-    if (plan_block(2, kFast10ms, kTiltBlock, {})) plan_.back().optional = true;
+    if (plan_block(2, kFast10ms, kTiltBlock, kTiltBlockExtras)) plan_.back().optional = true;
   } else {
     plan_.clear();
     if (!plan_block(1, kFast10ms, kPositionBlock, kPositionBlockExtras) ||

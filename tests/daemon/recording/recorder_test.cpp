@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,10 +54,13 @@ std::vector<RangeSample> replayed(const fs::path& path) {
   return source ? samples_of(**source) : std::vector<RangeSample>();
 }
 
-bool same_measurement(const RangeSample& a, const RangeSample& b) {
+bool same_motion(const RangeSample& a, const RangeSample& b) {
   return a.measured_at == b.measured_at && a.stamp == b.stamp && a.T_odom_body.x_m() == b.T_odom_body.x_m() &&
-         a.T_odom_body.y_m() == b.T_odom_body.y_m() && a.T_odom_body.yaw_rad() == b.T_odom_body.yaw_rad() &&
-         a.beam_count == b.beam_count && a.distance_m == b.distance_m && a.status == b.status;
+         a.T_odom_body.y_m() == b.T_odom_body.y_m() && a.T_odom_body.yaw_rad() == b.T_odom_body.yaw_rad();
+}
+bool same_measurement(const RangeSample& a, const RangeSample& b) {
+  return same_motion(a, b) && a.beam_count == b.beam_count && a.distance_m == b.distance_m &&
+         a.status == b.status;
 }
 bool same_sample(const RangeSample& a, const RangeSample& b) {
   return same_measurement(a, b) && a.sequence == b.sequence && a.starts_segment == b.starts_segment;
@@ -180,12 +184,12 @@ TEST_F(RecorderTest, EveryPartReplaysOnItsOwnAndAllTogetherAreTheFlight) {
   for (const fs::path& file : files) {
     EXPECT_LT(fs::file_size(file), 81'000U);
     const std::vector<RangeSample> part = replayed(file);
-    ASSERT_GT(part.size(), 100U);
+    ASSERT_GE(part.size(), file == files.back() ? 2U : 100U);
     EXPECT_TRUE(part.front().starts_segment);
     // Lost at a border are exactly the samples measured before the first dead reckoning of the new file: that
     // stands in the packet which the first of them came in, a range's age later.
     const std::size_t border = next;
-    while (next < live.size() && !same_measurement(live[next], part.front())) ++next;
+    while (next < live.size() && !same_motion(live[next], part.front())) ++next;
     if (next > border) {
       const DeviceTime first_odometry = live[border].measured_at + SensorModel::crazyflie().range_age;
       EXPECT_NE(file, files.front());
@@ -193,7 +197,11 @@ TEST_F(RecorderTest, EveryPartReplaysOnItsOwnAndAllTogetherAreTheFlight) {
       EXPECT_GE(part.front().measured_at, first_odometry);
     }
     lost = std::max(lost, next - border);
-    for (const RangeSample& sample : part) ASSERT_TRUE(same_measurement(sample, live.at(next++)));
+    // The tilt that the first two are levelled by may be in the file before.
+    for (const RangeSample& sample : std::span(part).first(2))
+      ASSERT_TRUE(same_motion(sample, live.at(next++)));
+    for (const RangeSample& sample : std::span(part).subspan(2))
+      ASSERT_TRUE(same_measurement(sample, live.at(next++)));
   }
   EXPECT_EQ(next, live.size());
   EXPECT_GE(lost, 1U);

@@ -94,21 +94,24 @@ TEST_F(ReadingExtractorTest, KnowsTheOtherNamesOfPositionAndYaw) {
   EXPECT_DOUBLE_EQ(*extract(LogPacket(2, 10).u32(0xC0000000U))->yaw_odom_rad, 0.0);
 }
 
-TEST_F(ReadingExtractorTest, ExtractsTiltAndHeightWhereTheyAreLogged) {
+TEST_F(ReadingExtractorTest, ExtractsTiltHeightAndAltitudeWhereTheyAreLogged) {
   describe(1, {{"stateEstimate.x", LogType::kFloat},
                {"stateEstimate.y", LogType::kFloat},
                {"stateEstimate.yaw", LogType::kFloat},
                {"range.zrange", LogType::kUint16}});
-  describe(2, {{"stateEstimate.roll", LogType::kFloat}, {"stateEstimate.pitch", LogType::kFloat}});
+  describe(2, {{"stateEstimate.roll", LogType::kFloat},
+               {"stateEstimate.pitch", LogType::kFloat},
+               {"baro.asl", LogType::kFloat}});
   const auto pose = extract(LogPacket(1, 10).f32(0.F).f32(0.F).f32(0.F).u16(512));
   ASSERT_TRUE(pose.has_value());
   EXPECT_DOUBLE_EQ(pose->height_m.value_or(0.0), 0.512);
   EXPECT_FALSE(pose->tilt.has_value());
   EXPECT_TRUE(std::isnan(*extract(LogPacket(1, 20).f32(0.F).f32(0.F).f32(0.F).u16(8190))->height_m));
-  const auto attitude = extract(LogPacket(2, 14).f32(-30.F).f32(10.F));
+  const auto attitude = extract(LogPacket(2, 14).f32(-30.F).f32(10.F).f32(431.5F));
   ASSERT_TRUE(attitude.has_value());
   EXPECT_NEAR(attitude->tilt->x_up, std::sin(radians(10.0)), 1e-9) << "nose up";
   EXPECT_LT(attitude->tilt->y_up, 0.0) << "left side down";
+  EXPECT_EQ(attitude->altitude_m, 431.5);
   EXPECT_FALSE(attitude->yaw_odom_rad.has_value());
 }
 

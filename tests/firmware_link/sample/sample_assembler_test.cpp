@@ -154,6 +154,28 @@ TEST_F(SampleAssemblerTest, LeavesOutWhatCanBeTheFloor) {
   EXPECT_EQ(counters_.invalid, samples_.size());
 }
 
+TEST_F(SampleAssemblerTest, TellsTheStoreyByAltitudeLessHeight) {
+  const auto fly_at = [this](std::int64_t from_ms, double altitude_m, std::optional<double> height_m) {
+    for (std::int64_t ms = from_ms; ms < from_ms + 20'000; ms += 100) {
+      position(ms, 0.0);
+      Reading ground;
+      ground.stream = 3;
+      ground.at = device_ms(ms);
+      ground.altitude_m = altitude_m;
+      ground.height_m = height_m;
+      feed(ground);
+      ranges(ms + 4);
+    }
+    return index_of(samples_.back().storey);
+  };
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fly_at(0, 100.0, 0.5), 0U);
+  EXPECT_EQ(fly_at(20'000, 101.5, 2.0), 0U) << "higher above the same ground";
+  EXPECT_EQ(fly_at(40'000, 104.0, kNone), 0U) << "above a void";
+  EXPECT_EQ(fly_at(60'000, 103.5, 0.5), 1U);
+  EXPECT_EQ(fly_at(80'000, 100.5, 0.5), 0U);
+}
+
 TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
   AssemblyConfig ageless = config();
   ageless.sensor.range_age = Duration::zero();

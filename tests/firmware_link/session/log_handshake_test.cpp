@@ -98,6 +98,15 @@ TEST_F(LogHandshakeTest, LogsTheTiltBesideItAsOftenWhereTheFirmwareHasIt) {
   EXPECT_THAT(handshake_.essential_blocks(), ElementsAre(1)) << "samples do not need it";
 }
 
+TEST_F(LogHandshakeTest, LogsTheAltitudeBesideTheTiltWhereTheFirmwareHasIt) {
+  link_.vehicle.variables.push_back({"stateEstimate", "roll", LogType::kFloat});
+  link_.vehicle.variables.push_back({"stateEstimate", "pitch", LogType::kFloat});
+  link_.vehicle.variables.push_back({"baro", "asl", LogType::kFloat});
+  run();
+  ASSERT_TRUE(handshake_.finished());
+  EXPECT_THAT(names_of(2), ElementsAre("stateEstimate.roll", "stateEstimate.pitch", "baro.asl"));
+}
+
 TEST_F(LogHandshakeTest, StartsTwoBlocksOnOlderFirmware) {
   remove("supervisor.info");
   remove("radio.rssi");
