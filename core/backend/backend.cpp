@@ -77,7 +77,8 @@ void Backend::State::correct_newest(const Pose2& T_local_body) {
 void Backend::State::compare_newest_scan(const FrontendStep& step) {
   const Pose2 T_map_body = correction.T_map_local * step.T_local_body;
   if (step.has_keyframe)
-    agreement.look_around(T_map_body, chain.path_m(step.made.id), loops.submaps(), T_map_keyframe());
+    agreement.look_around(T_map_body, chain.path_m(step.made.id), step.sample.storey, loops.submaps(),
+                          T_map_keyframe());
   if (!has_restarted_unplaced()) agreement.add_newest_scan(T_map_body);
 }
 

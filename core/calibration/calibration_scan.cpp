@@ -12,7 +12,7 @@ std::vector<CalibrationScan> calibration_scans(std::span<const RangeSample> samp
   scans.reserve(samples.size());
   for (const RangeSample& sample : samples) {
     CalibrationScan& scan = scans.emplace_back(
-        CalibrationScan{{sample.measured_at, sample.T_odom_body, sample.starts_segment}, {}});
+        CalibrationScan{{sample.measured_at, sample.T_odom_body, sample.starts_segment}, {}, sample.storey});
     for (std::size_t beam = 0; beam < sample.beam_count; ++beam) {
       if (sample.status[beam] != RangeStatus::kHit) continue;
       const double distance_m = static_cast<double>(sample.distance_m[beam]);

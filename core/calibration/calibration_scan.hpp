@@ -16,6 +16,7 @@ namespace swiftlet {
 /// A scan as input of a calibration.
 struct CalibrationScan : TimedOdometry {
   std::vector<Point2> hits_body;
+  StoreyId storey{};
 };
 
 /// Allocates.

@@ -45,7 +45,8 @@ RigidNodes nodes_of(std::span<const CalibrationScan> scans, const OdometryNoise&
 std::vector<ScanHit> hits_of(std::span<const CalibrationScan> scans) {
   std::vector<ScanHit> hits;
   for (std::size_t i = 0; i < scans.size(); ++i)
-    for (const Point2& p_body : scans[i].hits_body) hits.push_back({static_cast<std::uint32_t>(i), p_body});
+    for (const Point2& p_body : scans[i].hits_body)
+      hits.push_back({static_cast<std::uint32_t>(i), scans[i].storey, p_body});
   return hits;
 }
 

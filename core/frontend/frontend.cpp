@@ -71,7 +71,8 @@ struct Frontend::State {
   UncertainMotion keyframe_motion;                                 // from the keyframe before to the newest
   Eigen::Matrix3d viewpoint_covariance = Eigen::Matrix3d::Zero();  // of the newest keyframe, local frame
   KeyframeId newest{};
-  KeyframeId first_of_segment{};
+  StoreyId storey{};
+  KeyframeId first_around{};  // of the segment and storey
   std::uint32_t next_landmark = 0;
   std::size_t associated = 0;      // observations of earlier landmarks in the present batch
   std::size_t aligned = 0;         // new landmarks in it with a prior on their direction
@@ -114,7 +115,8 @@ const FrontendStep& Frontend::process(const RangeSample& sample, const Pose2& T_
 
 void Frontend::State::track_motion(const RangeSample& sample) {
   UncertainMotion motion;
-  if (sample.starts_segment) multiscan.restart();
+  const bool is_elsewhere = sample.starts_segment || sample.storey != storey;
+  if (is_elsewhere) multiscan.restart();
   if (T_odom_previous && (!sample.starts_segment || sample.odometry_ran_on)) {
     const Pose2 T_previous_body = odometry_calibration.corrected(
         between(*T_odom_previous, sample.T_odom_body), sample.measured_at - previous_at);
@@ -130,12 +132,12 @@ void Frontend::State::track_motion(const RangeSample& sample) {
   }
   T_odom_previous = sample.T_odom_body;
   previous_at = sample.measured_at;
-  multiscan.add(sample, sample.starts_segment ? UncertainMotion() : motion);
+  multiscan.add(sample, is_elsewhere ? UncertainMotion() : motion);
 }
 
 bool Frontend::State::keyframe_due(const RangeSample& sample) const {
   const Pose2& moved = since_keyframe.T_from_to;
-  return sample.starts_segment || graph.poses().empty() ||
+  return sample.starts_segment || sample.storey != storey || graph.poses().empty() ||
          std::hypot(moved.x_m(), moved.y_m()) >= config.keyframe_distance_m ||
          std::abs(moved.yaw_rad()) >= config.keyframe_turn_rad;
 }
@@ -151,8 +153,8 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
     axis.turn(since_keyframe.covariance(2, 2));
     viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
-    // Landmarks of the segment before are not associated in this one.
-    if (sample.starts_segment) first_of_segment = newest;
+    // Landmarks of the segment or storey before are not associated in this one.
+    if (sample.starts_segment || sample.storey != storey) first_around = newest;
     if (sample.starts_segment && !sample.odometry_ran_on) {
       // Odometry does not lead to the vehicle's new place: the estimate stays where it is.
       keyframe_motion.covariance = kUnknownMotion.covariance();
@@ -170,6 +172,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
   yaw_correction_of_keyframe_rad[index_of(newest) % kMaxKeyframeWindow] =
       std::exchange(yaw_correction_rad, 0.0);
   since_keyframe = UncertainMotion();
+  storey = sample.storey;
 }
 
 /// From a motion that later keyframes have corrected since; the correction already applied is part of the
@@ -199,7 +202,7 @@ void Frontend::State::insert(const LineSegment& segment) {
   const KeyframeId oldest = index_of(newest) > lag ? newest - lag : KeyframeId{};
   const Viewpoint viewpoint{graph.poses().back().T_local_body, viewpoint_covariance};
   const std::optional<std::size_t> known =
-      associate(graph.landmarks(), segment, viewpoint, std::max(oldest, first_of_segment), config);
+      associate(graph.landmarks(), segment, viewpoint, std::max(oldest, first_around), config);
   const bool has_room =
       known ? graph.try_observe(*known, segment) : graph.try_add_landmark(LandmarkId{next_landmark}, segment);
   if (!has_room) {

@@ -26,7 +26,7 @@ struct LandmarkUpdate {
   Point2 end_keyframe;
 };
 
-/// A vertex of the graph: every 0.5 m or 30 degrees.
+/// A vertex of the graph: every 0.5 m or 30 degrees, and where a segment or storey begins.
 struct Keyframe {
   KeyframeId id{};
   Covariance3 motion_covariance;  ///< of T_previous_this, in the frame of the previous keyframe

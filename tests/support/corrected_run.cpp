@@ -22,6 +22,7 @@ CorrectedRun corrected_run(SampleSource& source) {
     run.tracking.push_back(backend.tracking().tracking);
   }
   EXPECT_EQ(received.error().code, ErrorCode::kEndOfRecording) << received.error().message;
+  source.end();
   backend.finish();
   for (const auto& [id, scan] : backend.scans().all()) run.T_map_body.push_back(backend.T_map_body(id));
   run.counters = backend.counters();

@@ -19,7 +19,8 @@ FrontendStep DeadReckoningFrontend::process(const RangeSample& sample) {
   step.T_local_body = sample.T_odom_body;
   step.T_dead_body = sample.T_odom_body;
   const Pose2 moved = between(T_odom_keyframe_, sample.T_odom_body);
-  if (!started_ || sample.starts_segment || std::hypot(moved.x_m(), moved.y_m()) >= kKeyframeDistanceM ||
+  const bool is_elsewhere = sample.starts_segment || sample.storey != storey_;
+  if (!started_ || is_elsewhere || std::hypot(moved.x_m(), moved.y_m()) >= kKeyframeDistanceM ||
       std::abs(moved.yaw_rad()) >= kKeyframeTurnRad) {
     make_keyframe(step);
   }
@@ -36,6 +37,7 @@ void DeadReckoningFrontend::make_keyframe(FrontendStep& step) {
   newest_ = started_ ? static_cast<KeyframeId>(index_of(newest_) + 1) : KeyframeId{};
   started_ = true;
   T_odom_keyframe_ = step.sample.T_odom_body;
+  storey_ = step.sample.storey;
   if (T_local_keyframe_.full()) T_local_keyframe_.erase(0);
   const bool added = T_local_keyframe_.try_push_back(step.sample.T_odom_body);
   SWIFTLET_CHECK(added, "room was made for one keyframe");

@@ -30,6 +30,7 @@ class DeadReckoningFrontend {
   bool started_ = false;
   KeyframeId newest_{};
   Pose2 T_odom_keyframe_;
+  StoreyId storey_{};
   FixedVector<Pose2, kMaxKeyframeWindow> T_local_keyframe_;
 };
 

@@ -82,12 +82,13 @@ ReturnVerdict verdict_of_end(const Submap& submap, const Point2& end_cells, cons
 }  // namespace
 
 std::vector<MapAgreement::Around> MapAgreement::around(const Pose2& T_map_body, double path_m,
+                                                       StoreyId storey,
                                                        std::span<const std::shared_ptr<const Submap>> submaps,
                                                        const KeyframePoses& T_map_keyframe) const {
   std::vector<Around> around;
   const double reach_m = tuning_->near_m;
   for (const auto& submap : submaps) {
-    if (path_m - submap->end_path_m < tuning_->old_after_m) continue;
+    if (submap->storey != storey || path_m - submap->end_path_m < tuning_->old_after_m) continue;
     const Pose2 T_submap_map = T_map_keyframe[submap->reference].inverse();
     const Point2 at = T_submap_map * T_map_body.position();
     if (at.x_m > submap->low_m.x_m - reach_m && at.x_m < submap->high_m.x_m + reach_m &&
@@ -97,10 +98,10 @@ std::vector<MapAgreement::Around> MapAgreement::around(const Pose2& T_map_body, 
   return around;
 }
 
-void MapAgreement::look_around(const Pose2& T_map_body, double path_m,
+void MapAgreement::look_around(const Pose2& T_map_body, double path_m, StoreyId storey,
                                std::span<const std::shared_ptr<const Submap>> submaps,
                                const KeyframePoses& T_map_keyframe) {
-  around_ = around(T_map_body, path_m, submaps, T_map_keyframe);
+  around_ = around(T_map_body, path_m, storey, submaps, T_map_keyframe);
 }
 
 double MapAgreement::evidence_against(const ScanRange& scans, const KeyframeChain& chain,
@@ -117,7 +118,7 @@ double MapAgreement::evidence_against(const ScanRange& scans, const KeyframeChai
     const Pose2& T = T_map_body[i++];
     if (T_map_compared && !is_farther_on(*T_map_compared, T)) continue;
     T_map_compared = T;
-    if (looked_at != scan.keyframe) near = around(T, scan.path_m, submaps, T_map_keyframe);
+    if (looked_at != scan.keyframe) near = around(T, scan.path_m, scan.storey, submaps, T_map_keyframe);
     looked_at = scan.keyframe;
     const std::span<const ScanReturn> returns = scans_->returns(scan);
     for (const ScanReturn& beam : returns)

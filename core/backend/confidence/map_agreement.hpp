@@ -29,8 +29,9 @@ class MapAgreement {
  public:
   MapAgreement(const ConfidenceTuning& tuning, const ScanStore& scans) : tuning_(&tuning), scans_(&scans) {}
 
-  /// Takes the submaps that the next scans are compared with: those around `T_map_body` that ended long ago.
-  void look_around(const Pose2& T_map_body, double path_m,
+  /// Takes the submaps that the next scans are compared with: those around `T_map_body`, on that storey, that
+  /// ended long ago.
+  void look_around(const Pose2& T_map_body, double path_m, StoreyId storey,
                    std::span<const std::shared_ptr<const Submap>> submaps,
                    const KeyframePoses& T_map_keyframe);
   /// Compares the newest scan.
@@ -60,7 +61,7 @@ class MapAgreement {
     std::shared_ptr<const Submap> submap;
     Pose2 T_submap_map;
   };
-  [[nodiscard]] std::vector<Around> around(const Pose2& T_map_body, double path_m,
+  [[nodiscard]] std::vector<Around> around(const Pose2& T_map_body, double path_m, StoreyId storey,
                                            std::span<const std::shared_ptr<const Submap>> submaps,
                                            const KeyframePoses& T_map_keyframe) const;
   [[nodiscard]] bool is_farther_on(const Pose2& T_map_compared, const Pose2& T_map_body) const;

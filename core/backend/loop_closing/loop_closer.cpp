@@ -28,8 +28,11 @@ LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, cons
       places_(config, scans, chain),
       groups_(chain, config) {}
 
-/// Each submap is one stretch of known motion.
+/// Each submap is one stretch of known motion on one storey.
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
+  if (made.id != chain_->all().first_id() &&
+      chain_->storey(made.id) != chain_->storey(chain_->all().previous(made.id)))
+    open_submaps_.clear();
   if (made.starts_segment) {
     open_submaps_.clear();
     if (made.id != chain_->all().first_id()) {

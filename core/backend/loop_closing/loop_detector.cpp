@@ -78,7 +78,9 @@ ScanRange LoopDetector::recent_scans(KeyframeId query) const {
   const std::span<const StoredScan> scans = scans_->all().values();
   std::size_t first = scans_->all().position(newest);
   // What lies before the start of a segment is not connected by motion.
-  while (first > 0 && !scans[first].starts_segment && scans[first - 1].path_m >= from_m) --first;
+  while (first > 0 && !scans[first].starts_segment && scans[first - 1].storey == scans[first].storey &&
+         scans[first - 1].path_m >= from_m)
+    --first;
   return {scans_->all().id_at(first), newest + 1};
 }
 
@@ -92,6 +94,7 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
   const Disc around_points = disc_around(points_query);
   const LoopDetectorTuning& tuning = config_->tuning.detector;
   for (const auto& submap : submaps) {
+    if (submap->storey != chain_->storey(query)) continue;
     if (submap->reference >= since &&
         chain_->path_m(query) - submap->end_path_m < config_->min_travel_between_m)
       continue;

@@ -83,6 +83,7 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
   const Submap* best = nullptr;
   std::size_t most = 0;
   for (const auto& submap : submaps) {
+    if (submap->storey != chain_->storey(query.id)) continue;
     const Pose2 T_submap_query = between(graph.T_map_keyframe[submap->reference], T_map_query);
     if (!may_be_seen(*submap, T_submap_query.position(), query.reach_m)) continue;
     const std::size_t known = seen(*submap, query.points, T_submap_query).known;

@@ -58,7 +58,8 @@ void PlaceSearch::begin(KeyframeId query, const ScanRange& recent,
       thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_query_local, kCoarseness * thinning_cell_m);
   if (points_query_.size() < static_cast<std::size_t>(config_->min_match_points)) return;
   cross_check_.emplace(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
-  for (std::size_t i = 0; i < submaps.size(); i += 2) left_.push_back(submaps[i]);
+  for (std::size_t i = 0; i < submaps.size(); i += 2)
+    if (submaps[i]->storey == chain_->storey(query)) left_.push_back(submaps[i]);
 }
 
 /// The best of all places in coarse cells, and then the best around it.

@@ -98,6 +98,7 @@ Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, c
 
   return Submap{.reference = reference,
                 .scans = drawn,
+                .storey = stored.front().storey,
                 .end_path_m = chain.path_m(last),
                 .geometry = geometry,
                 .cells = max_kernel(geometry, grid.bytes(), config.max_kernel_cells),

@@ -18,6 +18,7 @@ namespace swiftlet {
 struct Submap {
   KeyframeId reference{};   ///< its frame: the keyframe in the middle
   ScanRange scans;          ///< that were drawn; some may have been pruned since
+  StoreyId storey{};        ///< of all of them
   double end_path_m = 0.0;  ///< travelled from the start of the run to its end
   GridGeometry geometry;
   std::vector<std::uint8_t> cells;  ///< row by row, with the kernel
@@ -27,7 +28,7 @@ struct Submap {
 
 /// Draws the scans made from keyframe `first` up to, not including, `last`. `T_w_keyframe`: the keyframes in
 /// one continuous frame.
-/// Precondition: first < last. Allocates.
+/// Precondition: first < last, and the scans are of one storey. Allocates.
 Submap build_submap(KeyframeId first, KeyframeId last, const ScanStore& scans, const KeyframeChain& chain,
                     const KeyframePoses& T_w_keyframe, const BackendConfig& config);
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/backend/store/traversal.hpp"
@@ -17,7 +18,7 @@
 namespace swiftlet {
 namespace {
 
-using Tile = std::pair<std::int32_t, std::int32_t>;
+using Tile = std::tuple<StoreyId, std::int32_t, std::int32_t>;
 
 struct SeenTile {
   std::size_t number = 0;
@@ -27,6 +28,7 @@ struct SeenTile {
 struct Traversal {
   IdRange<KeyframeId> keyframes;
   ScanRange scans;
+  StoreyId storey{};  // in the middle
   Point2 middle_map;
   double path_m = 0.0;
   std::vector<SeenTile> tiles;
@@ -74,6 +76,7 @@ Traversal Coverage::make_traversal(TraversalId id) {
   traversal.scans = chain_.scans_of(traversal.keyframes);
   const KeyframeId middle = traversal.keyframes.first + kKeyframesPerTraversal / 2;
   traversal.middle_map = T_map_keyframe_[middle].position();
+  traversal.storey = chain_.storey(middle);
   traversal.path_m = chain_.path_m(middle);
   std::map<Tile, std::size_t> returns_in;
   const std::size_t every = 1 + scans_.return_count(traversal.scans) / tuning_.returns_per_traversal;
@@ -84,7 +87,8 @@ Traversal Coverage::make_traversal(TraversalId id) {
     for (const ScanReturn& beam : scans_.returns(scans[i])) {
       if (number_of_return++ % every != 0 || !beam.is_hit) continue;
       const Point2 p = T_map_body[i] * scans_.point_body(beam);
-      ++returns_in[{floor_to_int(p.x_m / tuning_.tile_m), floor_to_int(p.y_m / tuning_.tile_m)}];
+      ++returns_in[{scans[i].storey, floor_to_int(p.x_m / tuning_.tile_m),
+                    floor_to_int(p.y_m / tuning_.tile_m)}];
     }
   }
   std::size_t all = 0;
@@ -119,7 +123,8 @@ std::optional<KeyframeId> Coverage::anchor_of(const Traversal& traversal, double
   double nearest_m = std::numeric_limits<double>::infinity();
   std::optional<KeyframeId> anchor;
   for (const Traversal& other : traversals_) {
-    if (!other.stays_for_good || std::abs(other.path_m - traversal.path_m) < other_time_m) continue;
+    if (!other.stays_for_good || other.storey != traversal.storey) continue;
+    if (std::abs(other.path_m - traversal.path_m) < other_time_m) continue;
     const double off_m = distance_m(traversal.middle_map, other.middle_map);
     if (off_m >= nearest_m) continue;
     nearest_m = off_m;

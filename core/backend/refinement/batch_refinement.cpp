@@ -21,7 +21,7 @@ RefinementProblem problem_of(const ScanStore& scans, const RefinementTuning& tun
     const ScanId id = scans.all().id_at(i);
     for (const ScanReturn& beam : scans.returns(stored[i])) {
       if (!beam.is_hit) continue;
-      problem.add({make_id<PoseIndex>(i), index_of(traversal_of(stored[i])),
+      problem.add({make_id<PoseIndex>(i), index_of(traversal_of(stored[i])), stored[i].storey,
                    is_held_out(id, beam.beam, tuning), scans.point_body(beam)});
     }
   }
@@ -70,7 +70,7 @@ Judged judge(const ScanStore& scans, const RefinementProblem& problem,
   const RefinementTuning& tuning = config.tuning.refinement;
   const std::span<const StoredScan> stored = scans.all().values();
   const std::uint32_t first = index_of(traversal_of(stored.front()));
-  const WallMap walls = problem.walls_at(T_map_body, tuning.walls.radius_m);
+  const WallsByStorey walls = problem.walls_at(T_map_body, tuning.walls.radius_m);
   Judged judged{0.0, 0.0, std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
   std::size_t count = 0;
   for (const RelativePoseFactor<PoseIndex>& f : motions)

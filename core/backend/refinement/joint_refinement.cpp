@@ -52,7 +52,7 @@ std::vector<ScanHit> hits_of(std::span<const PlacedReturn> returns) {
   std::vector<ScanHit> hits;
   hits.reserve(returns.size());
   for (const PlacedReturn& r : returns)
-    if (!r.held_out) hits.push_back({index_of(r.pose), r.p_body});
+    if (!r.held_out) hits.push_back({index_of(r.pose), r.storey, r.p_body});
   return hits;
 }
 

@@ -58,7 +58,8 @@ std::size_t OnlineRefinement::traversals_between(TraversalId a, TraversalId b) c
          kKeyframesPerTraversal;
 }
 
-/// Whole traversals, as many as fit on both sides of the middle one; of a traversal that is too long its end.
+/// Whole traversals of one storey, as many as fit on both sides of the middle one; of a traversal that is too
+/// long its end.
 ScanRange OnlineRefinement::window_around(TraversalId traversal) const {
   const IdMap<ScanId, StoredScan>& scans = scans_->all();
   ScanRange window = scans_of(traversal);
@@ -69,13 +70,13 @@ ScanRange OnlineRefinement::window_around(TraversalId traversal) const {
   TraversalId highest = traversal;
   for (bool grows = true; grows;) {
     grows = false;
-    if (lowest > oldest &&
+    if (lowest > oldest && storey(before(lowest)) == storey(traversal) &&
         scans.count({scans_of(before(lowest)).first, window.end}) <= tuning_.max_window_scans) {
       lowest = before(lowest);
       window.first = scans_of(lowest).first;
       grows = true;
     }
-    if (highest < newest_traversal() &&
+    if (highest < newest_traversal() && storey(after(highest)) == storey(traversal) &&
         scans.count({window.first, scans_of(after(highest)).end}) <= tuning_.max_window_scans) {
       highest = after(highest);
       window.end = scans_of(highest).end;
@@ -131,7 +132,7 @@ std::vector<TraversalPoint> OnlineRefinement::walls_around(const ScanRange& wind
   }
   const IdRange<TraversalId> in_window{traversal_of(scans.front()), traversal_of(scans.back()) + 1};
   std::vector<TraversalPoint> points;
-  for (const TraversalId traversal : traversals_.near(places_map, in_window)) {
+  for (const TraversalId traversal : traversals_.near(places_map, scans.front().storey, in_window)) {
     const Pose2 T_map_reference = T_map_body(traversals_[traversal].reference, T_map_keyframe);
     for (const Point2& p_reference : traversals_[traversal].points_reference)
       points.push_back({T_map_reference * p_reference, index_of(traversal)});
@@ -175,6 +176,7 @@ void OnlineRefinement::file_traversal(TraversalId traversal, const KeyframePoses
   const std::size_t first = scans_->all().position(range.first);
   TraversalWalls walls;
   walls.reference = scans_->all().id_at(first + scans.size() / 2);
+  walls.storey = storey(traversal);
   const Pose2 T_map_reference = T_map_body(walls.reference, T_map_keyframe);
   const Pose2 T_reference_map = T_map_reference.inverse();
   const std::size_t every = 1 + scans.size() / tuning_.max_traversal_scans;

@@ -61,6 +61,10 @@ class OnlineRefinement {
   [[nodiscard]] ScanRange scans_of(TraversalId traversal) const {
     return chain_->scans_of(keyframes_of(traversal));
   }
+  /// Of its beginning; one that climbs the stairs has a metre of the next one.
+  [[nodiscard]] StoreyId storey(TraversalId traversal) const {
+    return chain_->storey(keyframes_of(traversal).first);
+  }
   [[nodiscard]] ScanRange window_around(TraversalId traversal) const;
   [[nodiscard]] ScanRange next_window();
   [[nodiscard]] WindowPoses poses_of(const ScanRange& window, const KeyframePoses& T_map_keyframe,

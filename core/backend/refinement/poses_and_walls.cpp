@@ -53,10 +53,33 @@ void PosesAndWalls::associate() {
     const double range_m = std::hypot(hit.p_body.x_m, hit.p_body.y_m);
     drawn.push_back({p, {(p.x_m - T.x_m()) / range_m, (p.y_m - T.y_m()) / range_m}});
   }
-  const WallPatches found = find_wall_patches(drawn, tuning_.fit, tuning_.patches);
+  const WallPatches found = find_patches(drawn);
   patches_.clear();
   for (const WallPatch& patch : found.patches) patches_.push_back({patch, 0.0, 0.0});
   find_sights(found, drawn);
+}
+
+/// A storey at a time.
+WallPatches PosesAndWalls::find_patches(std::span<const DrawnReturn> drawn) const {
+  const auto is_on_first = [&](const ScanHit& hit) { return hit.storey == hits_.front().storey; };
+  if (std::ranges::all_of(hits_, is_on_first))
+    return find_wall_patches(drawn, tuning_.fit, tuning_.patches);  // without a copy: it can be large
+  WallPatches found;
+  found.patch_of.assign(drawn.size(), WallPatches::kNone);
+  std::array<std::vector<std::uint32_t>, kMaxStoreys> hits_on;  // by storey
+  for (std::uint32_t k = 0; k < hits_.size(); ++k) hits_on[index_of(hits_[k].storey)].push_back(k);
+  for (const std::vector<std::uint32_t>& hits : hits_on) {
+    if (hits.empty()) continue;
+    std::vector<DrawnReturn> drawn_here;
+    drawn_here.reserve(hits.size());
+    for (const std::uint32_t k : hits) drawn_here.push_back(drawn[k]);
+    const WallPatches here = find_wall_patches(drawn_here, tuning_.fit, tuning_.patches);
+    const auto first = static_cast<std::uint32_t>(found.patches.size());
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      if (here.patch_of[i] != WallPatches::kNone) found.patch_of[hits[i]] = first + here.patch_of[i];
+    found.patches.insert(found.patches.end(), here.patches.begin(), here.patches.end());
+  }
+  return found;
 }
 
 /// The returns that meet their patch steeply, by node.

@@ -26,6 +26,7 @@ namespace swiftlet {
 /// A return of a scan, both of one problem.
 struct ScanHit {
   std::uint32_t scan = 0;
+  StoreyId storey{};
   Point2 p_body;
 };
 
@@ -120,6 +121,7 @@ class PosesAndWalls {
   }
   [[nodiscard]] WallRow wall_row(const WallReturn& wall) const;
   [[nodiscard]] MotionRow motion_row(std::size_t to) const;
+  [[nodiscard]] WallPatches find_patches(std::span<const DrawnReturn> drawn) const;
   void find_sights(const WallPatches& found, std::span<const DrawnReturn> drawn);
   [[nodiscard]] NodePatchMatrix matrix() const;
   void measure_wall_sigma();

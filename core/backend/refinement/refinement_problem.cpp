@@ -4,16 +4,26 @@
 
 namespace swiftlet {
 
-WallMap RefinementProblem::walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
-                                    std::span<const TraversalPoint> others_thinned) const {
+WallsByStorey RefinementProblem::walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
+                                          std::span<const TraversalPoint> others_thinned) const {
+  std::vector<WallMap> maps;
   std::vector<TraversalPoint> points;
   points.reserve(returns_.size());
-  for (const PlacedReturn& r : returns_)
-    if (!r.held_out) points.push_back({T_map_body[index_of(r.pose)] * r.p_body, r.traversal});
-  return {others_thinned, points, radius_m, tuning_};
+  for (std::size_t i = 0; i <= index_of(highest_); ++i) {
+    const auto storey = make_id<StoreyId>(i);
+    points.clear();
+    for (const PlacedReturn& r : returns_)
+      if (!r.held_out && r.storey == storey)
+        points.push_back({T_map_body[index_of(r.pose)] * r.p_body, r.traversal});
+    const bool has_others = returns_.empty() || returns_.front().storey == storey;
+    maps.emplace_back(has_others ? others_thinned : std::span<const TraversalPoint>(), points, radius_m,
+                      tuning_);
+  }
+  return WallsByStorey(std::move(maps));
 }
 
-double RefinementProblem::held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const {
+double RefinementProblem::held_out_error_m(const WallsByStorey& walls,
+                                           const std::vector<Pose2>& T_map_body) const {
   double sum_m = 0.0;
   std::size_t count = 0;
   for_held_out(walls, T_map_body, [&](std::uint32_t, double distance_m) {

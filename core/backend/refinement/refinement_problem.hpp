@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/backend/refinement/point_to_line_factor.hpp"
@@ -17,6 +19,7 @@ namespace swiftlet {
 struct PlacedReturn {
   PoseIndex pose{};  ///< of its scan, in the problem's list of poses
   std::uint32_t traversal = 0;
+  StoreyId storey{};
   bool held_out = false;  ///< adds no factor and no point of a wall: it judges
   Point2 p_body;
 };
@@ -40,28 +43,54 @@ struct HeldOutVerdict {
   }
 };
 
+/// A wall map for each storey.
+class WallsByStorey {
+ public:
+  explicit WallsByStorey(std::vector<WallMap> maps) : maps_(std::move(maps)) {}
+  /// As WallMap has it. Precondition: there are walls of that storey, or a return was added there.
+  [[nodiscard]] std::optional<LocalWall> wall_near(StoreyId storey, const TraversalPoint& place) const {
+    return maps_[index_of(storey)].wall_near(place);
+  }
+  /// Points of all of them.
+  [[nodiscard]] std::size_t size() const {
+    std::size_t points = 0;
+    for (const WallMap& map : maps_) points += map.size();
+    return points;
+  }
+
+ private:
+  std::vector<WallMap> maps_;
+};
+
 /// The returns of scans whose poses are refined together. Each is associated with the wall that the other
 /// traversals draw around it. Poses are a list that the caller keeps. Allocates. One thread at a time.
 class RefinementProblem {
  public:
   explicit RefinementProblem(const RefinementTuning& tuning) : tuning_(tuning) {}
 
-  void clear() { returns_.clear(); }
-  void add(const PlacedReturn& placed) { returns_.push_back(placed); }
+  void clear() {
+    returns_.clear();
+    highest_ = {};
+  }
+  void add(const PlacedReturn& placed) {
+    returns_.push_back(placed);
+    highest_ = std::max(highest_, placed.storey);
+  }
   [[nodiscard]] std::size_t size() const { return returns_.size(); }
   [[nodiscard]] std::span<const PlacedReturn> returns() const { return returns_; }
 
   /// The walls of all returns but the held-out ones at these poses. `others_thinned`: points of other
-  /// traversals that add to them. Returns must have been added by traversal.
-  [[nodiscard]] WallMap walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
-                                 std::span<const TraversalPoint> others_thinned = {}) const;
+  /// traversals that add to them, on the storey of the first return. Returns must have been added by
+  /// traversal.
+  [[nodiscard]] WallsByStorey walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
+                                       std::span<const TraversalPoint> others_thinned = {}) const;
   /// Adds to a system with `add(pose, H, rhs)` a point-to-line factor for each return that has a wall.
   template <typename System>
-  void add_factors(const WallMap& walls, const std::vector<Pose2>& T_map_body, System& system) const {
+  void add_factors(const WallsByStorey& walls, const std::vector<Pose2>& T_map_body, System& system) const {
     for (const PlacedReturn& r : returns_) {
       if (r.held_out) continue;
       const Pose2& T = T_map_body[index_of(r.pose)];
-      const std::optional<LocalWall> wall = walls.wall_near({T * r.p_body, r.traversal});
+      const std::optional<LocalWall> wall = walls.wall_near(r.storey, {T * r.p_body, r.traversal});
       if (!wall) continue;
       const PointToLineFactor factor = point_to_line_factor(*wall, T, r.p_body, tuning_);
       system.add(r.pose, factor.H, factor.rhs);
@@ -70,19 +99,21 @@ class RefinementProblem {
   /// Calls `take(traversal, distance_m)` for each held-out return, with its judged_distance_m() from the
   /// walls.
   template <typename Take>
-  void for_held_out(const WallMap& walls, const std::vector<Pose2>& T_map_body, Take&& take) const {
+  void for_held_out(const WallsByStorey& walls, const std::vector<Pose2>& T_map_body, Take&& take) const {
     for (const PlacedReturn& r : returns_) {
       if (!r.held_out) continue;
       const TraversalPoint at{T_map_body[index_of(r.pose)] * r.p_body, r.traversal};
-      take(r.traversal, judged_distance_m(walls.wall_near(at), at.p_map, tuning_));
+      take(r.traversal, judged_distance_m(walls.wall_near(r.storey, at), at.p_map, tuning_));
     }
   }
   /// Mean distance of the held-out returns from the walls, as judged_distance_m() has it; 0 without any.
-  [[nodiscard]] double held_out_error_m(const WallMap& walls, const std::vector<Pose2>& T_map_body) const;
+  [[nodiscard]] double held_out_error_m(const WallsByStorey& walls,
+                                        const std::vector<Pose2>& T_map_body) const;
 
  private:
   RefinementTuning tuning_;
   std::vector<PlacedReturn> returns_;
+  StoreyId highest_{};
 };
 
 }  // namespace swiftlet

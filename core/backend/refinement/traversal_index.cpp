@@ -71,23 +71,28 @@ void TraversalIndex::file(TraversalId traversal, const Pose2& T_map_reference) {
     filed.tiles.push_back(tile_of(p_map));
   }
   sort_unique(filed.tiles);
+  Tiles& tiles = storeys_[filed.walls.storey];
   for (const Tile& tile : filed.tiles) {
-    std::vector<TraversalId>& there = tiles_[tile];
+    std::vector<TraversalId>& there = tiles[tile];
     there.insert(std::lower_bound(there.begin(), there.end(), traversal), traversal);
   }
 }
 
 void TraversalIndex::unfile(TraversalId traversal) {
-  for (const Tile& tile : traversals_[traversal].tiles) {
-    const auto at = tiles_.find(tile);
+  Filed& filed = traversals_[traversal];
+  Tiles& tiles = storeys_[filed.walls.storey];
+  for (const Tile& tile : filed.tiles) {
+    const auto at = tiles.find(tile);
     at->second.erase(std::lower_bound(at->second.begin(), at->second.end(), traversal));
-    if (at->second.empty()) tiles_.erase(at);
+    if (at->second.empty()) tiles.erase(at);
   }
-  traversals_[traversal].tiles.clear();
+  filed.tiles.clear();
 }
 
-std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map,
+std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map, StoreyId storey,
                                               const IdRange<TraversalId>& excluded) const {
+  const auto drawn = storeys_.find(storey);
+  if (drawn == storeys_.end()) return {};
   std::vector<Tile> tiles;
   for (const Point2& p : places_map) {
     const Tile low = tile_of({p.x_m - tuning_.margin_m, p.y_m - tuning_.margin_m});
@@ -100,8 +105,8 @@ std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map
 
   std::vector<std::vector<TraversalId>> choices;  // of each tile
   for (const Tile& tile : tiles) {
-    const auto at = tiles_.find(tile);
-    if (at == tiles_.end()) continue;
+    const auto at = drawn->second.find(tile);
+    if (at == drawn->second.end()) continue;
     const std::vector<TraversalId>& there = at->second;
     const auto first_out = std::lower_bound(there.begin(), there.end(), excluded.first);
     const auto first_after = std::lower_bound(first_out, there.end(), excluded.end);

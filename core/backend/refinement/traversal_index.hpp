@@ -19,6 +19,7 @@ namespace swiftlet {
 /// as a whole with that scan.
 struct TraversalWalls {
   ScanId reference{};
+  StoreyId storey{};
   std::vector<Point2> points_reference;
 };
 
@@ -42,9 +43,10 @@ class TraversalIndex {
   [[nodiscard]] const TraversalWalls& operator[](TraversalId traversal) const {
     return traversals_[traversal].walls;
   }
-  /// Traversals with walls within about half a metre of the places, ascending, but for the excluded ones.
+  /// Traversals with walls within about half a metre of the places on that storey, ascending, but for the
+  /// excluded ones.
   /// Where a tile has more than the most, they are chosen evenly from the first to the last.
-  [[nodiscard]] std::vector<TraversalId> near(std::span<const Point2> places_map,
+  [[nodiscard]] std::vector<TraversalId> near(std::span<const Point2> places_map, StoreyId storey,
                                               const IdRange<TraversalId>& excluded) const;
 
  private:
@@ -61,7 +63,8 @@ class TraversalIndex {
 
   TraversalIndexTuning tuning_;
   IdMap<TraversalId, Filed> traversals_;
-  std::map<Tile, std::vector<TraversalId>> tiles_;  // traversals ascending
+  using Tiles = std::map<Tile, std::vector<TraversalId>>;  // traversals ascending
+  std::map<StoreyId, Tiles> storeys_;
 };
 
 }  // namespace swiftlet

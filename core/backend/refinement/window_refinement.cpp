@@ -22,7 +22,7 @@ void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_p
     const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
     for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
       if (!beams[k].is_hit || number % every != 0) continue;
-      problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])),
+      problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])), scans[i].storey,
                     is_held_out(id, beams[k].beam, tuning_), scans_->point_body(beams[k])});
     }
   }
@@ -80,7 +80,7 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   take_steps(poses);
   std::vector<TraversalPoint> others_thinned;
   append_thinned(others, tuning_.thinning_cell_m, others_thinned);
-  const WallMap before = problem_.walls_at(poses.T_map_body, tuning_.walls.radius_m, others_thinned);
+  const WallsByStorey before = problem_.walls_at(poses.T_map_body, tuning_.walls.radius_m, others_thinned);
   report.returns = problem_.size();
   report.points = before.size();
   chain_.reset(moving);

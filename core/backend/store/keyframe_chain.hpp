@@ -36,6 +36,7 @@ class KeyframeChain {
   }
   /// Travelled from the start of the run to the keyframe.
   [[nodiscard]] double path_m(KeyframeId id) const { return (*scans_)[scan_of(id)].path_m; }
+  [[nodiscard]] StoreyId storey(KeyframeId id) const { return (*scans_)[scan_of(id)].storey; }
 
   /// T_w_body of a scan, given T_w_keyframe of all keyframes in any one frame w; the newest may be missing.
   [[nodiscard]] Pose2 T_w_body(ScanId scan, const KeyframePoses& T_w_keyframe) const;

@@ -26,7 +26,8 @@ ScanId ScanStore::add(const FrontendStep& step) {
                   .first_return = static_cast<std::uint32_t>(returns_.size()),
                   .return_count = 0,
                   .starts_segment = sample.starts_segment,
-                  .odometry_ran_on = sample.odometry_ran_on};
+                  .odometry_ran_on = sample.odometry_ran_on,
+                  .storey = sample.storey};
   if (!scans_.empty()) {
     const StoredScan& before = scans_.values().back();
     scan.path_m = before.path_m;

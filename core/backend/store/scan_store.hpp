@@ -37,6 +37,7 @@ struct StoredScan {
   std::uint16_t return_count = 0;
   bool starts_segment = false;
   bool odometry_ran_on = false;  ///< as RangeSample's
+  StoreyId storey{};             ///< likewise
 };
 
 /// Every scan of a run but those pruned, in order. Allocates as it grows. One thread at a time.

@@ -283,6 +283,22 @@ TEST(Backend, TheFinalPassDropsTheClosuresThatContradictTheRest) {
   EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.05);
 }
 
+TEST(Backend, ALapOnAnotherStoreyClosesNoLoopWithTheOneBelow) {
+  TestVehicle vehicle = vehicle_at_start({}, 3);
+  fly_along(vehicle, loop_corridor(), "bcdabcdabcd");
+  std::vector<RangeSample> samples = vehicle.samples();
+  const auto is_above = [&](std::size_t i) { return i > samples.size() / 3 && i < 2 * samples.size() / 3; };
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (is_above(i)) samples[i].storey = StoreyId{1};
+  const auto backend = make_backend();
+  feed(*backend, samples);
+  backend->finish();
+  ASSERT_FALSE(backend->closures().empty()) << "the last lap is on the first one's storey";
+  for (const LoopClosure& closure : backend->closures().values())
+    EXPECT_EQ(backend->keyframes().storey(closure.from), backend->keyframes().storey(closure.to));
+  EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.1);
+}
+
 TEST(Backend, AFlightThatGoesOnElsewhereIsJoinedByItsLoops) {
   TestVehicle vehicle = vehicle_at_start({}, 6);
   fly_along(vehicle, loop_corridor(), "bcda");

@@ -253,6 +253,24 @@ TEST(Frontend, TakesNoWallsAcrossAJump) {
   for (const LandmarkId id : after) EXPECT_EQ(before.count(id), 0U);
 }
 
+TEST(Frontend, TakesNoWallsAlongToAnotherStoreyButTheMotion) {
+  RoomDrive drive = usual_drive(11, {0.2, 0.0});
+  constexpr std::size_t kStairs = 120;
+  for (std::size_t i = kStairs; i < drive.samples.size(); ++i) drive.samples[i].storey = StoreyId{1};
+  const RunOutcome out = run(drive);
+  ASSERT_TRUE(out.steps[kStairs].has_keyframe);
+  EXPECT_LT(out.steps[kStairs].made.motion_covariance.xx, 0.01);
+  std::set<LandmarkId> below;
+  std::set<LandmarkId> above;
+  for (std::size_t i = 0; i < 230; ++i)
+    if (out.steps[i].has_keyframe)
+      for (const LandmarkUpdate& wall : out.steps[i].made.landmarks)
+        (i < kStairs ? below : above).insert(wall.id);
+  EXPECT_FALSE(below.empty());
+  EXPECT_FALSE(above.empty());
+  for (const LandmarkId id : above) EXPECT_EQ(below.count(id), 0U);
+}
+
 TEST(Frontend, RollsBackABatchThatContradictsTheRest) {
   RoomDrive drive = usual_drive(12, {0.2, 0.0});
   // For a metre and a half the left beam reads steadily longer: the wall seems to lean away.

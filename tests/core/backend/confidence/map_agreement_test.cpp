@@ -57,7 +57,7 @@ class MapAgreementTest : public testing::Test {
     }
     scans_.add(step);
     const Pose2 T_map_body(at.x_m + off.x_m, at.y_m + off.y_m, 0.0);
-    agreement_.look_around(T_map_body, kLongAgoM, submaps_, T_map_keyframe_);
+    agreement_.look_around(T_map_body, kLongAgoM, {}, submaps_, T_map_keyframe_);
     agreement_.add_newest_scan(T_map_body);
   }
   [[nodiscard]] double of_two_contradictions_in_four() const {
@@ -130,6 +130,14 @@ TEST_F(MapAgreementTest, GroundThatWasJustFlownSaysNothing) {
   Submap newest = room();
   newest.end_path_m = kLongAgoM - 1.0;
   submaps_.push_back(std::make_shared<const Submap>(newest));
+  fly(100, {1.0, 0.5});
+  EXPECT_EQ(agreement_.returns_compared(), 0U);
+}
+
+TEST_F(MapAgreementTest, WhatStandsOnAnotherStoreySaysNothing) {
+  Submap above = *submaps_.front();
+  above.storey = StoreyId{1};
+  submaps_ = {std::make_shared<const Submap>(above)};
   fly(100, {1.0, 0.5});
   EXPECT_EQ(agreement_.returns_compared(), 0U);
 }

@@ -90,7 +90,7 @@ Flight fly(const Flaws& flaws, const std::function<Pose2(double)>& true_at) {
     const ScanId scan = flight.scans.add(made);
     for (const ScanReturn& beam : flight.scans.returns(scan))
       flight.returns.push_back({make_id<PoseIndex>(static_cast<std::size_t>(i)),
-                                index_of(traversal_of(flight.scans[scan])), false,
+                                index_of(traversal_of(flight.scans[scan])), StoreyId{}, false,
                                 flight.scans.point_body(beam)});
     flight.T_true.push_back(true_at(-flaws.age_s).inverse() * T_room_body);
     flight.T_map_body.push_back(T_odom_body);

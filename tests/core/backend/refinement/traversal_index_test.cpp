@@ -18,14 +18,17 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TraversalWalls walls(std::vector<Point2> points) { return {{}, std::move(points)}; }
+TraversalWalls walls(std::vector<Point2> points, StoreyId storey = {}) {
+  return {{}, storey, std::move(points)};
+}
 
 TraversalId id(std::uint32_t traversal) { return make_id<TraversalId>(traversal); }
 
 std::vector<std::uint32_t> near(const TraversalIndex& index, const std::vector<Point2>& places,
                                 const IdRange<TraversalId>& excluded = {}) {
   std::vector<std::uint32_t> found;
-  for (const TraversalId traversal : index.near(places, excluded)) found.push_back(index_of(traversal));
+  for (const TraversalId traversal : index.near(places, StoreyId{}, excluded))
+    found.push_back(index_of(traversal));
   return found;
 }
 std::vector<std::uint32_t> near(const TraversalIndex& index, const Point2& place,
@@ -67,6 +70,14 @@ TEST(TraversalIndex, LeavesOutTheExcluded) {
   EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_THAT(near(index, {1.0, 1.0}, {id(1), id(4)}), ElementsAre(0, 4, 5));
   EXPECT_THAT(near(index, {1.0, 1.0}, {id(0), id(6)}), IsEmpty());
+}
+
+TEST(TraversalIndex, WallsOfAnotherStoreyAreNotNear) {
+  TraversalIndex index;
+  index.set(id(0), walls({{1.0, 1.0}}), {});
+  index.set(id(1), walls({{1.0, 1.0}}, StoreyId{1}), {});
+  EXPECT_THAT(near(index, {1.0, 1.0}), ElementsAre(0));
+  EXPECT_THAT(index.near(std::vector<Point2>{{1.0, 1.0}}, StoreyId{1}, {}), ElementsAre(id(1)));
 }
 
 TEST(TraversalIndex, APassIsFoundWhereItMoved) {
@@ -127,7 +138,7 @@ TEST(TraversalIndex, WhatIsErasedIsFoundNoMore) {
   TraversalIndex index;
   for (std::uint32_t traversal = 0; traversal < 6; ++traversal) {
     const double x_m = traversal < 3 ? 1.0 : 9.0;
-    index.set(id(traversal), {make_id<ScanId>(10 * traversal), {{x_m, 1.0}}}, {});
+    index.set(id(traversal), {make_id<ScanId>(10 * traversal), {}, {{x_m, 1.0}}}, {});
   }
   IdRanges<TraversalId> gone;
   gone.add(id(1));
