@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <span>
 
 #include "core/base/fixed_vector.hpp"
@@ -133,12 +134,12 @@ void MapBuilder::State::draw(const Backend& backend, ScanId scan) {
   const Pose2 T_map_body = backend.T_map_body(scan);
   if (!drawing.needs_drawing(scan, T_map_body)) return;
   const Beams beams = beams_of(backend, scan);
-  drawing.draw(scan, T_map_body, std::span<const BeamEnd>(beams.data(), beams.size()));
+  drawing.draw(scan, T_map_body, {{beams.data(), beams.size()}, backend.scans()[scan].storey});
 }
 
 void MapBuilder::State::rub_out(const Backend& backend, ScanId scan) {
   const Beams beams = beams_of(backend, scan);
-  drawing.rub_out(scan, std::span<const BeamEnd>(beams.data(), beams.size()));
+  drawing.rub_out(scan, {{beams.data(), beams.size()}, backend.scans()[scan].storey});
 }
 
 MapBuilder::MapBuilder(const MapConfig& config, const SensorModel& sensor)
@@ -189,6 +190,18 @@ void MapBuilder::prune(const Backend& backend, const Pruning& pruning) {
 MapTile MapBuilder::tile(TileIndex index) const { return state_->drawing.store().tile(index); }
 
 std::vector<TileIndex> MapBuilder::tiles() const { return state_->drawing.store().tiles(); }
+
+std::vector<TileIndex> MapBuilder::tiles(StoreyId storey) const {
+  std::vector<TileIndex> found = tiles();
+  std::erase_if(found, [&](const TileIndex& index) { return index.storey != storey; });
+  return found;
+}
+
+std::vector<StoreyId> MapBuilder::storeys() const {
+  std::set<StoreyId> found{StoreyId{}};
+  for (const TileIndex& index : tiles()) found.insert(index.storey);
+  return {found.begin(), found.end()};
+}
 
 const MapConfig& MapBuilder::config() const { return state_->config; }
 

@@ -35,8 +35,11 @@ class MapBuilder {
   std::vector<TileIndex> settle(const Backend& backend);
 
   [[nodiscard]] MapTile tile(TileIndex index) const;
-  /// All tiles that hold anything, in index order.
+  /// All tiles that hold anything, in index order; those of one storey.
   [[nodiscard]] std::vector<TileIndex> tiles() const;
+  [[nodiscard]] std::vector<TileIndex> tiles(StoreyId storey) const;
+  /// The first, and the others that have tiles, ascending.
+  [[nodiscard]] std::vector<StoreyId> storeys() const;
   [[nodiscard]] const MapConfig& config() const;
 
  private:

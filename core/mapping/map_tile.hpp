@@ -8,15 +8,19 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/base/ids.hpp"
+
 namespace swiftlet {
 
 inline constexpr int kTileCells = 64;  ///< cells along one side of a tile
 inline constexpr std::size_t kCellsInTile = std::size_t{kTileCells} * kTileCells;
 
-/// Which tile: tile (x, y) covers map coordinates [64 x, 64 x + 64) * resolution, likewise y.
+/// Which tile: tile (x, y) covers map coordinates [64 x, 64 x + 64) * resolution, likewise y. Each storey has
+/// a map of its own.
 struct TileIndex {
   std::int32_t x = 0;
   std::int32_t y = 0;
+  StoreyId storey{};
   auto operator<=>(const TileIndex&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 

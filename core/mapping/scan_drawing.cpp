@@ -32,7 +32,7 @@ bool ScanDrawing::needs_drawing(ScanId scan, const Pose2& T_map_body) const {
   return scan >= drawn_.end_id() || drawn_[scan] != rounded(T_map_body);
 }
 
-void ScanDrawing::draw(ScanId scan, const Pose2& T_map_body, std::span<const BeamEnd> beams) {
+void ScanDrawing::draw(ScanId scan, const Pose2& T_map_body, const DrawnBeams& beams) {
   if (!needs_drawing(scan, T_map_body)) return;
   rub_out(scan, beams);
   std::optional<LatticePose>& drawn = drawn_[scan];
@@ -40,16 +40,17 @@ void ScanDrawing::draw(ScanId scan, const Pose2& T_map_body, std::span<const Bea
   if (drawn) apply(*drawn, beams, TileStore::Change::kCount);
 }
 
-void ScanDrawing::rub_out(ScanId scan, std::span<const BeamEnd> beams) {
+void ScanDrawing::rub_out(ScanId scan, const DrawnBeams& beams) {
   while (drawn_.end_id() <= scan) drawn_.push_back({});
   std::optional<LatticePose>& drawn = drawn_[scan];
   if (drawn) apply(*drawn, beams, TileStore::Change::kTakeBack);
   drawn.reset();
 }
 
-void ScanDrawing::apply(const LatticePose& pose, std::span<const BeamEnd> beams, TileStore::Change change) {
+void ScanDrawing::apply(const LatticePose& pose, const DrawnBeams& beams, TileStore::Change change) {
+  store_.enter(beams.storey);
   const Pose2 T_map_body(pose.x * position_step_m_, pose.y * position_step_m_, pose.yaw * yaw_step_rad_);
-  for (const BeamEnd& beam : beams) apply_beam(T_map_body, beam, change);
+  for (const BeamEnd& beam : beams.ends) apply_beam(T_map_body, beam, change);
 }
 
 void ScanDrawing::apply_beam(const Pose2& T_map_body, const BeamEnd& beam, TileStore::Change change) {

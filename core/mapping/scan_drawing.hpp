@@ -19,6 +19,12 @@ struct BeamEnd {
   bool is_hit = false;  ///< false: nothing up to there, the beam only clears
 };
 
+/// Those of one scan.
+struct DrawnBeams {
+  std::span<const BeamEnd> ends;
+  StoreyId storey{};
+};
+
 /// Draws scans into a tile store and can move each of them later.
 ///
 /// A scan is drawn at its pose rounded to a lattice of a quarter of a cell (in position, and in what a turn
@@ -34,12 +40,13 @@ class ScanDrawing {
 
   /// Whether drawing `scan` at this pose would change anything.
   [[nodiscard]] bool needs_drawing(ScanId scan, const Pose2& T_map_body) const;
-  /// Draws `scan` here; where it was drawn elsewhere before, it is rubbed out there first. `beams` must be
-  /// the same at every call for one scan. A pose that is not finite, or over 100 km away, draws nothing.
-  void draw(ScanId scan, const Pose2& T_map_body, std::span<const BeamEnd> beams);
+  /// Draws `scan` here; where it was drawn elsewhere before, it is rubbed out there first. `beams` and their
+  /// storey must be the same at every call for one scan. A pose that is not finite, or over 100 km away,
+  /// draws nothing.
+  void draw(ScanId scan, const Pose2& T_map_body, const DrawnBeams& beams);
 
   /// Rubs a scan out.
-  void rub_out(ScanId scan, std::span<const BeamEnd> beams);
+  void rub_out(ScanId scan, const DrawnBeams& beams);
   /// Forgets scans. Precondition: they were rubbed out.
   void erase(const IdRanges<ScanId>& scans) { drawn_.erase(scans); }
 
@@ -54,7 +61,7 @@ class ScanDrawing {
     bool operator==(const LatticePose&) const = default;
   };
   [[nodiscard]] std::optional<LatticePose> rounded(const Pose2& T_map_body) const;
-  void apply(const LatticePose& pose, std::span<const BeamEnd> beams, TileStore::Change change);
+  void apply(const LatticePose& pose, const DrawnBeams& beams, TileStore::Change change);
   void apply_beam(const Pose2& T_map_body, const BeamEnd& beam, TileStore::Change change);
 
   double cells_per_m_;

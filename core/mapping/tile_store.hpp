@@ -37,6 +37,11 @@ class TileStore {
   void add_miss(CellIndex cell, Change change) {
     count(cell, change, &NarrowCounts::misses, &CellCounts::misses);
   }
+  /// Where cells are counted from now on; the first storey at the beginning.
+  void enter(StoreyId storey) {
+    if (storey != storey_) last_tile_ = nullptr;
+    storey_ = storey;
+  }
 
   /// Brings the percentages up to date with the counts. Returns the tiles in which any changed, in index
   /// order, each with its version counted up.
@@ -76,8 +81,10 @@ class TileStore {
   void count(CellIndex cell, Change change, std::uint8_t NarrowCounts::*narrow,
              std::uint32_t CellCounts::*wide) {
     // Tiles are a power of two wide: shifting and masking round downwards for negative cells too.
-    const TileIndex index{cell.x >> kTileShift, cell.y >> kTileShift};
-    if (last_tile_ == nullptr || index != last_tile_->published.index) last_tile_ = &touch(index);
+    const std::int32_t x = cell.x >> kTileShift;
+    const std::int32_t y = cell.y >> kTileShift;
+    if (last_tile_ == nullptr || x != last_tile_->published.index.x || y != last_tile_->published.index.y)
+      last_tile_ = &touch({x, y, storey_});
     const auto column = static_cast<std::uint32_t>(cell.x) & (kTileCells - 1U);
     const auto row = static_cast<std::uint32_t>(cell.y) & (kTileCells - 1U);
     const std::size_t i = row * kTileCells + column;
@@ -107,7 +114,8 @@ class TileStore {
   std::vector<std::int8_t> percent_table_;
   std::map<TileIndex, std::unique_ptr<Tile>> tiles_;  ///< those that hold anything, or were touched since
   std::map<TileIndex, std::uint32_t> emptied_;        ///< versions of those that did once
-  Tile* last_tile_ = nullptr;  ///< the tile counted in last, touched; null after publish()
+  StoreyId storey_{};
+  Tile* last_tile_ = nullptr;  ///< the tile of that storey counted in last, touched; null after publish()
 };
 
 }  // namespace swiftlet

@@ -23,7 +23,6 @@ namespace {
 
 constexpr const char* kTruth = "ground_truth.tum";
 constexpr const char* kPlaces = "places.csv";
-constexpr const char* kPlan = "plan.png";
 constexpr const char* kReport = "report.json";
 constexpr int kThumbnailPx = 256;
 
@@ -33,14 +32,26 @@ Status write_picture(const std::filesystem::path& path, const RgbImage& picture)
   return write_file(path, *png);
 }
 
+/// "map.png" of the first storey, "map_storey1.png" of the next.
+std::string name_on(StoreyId storey, const std::string& stem, const std::string& extension) {
+  return stem + (storey == StoreyId{} ? "" : "_storey" + std::to_string(index_of(storey))) + extension;
+}
+
 Status write_pictures(const std::filesystem::path& directory, const RunView& run) {
-  MapScene scene = make_map_scene(run.backend, run.map);
-  scene.title = std::filesystem::path(run.input_uri).filename().string();
-  if (run.has_plan)
-    if (Status written = write_picture(directory / kPlan, draw_plan(scene)); !written) return written;
-  const RgbImage picture = draw_map(scene);
-  if (Status written = write_picture(directory / "map.png", picture); !written) return written;
-  return write_picture(directory / "thumbnail.png", thumbnail_of(picture, kThumbnailPx));
+  for (const StoreyId storey : run.map.storeys()) {
+    MapScene scene = make_map_scene(run.backend, run.map, storey);
+    scene.title = std::filesystem::path(run.input_uri).filename().string();
+    if (storey != StoreyId{}) scene.title += ", storey " + std::to_string(index_of(storey));
+    Status written;
+    if (run.has_plan) written = write_picture(directory / name_on(storey, "plan", ".png"), draw_plan(scene));
+    if (!written) return written;
+    const RgbImage picture = draw_map(scene);
+    written = write_picture(directory / name_on(storey, "map", ".png"), picture);
+    if (written && storey == StoreyId{})
+      written = write_picture(directory / "thumbnail.png", thumbnail_of(picture, kThumbnailPx));
+    if (!written) return written;
+  }
+  return {};
 }
 
 /// A line at a time: hours of a patrol need not fit into memory.
@@ -95,14 +106,20 @@ std::vector<std::string> files_of_earlier_run(const std::filesystem::path& direc
 }  // namespace
 
 Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map) {
-  const std::vector<TileIndex> tiles = map.tiles();
-  Status written = write_file(directory / "map.pgm", [&](const FileSink& write) {
-    write_pgm(
-        tiles, [&map](TileIndex index) { return map.tile(index); }, write);
-    return Status();
-  });
-  if (!written) return written;
-  return write_file(directory / "map.yaml", ros_map_yaml(tiles, map.config().resolution_m, "map.pgm"));
+  for (const StoreyId storey : map.storeys()) {
+    const std::vector<TileIndex> tiles = map.tiles(storey);
+    const std::string pgm = name_on(storey, "map", ".pgm");
+    Status written = write_file(directory / pgm, [&](const FileSink& write) {
+      write_pgm(
+          tiles, [&map](TileIndex index) { return map.tile(index); }, write);
+      return Status();
+    });
+    if (written)
+      written = write_file(directory / name_on(storey, "map", ".yaml"),
+                           ros_map_yaml(tiles, map.config().resolution_m, pgm));
+    if (!written) return written;
+  }
+  return {};
 }
 
 Status for_each_scan(const RunView& run, const std::function<void(const TrajectoryPoint&)>& visit) {
@@ -135,8 +152,12 @@ std::vector<std::string> output_names(const RunView& run) {
   std::vector<std::string> names{"trajectory.tum", "odometry.tum", "live.tum"};
   if (!run.truth.empty()) names.emplace_back(kTruth);
   if (!run.places.empty()) names.emplace_back(kPlaces);
-  if (run.has_plan) names.emplace_back(kPlan);
-  names.insert(names.end(), {"map.pgm", "map.yaml", "map.png", "thumbnail.png", kReport});
+  for (const StoreyId storey : run.map.storeys()) {
+    if (run.has_plan) names.push_back(name_on(storey, "plan", ".png"));
+    for (const char* const extension : {".pgm", ".yaml", ".png"})
+      names.push_back(name_on(storey, "map", extension));
+  }
+  names.insert(names.end(), {"thumbnail.png", kReport});
   return names;
 }
 

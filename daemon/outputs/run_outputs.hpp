@@ -70,12 +70,12 @@ struct RunError {
 /// nullopt when the truth knows none of the scans.
 [[nodiscard]] std::optional<RunError> run_error(const RunView& run);
 
-/// map.pgm and map.yaml.
+/// map.pgm and map.yaml of the first storey; of the others map_storey1.pgm and so on.
 [[nodiscard]] Status write_map_files(const std::filesystem::path& directory, const MapBuilder& map);
 
 /// The names of the files that write_run_outputs() writes of this run, in that order: trajectories (the true
-/// one where it is known), marked places if there are any, map, pictures (plan.png where it is wanted), at
-/// last report.json, which lists them.
+/// one where it is known), marked places if there are any, map and pictures of each storey (plan.png where it
+/// is wanted), at last report.json, which lists them.
 [[nodiscard]] std::vector<std::string> output_names(const RunView& run);
 
 struct WrittenOutputs {

@@ -129,6 +129,19 @@ Json map_json(const MapBuilder& map) {
   return json;
 }
 
+/// By storey; null where the input does not show how high it lies.
+Json storeys_json(const RunView& run) {
+  const std::vector<double>& levels_m = run.input.storey_levels_m;
+  Json json = Json::array();
+  for (const StoreyId storey : run.map.storeys()) {
+    const std::size_t i = index_of(storey);
+    json.push_back({{"storey", i},
+                    {"level_m", i < levels_m.size() ? Json(levels_m[i]) : Json(nullptr)},
+                    {"tiles", run.map.tiles(storey).size()}});
+  }
+  return json;
+}
+
 Json times_json(const std::vector<StageSummary>& times) {
   Json json = Json::object();
   for (const StageSummary& stage : times)
@@ -175,7 +188,8 @@ std::string run_report_json(const RunView& run) {
             {"backend", backend_json(run.backend)},
             {"tracking", tracking_json(run.backend.tracking())},
             {"trajectory", trajectory_json(run.backend)},
-            {"map", map_json(run.map)}};
+            {"map", map_json(run.map)},
+            {"storeys", storeys_json(run)}};
   if (const auto error = run_error(run))
     json["absolute_trajectory_error"] = {{"samples", error->corrected.pairs},
                                          {"odometry", error_json(error->odometry)},

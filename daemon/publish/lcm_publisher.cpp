@@ -192,6 +192,11 @@ void fill_stages(std::span<const StageSummary> stages, status_t& message) {
   message.stage_count = i32(message.stages.size());
 }
 
+std::int8_t storey_code(StoreyId storey) {
+  static_assert(kMaxStoreys <= 127);
+  return static_cast<std::int8_t>(index_of(storey));
+}
+
 std::int8_t recording_code(RecordingState state) {
   switch (state) {
     case RecordingState::kNone:
@@ -283,6 +288,7 @@ void LcmPublisher::send_pose(const std::string& channel, std::int8_t frame, cons
   message.x = pose.x_m();
   message.y = pose.y_m();
   message.yaw = pose.yaw_rad();
+  message.storey = storey_code(update.storey);
   message.tracking = tracking_code(update.tracking);
   const bool is_map = frame == pose_t::FRAME_MAP;
   copy_covariance(is_map ? update.from_surroundings : Covariance3{}, message.covariance_map);
@@ -323,6 +329,7 @@ void LcmPublisher::publish_tile(HostTime now, const MapTile& tile, double resolu
   message.map_id = map_id_;
   message.tile_x = tile.index.x;
   message.tile_y = tile.index.y;
+  message.storey = storey_code(tile.index.storey);
   message.version = i32(tile.version);
   message.resolution = resolution_m;
   static_assert(sizeof(message.occupancy_percent) == sizeof(tile.occupancy_percent));
@@ -358,6 +365,7 @@ void LcmPublisher::publish_walls(HostTime now, std::span<const WallInMap> walls)
     message.landmarks.resize(part.size());
     for (std::size_t i = 0; i < part.size(); ++i) {
       message.landmarks[i].id = i32(index_of(part[i].id));
+      message.landmarks[i].storey = storey_code(part[i].storey);
       copy_point(part[i].start_map, message.landmarks[i].start);
       copy_point(part[i].end_map, message.landmarks[i].end);
     }
@@ -383,6 +391,7 @@ void LcmPublisher::publish_closure(HostTime now, const ClosureUpdate& update) {
   message.score = closure.score;
   message.dcs_scale = closure.dcs_scale;
   message.dropped = static_cast<std::int8_t>(closure.dropped ? 1 : 0);
+  message.storey = storey_code(update.storey);
   copy_point(update.from_map, message.from_map);
   copy_point(update.to_map, message.to_map);
   send(loop_closure_, message);

@@ -59,6 +59,7 @@ class MbotPublisher final : public Publisher {
 
   void publish_pose(const PoseUpdate& pose) override {
     own_->publish_pose(pose);
+    storey_ = pose.storey;
     send("SLAM_POSE", pose2d_message(pose.stamp, pose.T_map_body));
     send("MBOT_ODOMETRY", pose2d_message(pose.stamp, pose.T_odom_body));
     send_lidar(pose);
@@ -86,6 +87,7 @@ class MbotPublisher final : public Publisher {
   std::unique_ptr<Publisher> own_;
   MessageSink sink_;
   std::map<TileIndex, Cells> tiles_;
+  StoreyId storey_{};  // where the vehicle is: a grid shows one
   // Kept from message to message for their storage.
   mbot_lidar_t lidar_;
   mbot_occupancy_grid_t grid_;
@@ -126,7 +128,8 @@ class MbotPublisher final : public Publisher {
     grid_.height = layout.rows();
     grid_.num_cells = static_cast<std::int32_t>(layout.cells());
     grid_.cells.assign(layout.cells(), 0);
-    for (const auto& [index, cells] : tiles_) draw(index, cells, layout);
+    for (const auto& [index, cells] : tiles_)
+      if (index.storey == storey_) draw(index, cells, layout);
     send("SLAM_MAP", grid_);
   }
 

@@ -21,10 +21,13 @@ FoxgloveTransforms transforms_of(const TrailPose& first, const TrailPose& pose) 
           .T_map_odom = pose_of(first.map) * pose_of(first.odom).inverse()};
 }
 
-/// Changes when the tiles do.
+/// Changes when the tiles of the storey that is looked at do, and with the storey.
 std::uint64_t content_of_tiles(const RunHistory& history, std::optional<std::int64_t> at_us) {
-  std::uint64_t versions = 0;
+  constexpr std::uint64_t kBeyondVersions = 1ULL << 48U;
+  const StoreyId storey = history.storey_at(at_us);
+  std::uint64_t versions = index_of(storey) * kBeyondVersions;
   for (const auto& [index, tiles] : history.tiles()) {
+    if (index.storey != storey) continue;
     const auto* const entry = at_us ? tiles.at(*at_us) : tiles.newest();
     if (entry != nullptr) versions += entry->value.version;
   }
@@ -175,9 +178,12 @@ FoxgloveFeed::Text FoxgloveFeed::map_text(const RunHistory& history) {
 FoxgloveFeed::Text FoxgloveFeed::walls_text(const RunHistory& history) {
   Stream& walls = stream(FoxgloveTopic::kWalls);
   const auto* const entry = at_us_ ? history.walls().at(*at_us_) : history.walls().newest();
-  if (entry == nullptr || entry->serial == walls.serial) return std::nullopt;
+  const StoreyId storey = history.storey_at(at_us_);
+  if (entry == nullptr || (entry->serial == walls.serial && walls.content == index_of(storey)))
+    return std::nullopt;
   walls.serial = entry->serial;
-  return walls_json(now_us_, entry->value);
+  walls.content = index_of(storey);
+  return walls_json(now_us_, history.walls_at(at_us_, storey));
 }
 
 FoxgloveFeed::Text FoxgloveFeed::closures_text(const RunHistory& history) {

@@ -50,7 +50,7 @@ class FoxgloveFeed {
     bool is_wanted = false;
     bool must_clear = false;    // what was drawn of the run before
     std::uint32_t serial = 0;   // of a pose, event, status, or list of walls
-    std::uint64_t content = 0;  // of the map or closures
+    std::uint64_t content = 0;  // of the map or closures; of walls the storey
     std::int64_t due_us = 0;
   };
   using Text = std::optional<std::string>;

@@ -22,7 +22,9 @@ struct Extent {
 
 std::vector<TileAsOf> tiles_as_of(const RunHistory& history, std::optional<std::int64_t> at_us) {
   std::vector<TileAsOf> tiles;
+  const StoreyId storey = history.storey_at(at_us);
   for (const auto& [index, versions] : history.tiles()) {
+    if (index.storey != storey) continue;
     const auto* const entry = at_us ? versions.at(*at_us) : versions.newest();
     if (entry != nullptr) tiles.emplace_back(index, &entry->value);
   }

@@ -57,16 +57,20 @@ bool is_sound(const ranges_t& ranges) {
          std::all_of(ranges.bearing.begin(), ranges.bearing.end(),
                      [](float bearing_rad) { return std::isfinite(bearing_rad); });
 }
+bool is_storey(std::int8_t storey) { return storey >= 0 && storey < static_cast<int>(kMaxStoreys); }
 bool is_sound(const map_tile_t& tile) {
-  return std::abs(tile.tile_x) < kMaxTileIndex && std::abs(tile.tile_y) < kMaxTileIndex && tile.version > 0 &&
-         tile.resolution > 1e-3 && tile.resolution < 10.0;
+  return is_storey(tile.storey) && std::abs(tile.tile_x) < kMaxTileIndex &&
+         std::abs(tile.tile_y) < kMaxTileIndex && tile.version > 0 && tile.resolution > 1e-3 &&
+         tile.resolution < 10.0;
 }
 bool is_sound(const landmarks_t& walls) {
-  return std::all_of(walls.landmarks.begin(), walls.landmarks.end(),
-                     [](const landmark_t& wall) { return is_place(wall.start) && is_place(wall.end); });
+  return std::all_of(walls.landmarks.begin(), walls.landmarks.end(), [](const landmark_t& wall) {
+    return is_storey(wall.storey) && is_place(wall.start) && is_place(wall.end);
+  });
 }
 bool is_sound(const loop_closure_t& closure) {
-  return is_place(closure.from_map) && is_place(closure.to_map) && std::isfinite(closure.score);
+  return is_storey(closure.storey) && is_place(closure.from_map) && is_place(closure.to_map) &&
+         std::isfinite(closure.score);
 }
 bool is_sound(const status_t& status) {
   const std::array counts{status.samples,          status.gaps,
@@ -123,6 +127,7 @@ void MessageReader::add(const pose_t& message) {
                              .sequence = message.sequence,
                              .segment = message.segment,
                              .correction_version = message.correction_version,
+                             .storey = message.storey,
                              .tracking = message.tracking,
                              .covariance = std::to_array(message.covariance_map),
                              .map = pose};
@@ -143,8 +148,9 @@ void MessageReader::add(const ranges_t& message) {
 
 template <>
 void MessageReader::add(const map_tile_t& message) {
-  MapTile tile{.index = {message.tile_x, message.tile_y},
-               .version = static_cast<std::uint32_t>(message.version)};
+  MapTile tile{
+      .index = {message.tile_x, message.tile_y, make_id<StoreyId>(static_cast<std::size_t>(message.storey))},
+      .version = static_cast<std::uint32_t>(message.version)};
   std::memcpy(tile.occupancy_percent.data(), message.occupancy_percent, sizeof(message.occupancy_percent));
   history_.add_tile(message.utime, tile, message.resolution);
 }
@@ -154,7 +160,7 @@ void MessageReader::add(const landmarks_t& message) {
   if (message.first == 0) walls_.clear();
   if (static_cast<std::size_t>(message.first) != walls_.size() || walls_.size() > kMaxWalls) return;
   for (const landmark_t& wall : message.landmarks)
-    walls_.push_back({wall.id, {wall.start[0], wall.start[1]}, {wall.end[0], wall.end[1]}});
+    walls_.push_back({wall.id, {wall.start[0], wall.start[1]}, {wall.end[0], wall.end[1]}, wall.storey});
   if (walls_.size() == static_cast<std::size_t>(message.total)) history_.add_walls(message.utime, walls_);
 }
 
@@ -165,6 +171,7 @@ void MessageReader::add(const loop_closure_t& message) {
                             .to_keyframe = message.to_keyframe,
                             .from_map = {message.from_map[0], message.from_map[1]},
                             .to_map = {message.to_map[0], message.to_map[1]},
+                            .storey = message.storey,
                             .score = message.score};
   const bool is_dropped = message.dropped != 0;
   narrator_.see_closure(closure, is_dropped, message.utime);

@@ -59,6 +59,7 @@ void put_record(ByteWriter& out, const TrailPose& pose, std::size_t beams) {
   out.put(pose.segment);
   out.put(pose.correction_version);
   out.put(std::int32_t{pose.tracking});
+  out.put(std::int32_t{pose.storey});
   for (const double entry : pose.covariance) out.put_f32(entry);
   out.put(pose.serial);
   for (std::size_t i = 0; i < beams; ++i) out.put(i < pose.ranges_m.size() ? pose.ranges_m[i] : kUnknown);
@@ -119,8 +120,13 @@ WebMessage closures_message(std::span<const SeenClosure> closures) {
                     {"to_keyframe", closure.to_keyframe},
                     {"from_map", closure.from_map},
                     {"to_map", closure.to_map},
+                    {"storey", closure.storey},
                     {"score", closure.score}});
   return page_message({{"type", "closures"}, {"closures", std::move(list)}});
+}
+
+WebMessage storey_message(StoreyId storey) {
+  return page_message({{"type", "storey"}, {"storey", index_of(storey)}});
 }
 
 WebMessage synced_message(std::int64_t at_us) {
@@ -128,7 +134,7 @@ WebMessage synced_message(std::int64_t at_us) {
 }
 
 WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad) {
-  constexpr std::size_t kRecordBytes = 88;
+  constexpr std::size_t kRecordBytes = 92;
   const std::size_t beams = bearings_rad.size();
   ByteWriter out(kPosesKind, poses.size(), static_cast<double>(beams), kRecordBytes + beams * sizeof(float));
   for (const float bearing : bearings_rad) out.put(bearing);

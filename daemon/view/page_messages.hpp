@@ -24,13 +24,14 @@ namespace swiftlet {
 //   status    as of the moment that is looked at: the members of RunStatus
 //   events    events: new ones, each with utime_us, level (0 note, 1 good, 2 warning, 3 bad), text
 //   closures  closures: new and changed ones: the members of SeenClosure
+//   storey    storey: the one that is shown from now on; 0 at the beginning. Forget walls and tiles
 //   synced    everything up to the moment that is looked at has been sent. utime_us of that moment; 0: the
 //   newest
 // From the server, as bytes, little-endian: a header of 16 bytes (u32 kind, u32 count, f64 value), then
 // `count` records:
 //   1 poses, value n: number of beams. f32[n] bearings come before the records.
 //     A record: f64 utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment,
-//     correction_version, tracking; f32[6] covariance_map as in pose_t; u32 serial; f32[n] ranges as
+//     correction_version, tracking, storey; f32[6] covariance_map as in pose_t; u32 serial; f32[n] ranges as
 //     TrailPose::ranges_m
 //   2 walls, value utime_us: all of them: i32 id; f32[4] start x, y, end x, y
 //   3 tiles, value resolution_m: i32 x, y, version; i8[4096] occupancy as in map_tile_t. Version 0: gone
@@ -51,6 +52,7 @@ struct ShownSource {
 [[nodiscard]] WebMessage status_message(const RunStatus& status);
 [[nodiscard]] WebMessage events_message(std::span<const RunEvent> events);
 [[nodiscard]] WebMessage closures_message(std::span<const SeenClosure> closures);
+[[nodiscard]] WebMessage storey_message(StoreyId storey);
 [[nodiscard]] WebMessage synced_message(std::int64_t at_us);
 /// `bearings_rad` as RunHistory::bearings_rad().
 [[nodiscard]] WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad);

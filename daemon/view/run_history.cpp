@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace swiftlet {
@@ -93,6 +94,22 @@ void RunHistory::add_ranges(std::int32_t sequence, const std::vector<float>& bea
   poses_.back().ranges_m = std::move(ranges_m);
   ++changes_;
   if (ranges_ > limits_.ranges) thin_ranges();
+}
+
+StoreyId RunHistory::storey_at(std::optional<std::int64_t> at_us) const {
+  auto end = poses_.end();
+  if (at_us) end = std::ranges::upper_bound(poses_, *at_us, {}, &TrailPose::utime_us);
+  return end == poses_.begin() ? StoreyId{} : make_id<StoreyId>(static_cast<std::size_t>((end - 1)->storey));
+}
+
+std::vector<SeenWall> RunHistory::walls_at(std::optional<std::int64_t> at_us, StoreyId storey) const {
+  const auto* const entry = at_us ? walls_.at(*at_us) : walls_.newest();
+  std::vector<SeenWall> walls;
+  if (entry == nullptr) return walls;
+  std::ranges::copy_if(entry->value, std::back_inserter(walls), [storey](const SeenWall& wall) {
+    return wall.storey == static_cast<std::int8_t>(index_of(storey));
+  });
+  return walls;
 }
 
 std::span<const TrailPose> RunHistory::poses_after(std::uint32_t serial) const {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/ids.hpp"
 #include "core/mapping/map_tile.hpp"
 #include "daemon/view/as_of_list.hpp"
 
@@ -25,6 +26,7 @@ struct TrailPose {
   std::int32_t sequence = 0;
   std::int32_t segment = 0;
   std::int32_t correction_version = 0;
+  std::int8_t storey = 0;              ///< as in pose_t
   std::int8_t tracking = 0;            ///< pose_t::TRACKING_...
   std::array<double, 6> covariance{};  ///< of map, relative to the part of the map around; as in pose_t
   std::array<double, 3> map{};         ///< x, y, yaw in frame map
@@ -40,6 +42,7 @@ struct SeenWall {
   std::int32_t id = 0;
   std::array<float, 2> start{};  ///< m, frame map
   std::array<float, 2> end{};
+  std::int8_t storey = 0;  ///< as in pose_t
   bool operator==(const SeenWall&) const = default;
 };
 
@@ -52,6 +55,7 @@ struct SeenClosure {
   std::int32_t to_keyframe = 0;
   std::array<double, 2> from_map{};  ///< m
   std::array<double, 2> to_map{};
+  std::int8_t storey = 0;  ///< as in pose_t, of both
   double score = 0.0;
 };
 
@@ -146,6 +150,10 @@ class RunHistory {
   [[nodiscard]] const std::vector<float>& bearings_rad() const { return bearings_rad_; }
   /// nullptr before the first; valid until the next change.
   [[nodiscard]] const TrailPose* newest_pose() const { return poses_.empty() ? nullptr : &poses_.back(); }
+  /// Of the newest pose that is not after `at_us`; unset: of the newest. The first where there is none.
+  [[nodiscard]] StoreyId storey_at(std::optional<std::int64_t> at_us) const;
+  /// Of that storey, as of that moment.
+  [[nodiscard]] std::vector<SeenWall> walls_at(std::optional<std::int64_t> at_us, StoreyId storey) const;
   /// The newest pose has arrived in all its frames only when the next one is there, or odom is.
   [[nodiscard]] std::span<const TrailPose> poses_after(std::uint32_t serial) const;
   /// Those of the events after `serial`, oldest first.

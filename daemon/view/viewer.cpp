@@ -36,6 +36,7 @@ std::optional<WebMessage> Viewer::next_of_run(const RunHistory& history) {
   if (auto message = next_poses(history)) return message;
   if (auto message = next_events(history)) return message;
   if (auto message = next_closures(history)) return message;
+  if (auto message = next_storey(history)) return message;
   if (auto message = next_walls(history)) return message;
   return next_tiles(history);
 }
@@ -75,18 +76,29 @@ std::optional<WebMessage> Viewer::next_closures(const RunHistory& history) {
   return closures_message(changed);
 }
 
+/// The page shows one storey: what it has of another is void.
+std::optional<WebMessage> Viewer::next_storey(const RunHistory& history) {
+  const StoreyId storey = history.storey_at(at_us_);
+  if (storey == sent_.storey) return std::nullopt;
+  sent_.storey = storey;
+  sent_.walls_serial = 0;
+  sent_.tile_versions.clear();
+  return storey_message(storey);
+}
+
 std::optional<WebMessage> Viewer::next_walls(const RunHistory& history) {
   const auto* const entry = looked_at(history.walls());
   const std::uint32_t serial = entry == nullptr ? 0 : entry->serial;
   if (serial == sent_.walls_serial) return std::nullopt;
   sent_.walls_serial = serial;
   if (entry == nullptr) return walls_message(0, {});
-  return walls_message(entry->utime_us, entry->value);
+  return walls_message(entry->utime_us, history.walls_at(at_us_, sent_.storey));
 }
 
 std::optional<WebMessage> Viewer::next_tiles(const RunHistory& history) {
   std::vector<TileAsOf> changed;
   for (const auto& [index, versions] : history.tiles()) {
+    if (index.storey != sent_.storey) continue;
     const auto* const entry = looked_at(versions);
     const std::uint32_t version = entry == nullptr ? 0 : entry->value.version;
     const auto sent = sent_.tile_versions.find(index);

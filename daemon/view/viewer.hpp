@@ -48,6 +48,7 @@ class Viewer final : public Conversation {
     std::uint32_t event_serial = 0;
     std::uint64_t closure_change = 0;
     std::uint32_t status_serial = 0;
+    StoreyId storey{};
     std::uint32_t walls_serial = 0;
     std::map<TileIndex, std::uint32_t> tile_versions{};
   };
@@ -58,6 +59,7 @@ class Viewer final : public Conversation {
   [[nodiscard]] std::optional<WebMessage> next_poses(const RunHistory& history);
   [[nodiscard]] std::optional<WebMessage> next_events(const RunHistory& history);
   [[nodiscard]] std::optional<WebMessage> next_closures(const RunHistory& history);
+  [[nodiscard]] std::optional<WebMessage> next_storey(const RunHistory& history);
   [[nodiscard]] std::optional<WebMessage> next_walls(const RunHistory& history);
   [[nodiscard]] std::optional<WebMessage> next_tiles(const RunHistory& history);
   template <typename Value>

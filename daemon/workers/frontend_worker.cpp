@@ -65,6 +65,7 @@ void FrontendWorker::report(const FrontendStep& step) noexcept {
        .T_map_body = step.T_map_body,
        .T_local_body = step.T_local_body,
        .T_odom_body = sample.T_odom_body,
+       .storey = sample.storey,
        .tracking = confidence_.figures.tracking,
        .from_start = carried_on(confidence_.from_start, confidence_, step.T_local_body),
        .from_surroundings = carried_on(confidence_.from_surroundings, confidence_, step.T_local_body),

@@ -11,7 +11,8 @@ bool moved(const Point2& from, const Point2& to) { return distance_m(from, to) >
 
 WallInMap in_map(const Wall& wall, const Backend& backend) {
   const Pose2 T_map_anchor = backend.T_map_keyframe(wall.anchor);
-  return {wall.id, T_map_anchor * wall.start_keyframe, T_map_anchor * wall.end_keyframe, false};
+  return {wall.id, T_map_anchor * wall.start_keyframe, T_map_anchor * wall.end_keyframe,
+          backend.keyframes().storey(wall.anchor), false};
 }
 
 }  // namespace
@@ -84,7 +85,8 @@ bool MapFeed::flush_closures(const Backend& backend) {
     static_cast<void>(publisher_.closures.try_push(  // has room
         {.closure = closure,
          .from_map = backend.T_map_keyframe(closure.from).position(),
-         .to_map = backend.T_map_keyframe(closure.to).position()}));
+         .to_map = backend.T_map_keyframe(closure.to).position(),
+         .storey = backend.keyframes().storey(closure.to)}));
     sent_closures_.insert_or_assign(closure.id, closure.dropped);
   }
   return true;

@@ -46,6 +46,7 @@ struct PoseUpdate {
   Pose2 T_map_body{};
   Pose2 T_local_body{};
   Pose2 T_odom_body{};
+  StoreyId storey{};
   Tracking tracking = Tracking::kTracking;
   Covariance3 from_start{};         ///< of T_map_body, as PoseConfidence's; zero before the first keyframe
   Covariance3 from_surroundings{};  ///< likewise
@@ -68,6 +69,7 @@ struct WallInMap {
   LandmarkId id{};
   Point2 start_map{};
   Point2 end_map{};
+  StoreyId storey{};
   bool is_gone = false;  ///< forgotten
 };
 
@@ -76,6 +78,7 @@ struct ClosureUpdate {
   LoopClosure closure{};  ///< keyframes by their frontend ids
   Point2 from_map{};      ///< where the two keyframes stand now
   Point2 to_map{};
+  StoreyId storey{};  ///< of both
 };
 
 static_assert(std::is_trivially_copyable_v<PoseUpdate> && std::is_trivially_copyable_v<InputStatus> &&

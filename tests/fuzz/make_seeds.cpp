@@ -265,7 +265,7 @@ std::vector<std::uint8_t> published_messages() {
   append_message(bytes, 4, tile);
   landmarks_t walls{};
   walls.total = walls.count = 1;
-  walls.landmarks.push_back({.id = 1, .start = {0, 0}, .end = {1, 0}});
+  walls.landmarks.push_back({.id = 1, .storey = 0, .start = {0, 0}, .end = {1, 0}});
   append_message(bytes, 5, walls);
   append_message(bytes, 6, loop_closure_t{});
   status_t status{};

@@ -52,7 +52,7 @@ class InstalledMessagesTest(unittest.TestCase):
         lines = run(project / "build/consumer",
                     env={**os.environ, "LCM_DEFAULT_URL": f"file://{log}?mode=r&speed=0"}).splitlines()
         poses = [line for line in lines if re.fullmatch(r"-?\d+\.\d\d m -?\d+\.\d\d m -?\d\.\d\d rad", line)]
-        tiles = [line for line in lines if re.fullmatch(r"tile -?\d+ -?\d+, version \d+", line)]
+        tiles = [line for line in lines if re.fullmatch(r"tile -?\d+ -?\d+ of storey 0, version \d+", line)]
         self.assertGreater(len(poses), 400, "one a sample of 46 s at 10 Hz")
         self.assertGreater(len(tiles), 10)
         self.assertEqual(len(poses) + len(tiles), len(lines))

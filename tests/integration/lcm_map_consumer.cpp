@@ -78,7 +78,8 @@ class MapConsumer {
   void take(const map_tile_t& message) {
     if (message.map_id != map_id_) tiles_.clear();
     map_id_ = message.map_id;
-    MapTile tile{.index = {message.tile_x, message.tile_y},
+    MapTile tile{.index = {message.tile_x, message.tile_y,
+                           make_id<StoreyId>(static_cast<std::size_t>(message.storey))},
                  .version = static_cast<std::uint32_t>(message.version)};
     std::memcpy(tile.occupancy_percent.data(), message.occupancy_percent, sizeof(message.occupancy_percent));
     MapTile& kept = tiles_.try_emplace(tile.index, tile).first->second;

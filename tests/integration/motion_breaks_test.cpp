@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 // Breaks of motion in simulated flights: what was mapped before stays right, and the vehicle finds back.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "tests/support/corrected_run.hpp"
 
 namespace swiftlet {
 namespace {
+
+TEST(Storeys, AreToldApartAndNotMixed) {
+  const CorrectedRun run = corrected_run("sim://storeys?seed=1");
+  std::vector<std::size_t> visited;
+  for (const RangeSample& sample : run.samples)
+    if (visited.empty() || visited.back() != index_of(sample.storey))
+      visited.push_back(index_of(sample.storey));
+  EXPECT_THAT(visited, testing::ElementsAre(0U, 1U, 0U));
+  EXPECT_THAT(run.input.storey_levels_m, testing::ElementsAre(0.0, testing::DoubleNear(3.2, 0.4)));
+  EXPECT_LT(error_m(run), 0.2) << "0.29 m where rooms are matched with those below";
+  EXPECT_EQ(std::ranges::count(run.tracking, Tracking::kTracking), std::ssize(run.tracking));
+}
 
 class MotionBreaksTest : public testing::TestWithParam<const char*> {};
 

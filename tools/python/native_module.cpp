@@ -93,7 +93,9 @@ py::dict dict_of(MappedInput run) {
   out["walls"] = rows_of(std::move(arrays.walls), kSegmentColumns);
   out["closures"] = rows_of(std::move(arrays.closures), kSegmentColumns);
   out["dropped_closures"] = rows_of(std::move(arrays.dropped_closures), kSegmentColumns);
-  out["grid"] = grid_of(std::move(arrays.grid));
+  py::dict grids;
+  for (auto& [storey, grid] : arrays.grids) grids[py::int_(index_of(storey))] = grid_of(std::move(grid));
+  out["grids"] = grids;
   out["report"] = run.report_json;
   out["notes"] = run.notes;
   out["problems"] = run.problems;
@@ -162,7 +164,7 @@ py::dict fields_of(const pose_t& message) {
                   "keyframe"_a = message.keyframe, "correction_version"_a = message.correction_version,
                   "correction_m"_a = message.correction, "frame"_a = name_of_code(kFrames, message.frame),
                   "x_m"_a = message.x, "y_m"_a = message.y, "yaw_rad"_a = message.yaw,
-                  "tracking"_a = name_of_code(kTrackingStates, message.tracking),
+                  "storey"_a = message.storey, "tracking"_a = name_of_code(kTrackingStates, message.tracking),
                   "covariance_map"_a = covariance_of(message.covariance_map),
                   "covariance_start"_a = covariance_of(message.covariance_start));
 }
@@ -189,36 +191,39 @@ py::dict fields_of(const map_tile_t& message) {
   std::vector<std::int8_t> percent(cells, cells + sizeof(message.occupancy_percent));
   constexpr py::ssize_t kSide = std::extent_v<decltype(message.occupancy_percent)>;
   return py::dict("time_s"_a = seconds(message.utime), "map_id"_a = message.map_id,
-                  "tile_x"_a = message.tile_x, "tile_y"_a = message.tile_y, "version"_a = message.version,
-                  "resolution_m"_a = message.resolution,
+                  "tile_x"_a = message.tile_x, "tile_y"_a = message.tile_y, "storey"_a = message.storey,
+                  "version"_a = message.version, "resolution_m"_a = message.resolution,
                   "occupancy_percent"_a = array_of(std::move(percent), {kSide, kSide}));
 }
 
 py::dict fields_of(const WallsMessage& message) {
   using py::literals::operator""_a;
   std::vector<std::int32_t> ids;
+  std::vector<std::int8_t> storeys;
   std::vector<double> segments;
   for (const landmark_t& wall : message.walls) {
     ids.push_back(wall.id);
+    storeys.push_back(wall.storey);
     for (const float coordinate : {wall.start[0], wall.start[1], wall.end[0], wall.end[1]})
       segments.push_back(static_cast<double>(coordinate));
   }
   const auto count = static_cast<py::ssize_t>(ids.size());
   return py::dict("time_s"_a = seconds(message.utime), "map_id"_a = message.map_id,
                   "ids"_a = array_of(std::move(ids), {count}),
+                  "storeys"_a = array_of(std::move(storeys), {count}),
                   "segments_m"_a = rows_of(std::move(segments), kSegmentColumns));
 }
 
 py::dict fields_of(const loop_closure_t& message) {
   using py::literals::operator""_a;
   const auto point = [](const double(&p)[2]) { return py::make_tuple(p[0], p[1]); };
-  return py::dict("time_s"_a = seconds(message.utime), "map_id"_a = message.map_id, "index"_a = message.index,
-                  "from_keyframe"_a = message.from_keyframe, "to_keyframe"_a = message.to_keyframe,
-                  "x_m"_a = message.x, "y_m"_a = message.y, "yaw_rad"_a = message.yaw,
-                  "sigma_x_m"_a = message.sigma_x, "sigma_y_m"_a = message.sigma_y,
-                  "sigma_yaw_rad"_a = message.sigma_yaw, "score"_a = message.score,
-                  "dcs_scale"_a = message.dcs_scale, "dropped"_a = message.dropped != 0,
-                  "from_m"_a = point(message.from_map), "to_m"_a = point(message.to_map));
+  return py::dict(
+      "time_s"_a = seconds(message.utime), "map_id"_a = message.map_id, "index"_a = message.index,
+      "from_keyframe"_a = message.from_keyframe, "to_keyframe"_a = message.to_keyframe, "x_m"_a = message.x,
+      "y_m"_a = message.y, "yaw_rad"_a = message.yaw, "sigma_x_m"_a = message.sigma_x,
+      "sigma_y_m"_a = message.sigma_y, "sigma_yaw_rad"_a = message.sigma_yaw, "score"_a = message.score,
+      "dcs_scale"_a = message.dcs_scale, "dropped"_a = message.dropped != 0, "storey"_a = message.storey,
+      "from_m"_a = point(message.from_map), "to_m"_a = point(message.to_map));
 }
 
 py::dict fields_of(const link_status_t& link) {

@@ -73,7 +73,8 @@ Result<RunArrays> arrays_of(const MappedRun& run) {
   arrays.walls = rows_of(scene.walls);
   arrays.closures = rows_of(scene.closures);
   arrays.dropped_closures = rows_of(scene.dropped_closures);
-  arrays.grid = grid_of(scene);
+  for (const StoreyId storey : run.view().map.storeys())
+    arrays.grids.emplace(storey, grid_of(make_map_scene(run.backend(), run.view().map, storey)));
   return arrays;
 }
 

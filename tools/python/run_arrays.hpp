@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
+#include "core/base/ids.hpp"
 #include "core/base/result.hpp"
 #include "core/geometry/point2.hpp"
 #include "tools/mapped_run.hpp"
@@ -37,7 +39,7 @@ struct RunArrays {
   std::vector<double> walls;             ///< segments, as map.png has them
   std::vector<double> closures;          ///< segments from keyframe to keyframe
   std::vector<double> dropped_closures;  ///< likewise: refused in the final pass
-  OccupancyGrid grid;
+  std::map<StoreyId, OccupancyGrid> grids;  ///< with the first; walls and closures are that one's
 };
 
 /// Errors: as PrunedScans::for_each_scan(). Allocates.

@@ -19,25 +19,26 @@ class OccupiedCells {
  public:
   OccupiedCells(const std::vector<MapTile>& tiles, int occupied_percent)
       : occupied_percent_(occupied_percent) {
-    for (const MapTile& tile : tiles) tiles_.emplace(tile.index, &tile);
+    for (const MapTile& tile : tiles) tiles_.emplace(std::pair{tile.index.x, tile.index.y}, &tile);
   }
   bool operator()(CellIndex cell) const {
-    const TileIndex index{floor_divide(cell.x), floor_divide(cell.y)};
+    const std::pair index{floor_divide(cell.x), floor_divide(cell.y)};
     const auto found = tiles_.find(index);
     if (found == tiles_.end()) return false;
-    const int i = (cell.y - index.y * kTileCells) * kTileCells + (cell.x - index.x * kTileCells);
+    const int i = (cell.y - index.second * kTileCells) * kTileCells + (cell.x - index.first * kTileCells);
     return found->second->occupancy_percent[static_cast<std::size_t>(i)] >= occupied_percent_;
   }
 
  private:
   static int floor_divide(int cell) { return cell >= 0 ? cell / kTileCells : (cell + 1) / kTileCells - 1; }
   int occupied_percent_;
-  std::map<TileIndex, const MapTile*> tiles_;
+  std::map<std::pair<int, int>, const MapTile*> tiles_;
 };
 
-void add_walls(MapScene& scene, const Backend& backend, const WallSupportTuning& tuning) {
+void add_walls(MapScene& scene, const Backend& backend, StoreyId storey, const WallSupportTuning& tuning) {
   const OccupiedCells is_occupied(scene.tiles, tuning.occupied_percent);
   for (const Wall& wall : backend.walls()) {
+    if (backend.keyframes().storey(wall.anchor) != storey) continue;
     const Pose2& T_map_anchor = backend.T_map_keyframe(wall.anchor);
     const MapSegment whole{T_map_anchor * wall.start_keyframe, T_map_anchor * wall.end_keyframe};
     const MapSegment fitted = fitted_to_grid(whole, scene.resolution_m, std::cref(is_occupied), tuning);
@@ -57,27 +58,31 @@ double path_length_m(const MapScene& scene) {
   return length_m;
 }
 
-MapScene make_map_scene(const Backend& backend, const MapBuilder& map) {
+MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId storey) {
   MapScene scene;
   scene.resolution_m = map.config().resolution_m;
-  const std::vector<TileIndex> tiles = map.tiles();
+  const std::vector<TileIndex> tiles = map.tiles(storey);
   scene.tiles.reserve(tiles.size());
   for (const TileIndex index : tiles) scene.tiles.push_back(map.tile(index));
 
   const ScanStore& scans = backend.scans();
   scene.scans.reserve(scans.size());
   Pose2 T_map_odom;
+  bool is_here = false;
   for (const auto& [id, scan] : scans.all()) {
+    const bool was_here = std::exchange(is_here, scan.storey == storey);
+    if (!is_here) continue;
+    const bool starts_segment = scan.starts_segment || !was_here;
     const Pose2 T_map_body = backend.T_map_body(id);
-    const bool starts_segment = scene.scans.empty() || scan.starts_segment;
     if (starts_segment) T_map_odom = T_map_body * scan.T_odom_body.inverse();
     scene.scans.push_back({T_map_body.position(), T_map_odom * scan.T_odom_body.position(), starts_segment});
   }
   if (scans.size() > 0) scene.began = scans.all().values().front().stamp;
   if (scans.size() > 0)
     scene.duration = scans.all().values().back().stamp - scans.all().values().front().stamp;
-  add_walls(scene, backend, map.config().tuning.walls);
+  add_walls(scene, backend, storey, map.config().tuning.walls);
   for (const LoopClosure& closure : backend.closures().values()) {
+    if (backend.keyframes().storey(closure.to) != storey) continue;
     const MapSegment ends{backend.T_map_keyframe(closure.from).position(),
                           backend.T_map_keyframe(closure.to).position()};
     (closure.dropped ? scene.dropped_closures : scene.closures).push_back(ends);

@@ -23,10 +23,10 @@ struct MapSegment {
 struct ScenePoint {
   Point2 corrected_map;
   Point2 odometry_map;          ///< dead reckoning, begun at the corrected pose of its segment's first scan
-  bool starts_segment = false;  ///< dead reckoning does not lead here from the scan before
+  bool starts_segment = false;  ///< dead reckoning does not lead here from the scan before on this storey
 };
 
-/// What a picture of a run shows, as plain values. All points are in the map frame.
+/// What a picture of one storey of a run shows, as plain values. All points are in the map frame.
 struct MapScene {
   double resolution_m = 0.05;
   std::vector<MapTile> tiles;
@@ -42,7 +42,7 @@ struct MapScene {
 /// Metres along the corrected path, without breaks.
 [[nodiscard]] double path_length_m(const MapScene& scene);
 
-/// The present state of a run, without a title. Allocates.
-[[nodiscard]] MapScene make_map_scene(const Backend& backend, const MapBuilder& map);
+/// The present state of a run on a storey, without a title. Allocates.
+[[nodiscard]] MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId storey = {});
 
 }  // namespace swiftlet

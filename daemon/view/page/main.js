@@ -84,6 +84,7 @@ class Page {
       walls: () => this.model.walls = message.walls,
       closures: () => this.model.addClosures(message.closures),
       events: () => this.model.events.push(...message.events),
+      storey: () => this.showStorey(message.storey),
       tiles: () => this.addTiles(message),
     };
     handlers[message.type]?.();
@@ -100,6 +101,12 @@ class Page {
     byId("title").textContent = titleOf(run);
     document.title = `${titleOf(run)} – swiftlet`;
     if (!isSame) this.isFitted = !this.isFollowing;
+  }
+
+  showStorey(storey) {
+    this.model.storey = storey;
+    this.model.walls = [];
+    this.tileMap.clear();
   }
 
   addTiles(message) {

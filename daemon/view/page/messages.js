@@ -7,7 +7,7 @@ const POSES_KIND = 1;
 const WALLS_KIND = 2;
 const TILES_KIND = 3;
 const HEADER_BYTES = 16;
-const POSE_BYTES = 88;  // without the ranges
+const POSE_BYTES = 92;  // without the ranges
 const WALL_BYTES = 20;
 export const TILE_CELLS = 64;
 const CELLS_IN_TILE = TILE_CELLS * TILE_CELLS;
@@ -27,7 +27,8 @@ function poseAt(view, offset, beams) {
     segment: view.getInt32(offset + 48, true),
     correction: view.getInt32(offset + 52, true),
     tracking: view.getInt32(offset + 56, true),
-    covariance: floatsAt(view, offset + 60, 6),
+    storey: view.getInt32(offset + 60, true),
+    covariance: floatsAt(view, offset + 64, 6),
     ranges: floatsAt(view, offset + POSE_BYTES, beams),
   };
 }

@@ -14,6 +14,8 @@ export class RunModel {
     this.poses = [];
     this.bearings = [];     // of the beams, in the body frame
     this.posesVersion = 0;  // counts up when poses are thinned: what was derived of them is void
+    this.storey = 0;        // that is shown
+    this.hasStoreys = false;
     this.walls = [];
     this.closures = new Map();
     this.events = [];
@@ -26,6 +28,7 @@ export class RunModel {
     for (const pose of poses) {
       pose.travel_m = travelTo(this.poses[this.poses.length - 1], pose);
       this.poses.push(pose);
+      this.hasStoreys ||= pose.storey > 0;
     }
     if (this.poses.length > MAX_POSES) this.thinPoses();
   }

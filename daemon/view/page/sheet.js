@@ -54,7 +54,7 @@ function addWalls(sheet, frame, model) {
 
 function addTrails(sheet, frame, model, layers, at_us) {
   const add = (member, colour) => {
-    for (const line of trailLines(model.poses, member, 0, model.indexAt(at_us)))
+    for (const line of trailLines(model.poses, member, 0, model.indexAt(at_us), model.storey))
       sheet.lines.push({points: line.map((point) => frame.toSheet(point)), colour, width_mm: 0.35});
   };
   if (layers.raw) add("odom", PRINT_COLOURS.raw);

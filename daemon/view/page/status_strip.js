@@ -26,6 +26,7 @@ function runGauges(model, status, pose) {
     gauges.push(["Mapped", `${Math.round(status.progress * 100)} %`, ""]);
   if (pose && pose.tracking >= 0)
     gauges.push(["Tracking", TRACKING[pose.tracking] ?? "?", ["good", "warning", "bad", "warning"][pose.tracking] ?? ""]);
+  if (pose && model.hasStoreys) gauges.push(["Storey", String(pose.storey), ""]);
   return gauges;
 }
 

@@ -28,14 +28,14 @@ export class TrailPaths {
   }
 
   forgetOld() {
-    const run = `${this.model.run.generation} ${this.model.posesVersion}`;
+    const run = `${this.model.run.generation} ${this.model.posesVersion} ${this.model.storey}`;
     if (run !== this.ofRun) this.blocks = [];
     this.ofRun = run;
   }
 
   path(from, to) {
     const path = new Path2D();
-    for (const line of trailLines(this.model.poses, this.member, from, to)) {
+    for (const line of trailLines(this.model.poses, this.member, from, to, this.model.storey)) {
       path.moveTo(line[0][0], line[0][1]);
       for (let i = 1; i < line.length; ++i) path.lineTo(line[i][0], line[i][1]);
     }
@@ -43,12 +43,16 @@ export class TrailPaths {
   }
 }
 
-/// Lists of points: the trail, interrupted where the pose jumped.
-export function trailLines(poses, member, from, to) {
+/// Lists of points: the trail on a storey, interrupted where the pose jumped.
+export function trailLines(poses, member, from, to, storey) {
   const lines = [];
   let before = null;
   for (let i = from; i <= to && i < poses.length; ++i) {
     const pose = poses[i];
+    if (pose.storey !== storey) {
+      before = null;
+      continue;
+    }
     if (before === null || isBroken(before, pose, member)) lines.push([]);
     lines[lines.length - 1].push(pose[member]);
     before = pose;

@@ -63,6 +63,27 @@ TEST(MapBuilder, DrawsTheWallsOfARoomAndClearsItsMiddle) {
   EXPECT_EQ(percent_at(map, 3.02, 3.0), -1);
 }
 
+TEST(MapBuilder, EachStoreyHasAMapOfItsOwn) {
+  std::vector<FrontendStep> steps = room_flight(100);
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(MapConfig{}, kSensor);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i >= 50) steps[i].sample.storey = StoreyId{1};
+    map.update(backend, backend.add(steps[i]).poses_changed);
+  }
+  EXPECT_THAT(map.storeys(), testing::ElementsAre(StoreyId{0}, StoreyId{1}));
+  EXPECT_EQ(map.tiles(StoreyId{0}).size() + map.tiles(StoreyId{1}).size(), map.tiles().size());
+  Backend only_above(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map_above(MapConfig{}, kSensor);
+  for (FrontendStep step : steps) {
+    if (step.sample.storey == StoreyId{0}) step.sample.status.fill(RangeStatus::kInvalid);
+    map_above.update(only_above, only_above.add(step).poses_changed);
+  }
+  EXPECT_EQ(map.tiles(StoreyId{1}), map_above.tiles());
+  for (const TileIndex index : map_above.tiles())
+    EXPECT_EQ(map.tile(index).occupancy_percent, map_above.tile(index).occupancy_percent);
+}
+
 TEST(MapBuilder, ClearsAlongBeamsWithoutReturnUpToTheSensorsRange) {
   Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
   MapBuilder map(MapConfig{}, kSensor);

@@ -73,7 +73,7 @@ std::vector<Scan> random_scans(int count, std::uint32_t seed) {
 TEST(ScanDrawing, DrawsASmallRoom) {
   ScanDrawing drawing(metre_cells(), 10.0);
   const std::vector<BeamEnd> beams = {{{4, 0}, true}, {{0, 2}, true}, {{-4, 0}, true}, {{0, -2}, true}};
-  drawing.draw(ScanId{0}, {4.5, 2.5, 0.0}, beams);
+  drawing.draw(ScanId{0}, {4.5, 2.5, 0.0}, {beams});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 9, 5), testing::ElementsAre("    #    ",  //
                                                                    "    .    ",  //
@@ -84,14 +84,14 @@ TEST(ScanDrawing, DrawsASmallRoom) {
 
 TEST(ScanDrawing, ABeamWithoutReturnOnlyClears) {
   ScanDrawing drawing(metre_cells(), 10.0);
-  drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, std::vector<BeamEnd>{{{4, 0}, false}});
+  drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, {std::vector<BeamEnd>{{{4, 0}, false}}});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 6, 1), testing::ElementsAre("....  "));
 }
 
 TEST(ScanDrawing, ClearsUpToItsRangeAndMarksHitsBeyond) {
   ScanDrawing drawing(metre_cells(), 3.0);
-  drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, std::vector<BeamEnd>{{{6, 0}, true}});
+  drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, {std::vector<BeamEnd>{{{6, 0}, true}}});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 8, 1), testing::ElementsAre("...   # "));
 }
@@ -99,10 +99,10 @@ TEST(ScanDrawing, ClearsUpToItsRangeAndMarksHitsBeyond) {
 TEST(ScanDrawing, MovingAScanLeavesNoTraceOfWhereItWas) {
   ScanDrawing drawing(metre_cells(), 10.0);
   const std::vector<BeamEnd> beams = {{{3, 0}, true}};
-  drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, beams);
+  drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, {beams});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 5, 4), testing::ElementsAre("     ", "     ", "     ", "...# "));
-  drawing.draw(ScanId{0}, {0.5, 0.5, kPi / 2.0}, beams);
+  drawing.draw(ScanId{0}, {0.5, 0.5, kPi / 2.0}, {beams});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 5, 4), testing::ElementsAre("#    ", ".    ", ".    ", ".    "));
 }
@@ -111,7 +111,7 @@ TEST(ScanDrawing, DoesNotDependOnTheWayThePosesCameAbout) {
   const std::vector<Scan> last = random_scans(200, 1);
   ScanDrawing at_once(MapConfig{}, 3.0);
   for (std::size_t i = 0; i < last.size(); ++i)
-    at_once.draw(make_id<ScanId>(i), last[i].T_map_body, last[i].beams);
+    at_once.draw(make_id<ScanId>(i), last[i].T_map_body, {last[i].beams});
 
   ScanDrawing wandering(MapConfig{}, 3.0);
   std::mt19937 generator(2);
@@ -121,10 +121,10 @@ TEST(ScanDrawing, DoesNotDependOnTheWayThePosesCameAbout) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::shuffle(order.begin(), order.end(), generator);
     for (const std::size_t i : order)
-      wandering.draw(make_id<ScanId>(i), elsewhere[i].T_map_body, last[i].beams);
+      wandering.draw(make_id<ScanId>(i), elsewhere[i].T_map_body, {last[i].beams});
   }
   for (std::size_t i = last.size(); i-- > 0;)
-    wandering.draw(make_id<ScanId>(i), last[i].T_map_body, last[i].beams);
+    wandering.draw(make_id<ScanId>(i), last[i].T_map_body, {last[i].beams});
   expect_same_map(at_once, wandering);
 }
 
@@ -138,16 +138,16 @@ TEST(ScanDrawing, ManySmallCorrectionsEndWhereOneLargeOneDoes) {
       const double share = step / 400.0;
       const Pose2 T_part_map(T_moved_map.x_m() * share, T_moved_map.y_m() * share,
                              T_moved_map.yaw_rad() * share);
-      creeping.draw(make_id<ScanId>(i), T_part_map * scans[i].T_map_body, scans[i].beams);
+      creeping.draw(make_id<ScanId>(i), T_part_map * scans[i].T_map_body, {scans[i].beams});
     }
-    jumping.draw(make_id<ScanId>(i), T_moved_map * scans[i].T_map_body, scans[i].beams);
+    jumping.draw(make_id<ScanId>(i), T_moved_map * scans[i].T_map_body, {scans[i].beams});
   }
   expect_same_map(creeping, jumping);
 }
 
 TEST(ScanDrawing, RedrawsNothingForAMoveBelowTheLattice) {
   ScanDrawing drawing(MapConfig{}, 3.0);
-  drawing.draw(ScanId{0}, {1.0, 1.0, 0.0}, std::vector<BeamEnd>{{{1, 0}, true}});
+  drawing.draw(ScanId{0}, {1.0, 1.0, 0.0}, {std::vector<BeamEnd>{{{1, 0}, true}}});
   EXPECT_FALSE(drawing.needs_drawing(ScanId{0}, {1.0005, 1.0, 0.0}));
   EXPECT_TRUE(drawing.needs_drawing(ScanId{0}, {1.01, 1.0, 0.0}));
   EXPECT_TRUE(drawing.needs_drawing(ScanId{0}, {1.0, 1.0, 0.01}));
@@ -157,9 +157,9 @@ TEST(ScanDrawing, RedrawsNothingForAMoveBelowTheLattice) {
 TEST(ScanDrawing, DrawsNothingAtAPoseThatIsNone) {
   ScanDrawing drawing(MapConfig{}, 3.0);
   const std::vector<BeamEnd> beams = {{{1, 0}, true}};
-  drawing.draw(ScanId{0}, {1.0, 1.0, 0.0}, beams);
-  drawing.draw(ScanId{0}, {1e9, 1.0, 0.0}, beams);
-  drawing.draw(ScanId{1}, {std::numeric_limits<double>::quiet_NaN(), 1.0, 0.0}, beams);
+  drawing.draw(ScanId{0}, {1.0, 1.0, 0.0}, {beams});
+  drawing.draw(ScanId{0}, {1e9, 1.0, 0.0}, {beams});
+  drawing.draw(ScanId{1}, {std::numeric_limits<double>::quiet_NaN(), 1.0, 0.0}, {beams});
   EXPECT_TRUE(all_tiles(drawing).empty());
 }
 

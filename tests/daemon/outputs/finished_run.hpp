@@ -12,8 +12,10 @@ namespace swiftlet {
 /// A flight of 81 samples through a room, drawn, with a truth of which the odometry knows nothing: every step
 /// was a tenth longer than odometry measured.
 struct FinishedRun {
-  explicit FinishedRun(int samples = 81) {
-    for (const FrontendStep& step : room_flight(samples)) {
+  /// From `first_above` on, the flight is on the next storey.
+  explicit FinishedRun(int samples = 81, int first_above = 1000) {
+    for (FrontendStep step : room_flight(samples)) {
+      if (static_cast<int>(step.sample.sequence) >= first_above) step.sample.storey = StoreyId{1};
       backend.add(step);
       map.update(backend, false);
       truth.push_back({step.sample.stamp, Pose2(1.1 * step.sample.T_odom_body.x_m(), 0.0, 0.0)});

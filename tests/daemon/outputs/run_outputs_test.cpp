@@ -38,6 +38,20 @@ TEST(RunOutputs, WritesEveryFileAndNothingElse) {
                                    "report.json", "thumbnail.png", "trajectory.tum"}));
 }
 
+TEST(RunOutputs, EachStoreyHasFilesOfItsOwn) {
+  const TemporaryDirectory directory;
+  FinishedRun run(81, 40);
+  run.input.storey_levels_m = {0.0, 3.1};
+  ASSERT_TRUE(write_run_outputs(directory.path(), run.view(false)).ok());
+  EXPECT_EQ(names_in(directory.path()),
+            (std::set<std::string>{"live.tum", "map.pgm", "map.png", "map.yaml", "map_storey1.pgm",
+                                   "map_storey1.png", "map_storey1.yaml", "odometry.tum", "report.json",
+                                   "thumbnail.png", "trajectory.tum"}));
+  EXPECT_THAT(text_of(directory.path() / "map_storey1.yaml"), testing::HasSubstr("image: map_storey1.pgm"));
+  EXPECT_NE(text_of(directory.path() / "map.pgm"), text_of(directory.path() / "map_storey1.pgm"));
+  EXPECT_THAT(text_of(directory.path() / "report.json"), testing::HasSubstr("\"level_m\": 3.1"));
+}
+
 TEST(RunOutputs, WritesTheTruthWhereItIsKnown) {
   const TemporaryDirectory directory;
   const FinishedRun run;

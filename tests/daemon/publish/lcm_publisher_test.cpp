@@ -123,7 +123,7 @@ TEST_F(LcmPublisherTest, TheBeamsGoWithThePoseInWhichTheyWereMeasured) {
 }
 
 TEST_F(LcmPublisherTest, ATileArrivesAsItWasDrawn) {
-  MapTile tile{.index = {-3, 4}, .version = 9};
+  MapTile tile{.index = {-3, 4, StoreyId{2}}, .version = 9};
   for (std::size_t i = 0; i < tile.occupancy_percent.size(); ++i)
     tile.occupancy_percent[i] = static_cast<std::int8_t>(static_cast<int>(i % 102) - 1);
   publish([&](Publisher& publisher) { publisher.publish_tile(kNow, tile, 0.05); });
@@ -131,6 +131,7 @@ TEST_F(LcmPublisherTest, ATileArrivesAsItWasDrawn) {
   ASSERT_EQ(messages.size(), 1U);
   EXPECT_EQ(messages[0].tile_x, -3);
   EXPECT_EQ(messages[0].tile_y, 4);
+  EXPECT_EQ(messages[0].storey, 2);
   EXPECT_EQ(messages[0].version, 9);
   EXPECT_EQ(messages[0].resolution, 0.05);
   for (std::size_t row = 0; row < kTileCells; ++row) {
@@ -156,7 +157,7 @@ TEST_F(LcmPublisherTest, SaysWhatTheTilesCover) {
 TEST_F(LcmPublisherTest, ManyWallsAreSpreadOverSeveralMessages) {
   std::vector<WallInMap> walls(kMaxWallsPerMessage * 2 + 1);
   for (std::uint32_t i = 0; i < walls.size(); ++i)
-    walls[i] = {LandmarkId{i}, {static_cast<double>(i), 1.0}, {2.0, 3.0}};
+    walls[i] = {LandmarkId{i}, {static_cast<double>(i), 1.0}, {2.0, 3.0}, StoreyId{1}};
   publish([&](Publisher& publisher) { publisher.publish_walls(kNow, walls); });
   const auto messages = received<landmarks_t>("T_LANDMARKS");
   ASSERT_EQ(messages.size(), 3U);
@@ -164,6 +165,7 @@ TEST_F(LcmPublisherTest, ManyWallsAreSpreadOverSeveralMessages) {
   EXPECT_EQ(messages[1].first, 1000);
   EXPECT_EQ(messages[2].count, 1);
   EXPECT_EQ(messages[2].landmarks.at(0).id, 2000);
+  EXPECT_EQ(messages[2].landmarks.at(0).storey, 1);
   EXPECT_EQ(messages[2].landmarks.at(0).start[0], 2000.0F);
 }
 
@@ -182,7 +184,8 @@ TEST_F(LcmPublisherTest, AClosureCarriesItsUncertaintyAndItsEnds) {
                                                  .score = 0.75,
                                                  .dropped = true},
                                      .from_map = {1.0, 2.0},
-                                     .to_map = {3.0, 4.0}});
+                                     .to_map = {3.0, 4.0},
+                                     .storey = StoreyId{3}});
   });
   const loop_closure_t closure = received<loop_closure_t>("T_LOOP_CLOSURE").at(0);
   EXPECT_EQ(closure.index, 2);
@@ -194,6 +197,7 @@ TEST_F(LcmPublisherTest, AClosureCarriesItsUncertaintyAndItsEnds) {
   EXPECT_DOUBLE_EQ(closure.sigma_yaw, 0.01);
   EXPECT_TRUE(closure.dropped);
   EXPECT_EQ(closure.to_map[1], 4.0);
+  EXPECT_EQ(closure.storey, 3);
 }
 
 TEST_F(LcmPublisherTest, TheStatusHoldsTheStateOfTheLink) {
@@ -299,13 +303,13 @@ std::uint64_t fingerprint() {
 
 // A consumer built against other types would silently receive nothing: whoever changes a type must know it.
 TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
-  EXPECT_EQ(fingerprint<pose_t>(), 0xcb2bbf134a7182e6U);
+  EXPECT_EQ(fingerprint<pose_t>(), 0x2b5a40ff739bec18U);
   EXPECT_EQ(fingerprint<pose2d_t>(), 0x1f317af1246276acU);
   EXPECT_EQ(fingerprint<ranges_t>(), 0x73529b4f4a288943U);
   EXPECT_EQ(fingerprint<map_info_t>(), 0xd4c16b4a90c4f334U);
-  EXPECT_EQ(fingerprint<map_tile_t>(), 0xfdf7a3453106bfbaU);
-  EXPECT_EQ(fingerprint<landmarks_t>(), 0xb12f6a1aaada94a9U);
-  EXPECT_EQ(fingerprint<loop_closure_t>(), 0x256ce7175baea2abU);
+  EXPECT_EQ(fingerprint<map_tile_t>(), 0x54c15ba6896b302cU);
+  EXPECT_EQ(fingerprint<landmarks_t>(), 0x9cc0333c77a3af06U);
+  EXPECT_EQ(fingerprint<loop_closure_t>(), 0x280a8e00175b414aU);
   EXPECT_EQ(fingerprint<status_t>(), 0xad0978ad381d3dabU);
 }
 

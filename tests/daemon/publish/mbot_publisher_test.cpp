@@ -94,6 +94,17 @@ TEST_F(MbotPublisherTest, TheGridHoldsTheTilesInTheirPlaces) {
   EXPECT_EQ(grid.cells[(64 + 2) * 128 + 64 + 6], 0);
 }
 
+TEST_F(MbotPublisherTest, TheGridIsOfTheStoreyWhereTheVehicleIs) {
+  publish_tile({0, 0}, 98);
+  publish_tile({0, 0, StoreyId{1}}, 2);
+  const MapSummary map{.resolution_m = 0.05, .tiles = 2, .lowest = {0, 0}, .highest = {0, 0}};
+  publisher_->publish_map(kMbotTime, map);
+  EXPECT_GT(received<mbot_occupancy_grid_t>("SLAM_MAP").cells[0], 100);
+  publisher_->publish_pose({.stamp = kMbotTime, .storey = StoreyId{1}});
+  publisher_->publish_map(kMbotTime, map);
+  EXPECT_LT(received<mbot_occupancy_grid_t>("SLAM_MAP").cells[0], -100);
+}
+
 TEST_F(MbotPublisherTest, WhatWasErasedIsUnknownAgain) {
   publish_tile({0, 0}, 98);
   publish_tile({1, 0}, 98);

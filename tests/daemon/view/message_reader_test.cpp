@@ -206,7 +206,7 @@ TEST_F(MessageReaderTest, WallsOfSeveralMessagesAreTakenTogether) {
   walls.map_id = 5;
   walls.total = 2;
   walls.count = 1;
-  walls.landmarks.push_back({.id = 1, .start = {0, 0}, .end = {1, 0}});
+  walls.landmarks.push_back({.id = 1, .storey = 0, .start = {0, 0}, .end = {1, 0}});
   take("LANDMARKS", walls);
   EXPECT_EQ(history_.walls().size(), 0U);
   walls.first = 1;

@@ -93,15 +93,15 @@ TEST_F(ViewerTest, APoseGoesWithItsBeams) {
   ASSERT_TRUE(viewer.next());
   const auto message = viewer.next();
   ASSERT_TRUE(message);
-  EXPECT_EQ(message->bytes.size(), 16U + 8 + 2 * (88 + 8));
+  EXPECT_EQ(message->bytes.size(), 16U + 8 + 2 * (92 + 8));
   const auto f32_at = [&](std::size_t offset) {
     float number = 0.0F;
     std::memcpy(&number, message->bytes.data() + offset, sizeof number);
     return number;
   };
   EXPECT_EQ(f32_at(16 + 4), 1.0F) << "the second bearing";
-  EXPECT_EQ(f32_at(16 + 8 + 88 + 4), 2.5F);
-  EXPECT_EQ(f32_at(16 + 8 + 2 * 96 - 4), -1.0F) << "a pose without ranges";
+  EXPECT_EQ(f32_at(16 + 8 + 92 + 4), 2.5F);
+  EXPECT_EQ(f32_at(16 + 8 + 2 * 100 - 4), -1.0F) << "a pose without ranges";
 }
 
 TEST_F(ViewerTest, ASlowPageGetsTheNewestVersionAndNoneBetween) {
@@ -146,6 +146,25 @@ TEST_F(ViewerTest, LookingBackTakesTilesAwayAndLookingOnBringsThemAgain) {
   page.read_all(viewer);
   EXPECT_EQ(page.tile_versions.at({0, 0}), 2U);
   EXPECT_EQ(page.tile_versions.at({1, 0}), 1U);
+}
+
+TEST_F(ViewerTest, ShowsTheStoreyThatIsLookedAt) {
+  begin_run();
+  history_.add_tile(kSecondUs, uniform_tile({0, 0}, 5, 40), 0.05);
+  history_.add_tile(kSecondUs, uniform_tile({0, 0, StoreyId{1}}, 7, 60), 0.05);
+  history_.add_walls(kSecondUs, {{.id = 1}, {.id = 2, .storey = 1}, {.id = 3, .storey = 1}});
+  history_.add_pose({.utime_us = kSecondUs});
+  history_.add_pose({.utime_us = 2 * kSecondUs, .sequence = 1, .storey = 1});
+  Viewer viewer(shared_, live_);
+  ReadingPage page;
+  page.read_all(viewer);
+  EXPECT_EQ(page.tile_versions.at({0, 0}), 7U);
+  EXPECT_EQ(history_.walls_at({}, StoreyId{1}).size(), 2U);
+  page.types.clear();
+  viewer.take(R"({"at": 1500000})");
+  page.read_all(viewer);
+  EXPECT_EQ(page.types, (std::vector<std::string>{"storey", "walls", "tiles", "synced"}));
+  EXPECT_EQ(page.tile_versions.at({0, 0}), 5U);
 }
 
 TEST_F(ViewerTest, TheFinalStatusIsSaidAlthoughItsTimeIsTheOneBefore) {

@@ -119,6 +119,16 @@ class PublishedRun(unittest.TestCase):
         self.assertEqual(tiles.grid().occupancy_percent.shape, (64, 64), "the tile of the run before is gone")
         self.assertEqual(tiles.grid().origin_m, dataclasses.replace(first, tile_x=first.tile_x + 1).grid.origin_m)
 
+    def test_each_storey_has_a_grid_of_its_own(self):
+        first = self.of(swiftlet.Tile)[0]
+        above = dataclasses.replace(first, storey=1, occupancy_percent=np.full((64, 64), 7, dtype=np.int8))
+        tiles = swiftlet.TileMap()
+        self.assertTrue(tiles.add(first) and tiles.add(above))
+        np.testing.assert_array_equal(tiles.grid().occupancy_percent, first.occupancy_percent)
+        np.testing.assert_array_equal(tiles.grid(1).occupancy_percent, above.occupancy_percent)
+        with self.assertRaises(swiftlet.Error):
+            tiles.grid(2)
+
     def test_walls_and_closures_have_their_places(self):
         left, right, low, high = -60, 60, -60, 60
         walls = self.of(swiftlet.Walls)[-1]

@@ -95,6 +95,9 @@ class MappedFlight(unittest.TestCase):
             self.assertTrue(((segments[:, ::2] >= left) & (segments[:, ::2] <= right)).all())
             self.assertTrue(((segments[:, 1::2] >= low) & (segments[:, 1::2] <= high)).all())
 
+    def test_the_first_storey_is_the_grid(self):
+        self.assertIs(self.run_.storeys[0], self.run_.grid)
+
     def test_the_grid_says_where_its_cells_are(self):
         grid = self.run_.grid
         row, column = grid.cell(grid.origin_m[0] + 2.5 * grid.resolution_m, grid.origin_m[1] + 7.5 * grid.resolution_m)

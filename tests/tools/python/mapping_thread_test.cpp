@@ -34,7 +34,8 @@ TEST(MappingThread, GivesArraysOfOneLengthAndTheReport) {
   EXPECT_GT(rows, 400U);
   EXPECT_EQ(arrays.odometry.size(), rows * kPoseColumns);
   EXPECT_EQ(arrays.covariances.size(), rows * kCovarianceSide * kCovarianceSide);
-  EXPECT_EQ(arrays.grid.occupancy_percent.size(), arrays.grid.rows * arrays.grid.columns);
+  const OccupancyGrid& grid = arrays.grids.at(StoreyId{0});
+  EXPECT_EQ(grid.occupancy_percent.size(), grid.rows * grid.columns);
   EXPECT_THAT(mapped->report_json, HasSubstr("\"keyframes\""));
   EXPECT_THAT(mapped->problems, IsEmpty());
 }

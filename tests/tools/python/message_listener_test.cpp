@@ -34,7 +34,8 @@ Bytes walls_part(int first, int count, int total, std::int64_t map_id = 1) {
   part.first = first;
   part.count = count;
   part.total = total;
-  for (int i = 0; i < count; ++i) part.landmarks.push_back({.id = first + i, .start = {}, .end = {}});
+  for (int i = 0; i < count; ++i)
+    part.landmarks.push_back({.id = first + i, .storey = 0, .start = {}, .end = {}});
   return bytes_of(part);
 }
 

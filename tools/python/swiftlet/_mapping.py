@@ -97,7 +97,9 @@ class Run:
     dropped_closures: npt.NDArray[np.float64]
     """K x 4: those that the final pass refused."""
     grid: Grid
-    """The map."""
+    """The map, of a building with several storeys the first one's, as are walls and closures."""
+    storeys: Mapping[int, Grid]
+    """The map of each storey, by its number: 0 is `grid`."""
     report: Mapping[str, Any]
     """What report.json holds: counts, times, errors where the truth is known (docs/outputs.md)."""
     notes: Tuple[str, ...]
@@ -170,7 +172,8 @@ def map(input: Union[str, os.PathLike[str]], *, output: Union[str, os.PathLike[s
     report = json.loads(mapped.pop("report"))
     if output is None:
         del report["files"]
-    run = Run(input=os.fspath(input), report=report, grid=Grid(**mapped.pop("grid")),
+    storeys = {storey: Grid(**grid) for storey, grid in mapped.pop("grids").items()}
+    run = Run(input=os.fspath(input), report=report, grid=storeys[0], storeys=storeys,
               notes=tuple(mapped.pop("notes")), problems=tuple(mapped.pop("problems")), **mapped)
     if run.problems:
         warnings.warn("; ".join(run.problems), DamagedInputWarning, stacklevel=2)

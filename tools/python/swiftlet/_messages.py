@@ -43,6 +43,8 @@ class Pose:
     y_m: float
     yaw_rad: float
     """Counter-clockwise, -pi to pi."""
+    storey: int
+    """On which the vehicle is, counted up from 0 in the order of first visits."""
     tracking: str
     """good, uncertain, lost or relocalizing."""
     covariance_map: npt.NDArray[np.float64]
@@ -94,6 +96,8 @@ class Tile:
     map_id: int
     tile_x: int
     tile_y: int
+    storey: int
+    """As of the Pose: each has a map of its own."""
     version: int
     """Counts up with each change of this tile."""
     resolution_m: float
@@ -117,6 +121,8 @@ class Walls:
     map_id: int
     ids: npt.NDArray[np.int32]
     """K: each stays the same while its wall is known."""
+    storeys: npt.NDArray[np.int8]
+    """K: as of the Pose."""
     segments_m: npt.NDArray[np.float64]
     """K x 4: x and y of the start, x and y of the end, in frame map."""
 
@@ -143,6 +149,8 @@ class Closure:
     dcs_scale: float
     """What the robust kernel leaves of it, 1: fully believed."""
     dropped: bool
+    storey: int
+    """As of the Pose, of both."""
     from_m: Tuple[float, float]
     """x and y of both keyframes in frame map when this was sent."""
     to_m: Tuple[float, float]
@@ -384,14 +392,14 @@ class TileMap:
     def __init__(self) -> None:
         self.map_id: Optional[int] = None
         """The run whose tiles it holds."""
-        self._tiles: Dict[Tuple[int, int], Tile] = {}
+        self._tiles: Dict[Tuple[int, int, int], Tile] = {}
 
     def add(self, tile: Tile) -> bool:
         """Takes a tile: whether it was new. The first tile of another run empties the map."""
         if tile.map_id != self.map_id:
             self._tiles.clear()
             self.map_id = tile.map_id
-        place = (tile.tile_x, tile.tile_y)
+        place = (tile.tile_x, tile.tile_y, tile.storey)
         if place in self._tiles and self._tiles[place].version >= tile.version:
             return False
         self._tiles[place] = tile
@@ -402,16 +410,17 @@ class TileMap:
         return (status.map_id == self.map_id and len(self._tiles) == status.tile_count
                 and sum(tile.version for tile in self._tiles.values()) == status.version_sum)
 
-    def grid(self) -> Grid:
-        """What it holds. A new array. Raises swiftlet.Error where there is no tile yet."""
-        if not self._tiles:
-            raise _native.Error("this map holds no tile yet")
-        any_tile = next(iter(self._tiles.values()))
+    def grid(self, storey: int = 0) -> Grid:
+        """What it holds of a storey. A new array. Raises swiftlet.Error where there is no tile yet."""
+        tiles = {(x, y): tile for (x, y, of), tile in self._tiles.items() if of == storey}
+        if not tiles:
+            raise _native.Error(f"this map holds no tile of storey {storey} yet")
+        any_tile = next(iter(tiles.values()))
         side = any_tile.occupancy_percent.shape[0]
-        left, low = (min(place[axis] for place in self._tiles) for axis in (0, 1))
-        right, high = (max(place[axis] for place in self._tiles) for axis in (0, 1))
+        left, low = (min(place[axis] for place in tiles) for axis in (0, 1))
+        right, high = (max(place[axis] for place in tiles) for axis in (0, 1))
         percent = np.full(((high - low + 1) * side, (right - left + 1) * side), -1, dtype=np.int8)
-        for (x, y), tile in self._tiles.items():
+        for (x, y), tile in tiles.items():
             percent[(y - low) * side:(y - low + 1) * side, (x - left) * side:(x - left + 1) * side] = \
                 tile.occupancy_percent
         return Grid(percent, any_tile.resolution_m,
