@@ -74,7 +74,7 @@ Simulated flights whose dead reckoning breaks once, {at_s} s after the first sam
 a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in flight, a `restart` the
 vehicle where it is; one that was `carried` restarts where it would have been by then. Nothing tells of a `jump` of the
 heading, of a `slip` (the estimate stays while the vehicle flies on) and of a `teleport` (it is carried and the estimate
-goes on).
+goes on). In `{fault_runs.STOREYS}` the vehicle flies up the stairs of a house and back: the floors must not be mixed.
 
 "Final error" is the RMSE of the corrected path. "Over {WRONG_M:g} m" are the runs whose final map still believes a
 wrong place. The rest is of the live pose at [known places](live.md) behind the break: where the map as it stood then has
