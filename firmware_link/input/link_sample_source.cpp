@@ -220,8 +220,8 @@ std::optional<VehicleEvent> LinkSampleSource::take_event() {
 }
 
 void LinkSampleSource::end() {
-  report_.storey_levels_m.assign(assembler_.storeys().levels_m().begin(),
-                                 assembler_.storeys().levels_m().end());
+  for (const StoreyLevel& level : assembler_.storeys().levels())
+    report_.storey_levels_m.push_back(level.above_first_m);
   if (input_.shared != nullptr) input_.shared->end_sharing();
   for (const VehicleEvent& event : noted_) report_.notes.push_back(describe(event));
   noted_.clear();

@@ -13,6 +13,8 @@ namespace {
 
 constexpr Duration kReboot = std::chrono::seconds(1);
 constexpr double kGapInPeriods = 1.5;
+// Packets that hold height and altitude may be a period apart, and one may be lost.
+constexpr Duration kHeightHolds = std::chrono::milliseconds(300);
 // The ranges that follow one lost packet keep their dead reckoning.
 constexpr double kMaxInterpolationInPeriods = 2.5;
 
@@ -66,11 +68,16 @@ void SampleAssembler::add(const Reading& reading) {
   if (!reading.distance_m.empty()) hold_ranges(reading);
 }
 
-/// A height that is no number is over a void, or over none that the sensor reaches.
+/// A height that is no number, or none above 0: the ground is out of reach, or nothing measures it.
 void SampleAssembler::follow_ground(const Reading& reading) {
-  if (reading.height_m) last_height_m_ = std::isfinite(*reading.height_m) ? reading.height_m : std::nullopt;
-  if (last_height_m_ && reading.altitude_m && std::isfinite(*reading.altitude_m))
-    storeys_.add(reading.at, *reading.altitude_m - *last_height_m_);
+  if (reading.height_m) {
+    last_height_.reset();
+    if (std::isfinite(*reading.height_m) && *reading.height_m > 0.0)
+      last_height_ = {reading.at, *reading.height_m};
+  }
+  if (!last_height_ || reading.at - last_height_->at > kHeightHolds) return;
+  if (reading.altitude_m && std::isfinite(*reading.altitude_m))
+    storeys_.add(reading.at, *reading.altitude_m - last_height_->height_m);
 }
 
 bool SampleAssembler::accept_time(const Reading& reading) {
@@ -104,7 +111,7 @@ void SampleAssembler::restart() {
   yaws_.restart();
   tilts_.restart();
   heights_.restart();
-  last_height_m_.reset();
+  last_height_.reset();
   storeys_.restart();
 }
 

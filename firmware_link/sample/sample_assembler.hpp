@@ -100,7 +100,11 @@ class SampleAssembler {
   OdometryTimeline<YawReading> yaws_;
   OdometryTimeline<BodyTilt> tilts_;
   OdometryTimeline<HeightReading> heights_;
-  std::optional<double> last_height_m_;  ///< as last measured; nothing where it could not be
+  struct MeasuredHeight {
+    DeviceTime at{};
+    double height_m = 0.0;
+  };
+  std::optional<MeasuredHeight> last_height_;  ///< nothing where it could not be measured
   StoreyTracker storeys_;
   FixedVector<PendingRanges, 16> pending_;
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};

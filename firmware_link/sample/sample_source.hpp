@@ -28,7 +28,8 @@ struct InputReport {
   std::vector<std::string> problems;  ///< what went wrong, one line each, with the byte offset or line number
   bool shows_age =
       true;  ///< false: scan and pose come in one line with one stamp, which has no age of its own
-  std::vector<double> storey_levels_m;  ///< of the storeys that were flown, by id, above the first
+  std::vector<double> storey_levels_m;  ///< of the storeys that were flown, by id, above the first; of a
+                                        ///< climb that was given up its end
   double reversed_m = 0.0;  ///< way that the odometry reported as forward, taken as driven in reverse
 };
 

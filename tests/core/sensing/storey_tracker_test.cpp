@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <random>
+#include <vector>
 
 namespace swiftlet {
 namespace {
@@ -31,6 +32,15 @@ class StoreyTrackerTest : public testing::Test {
     }
   }
   [[nodiscard]] std::size_t storey() const { return index_of(tracker_.current()); }
+  [[nodiscard]] std::vector<double> known_levels_m() const {
+    std::vector<double> levels_m;
+    for (const StoreyLevel& level : tracker_.levels())
+      if (level.is_known) levels_m.push_back(level.above_first_m);
+    return levels_m;
+  }
+  void weather(double seconds, double m_per_s, double rises_m = 0.0) {
+    fly(seconds, rises_m + m_per_s * seconds);
+  }
 
   StoreyTracker tracker_;
   double ground_m_ = 123.0;
@@ -43,7 +53,7 @@ class StoreyTrackerTest : public testing::Test {
 
 TEST_F(StoreyTrackerTest, IsOnTheFirstStoreyWhereNothingIsKnown) {
   EXPECT_EQ(storey(), 0U);
-  EXPECT_THAT(tracker_.levels_m(), ElementsAre(0.0));
+  EXPECT_THAT(known_levels_m(), ElementsAre(0.0));
 }
 
 TEST_F(StoreyTrackerTest, StairsLeadToAnotherStoreyAndBackToTheFirst) {
@@ -55,7 +65,7 @@ TEST_F(StoreyTrackerTest, StairsLeadToAnotherStoreyAndBackToTheFirst) {
   fly(20.0, -kStoreyM);
   fly(60.0);
   EXPECT_EQ(storey(), 0U);
-  EXPECT_THAT(tracker_.levels_m(), ElementsAre(0.0, DoubleNear(kStoreyM, 0.3)));
+  EXPECT_THAT(known_levels_m(), ElementsAre(0.0, DoubleNear(kStoreyM, 0.3)));
 }
 
 TEST_F(StoreyTrackerTest, ASlowClimbOfTheLowestStoreyIsOneToo) {
@@ -79,17 +89,22 @@ TEST_F(StoreyTrackerTest, EachOfSeveralIsKnownAgain) {
   fly(30.0, 2.0 * kStoreyM);
   fly(40.0);
   EXPECT_EQ(storey(), 2U);
-  fly(20.0, -kStoreyM - kStoreyM - kStoreyM);
+  fly(30.0, -3.0 * kStoreyM);
   fly(40.0);
   EXPECT_EQ(storey(), 4U) << "the cellar";
+  EXPECT_EQ(tracker_.levels().size(), 5U);
 }
 
 TEST_F(StoreyTrackerTest, AHighStoreyIsReachedWhereTheClimbEnds) {
   fly(30.0);
-  fly(40.0, 5.5);
+  fly(60.0, 5.5);
   fly(60.0);
   EXPECT_EQ(storey(), 1U);
-  EXPECT_THAT(tracker_.levels_m(), ElementsAre(0.0, DoubleNear(5.5, 0.4)));
+  fly(60.0, -5.5);
+  fly(60.0);
+  EXPECT_EQ(storey(), 0U);
+  EXPECT_EQ(tracker_.levels().size(), 2U) << "there is none half way";
+  EXPECT_THAT(known_levels_m(), ElementsAre(0.0, DoubleNear(5.5, 0.4)));
 }
 
 TEST_F(StoreyTrackerTest, WhoTurnsBackOnTheStairsIsWhereHeWas) {
@@ -102,6 +117,26 @@ TEST_F(StoreyTrackerTest, WhoTurnsBackOnTheStairsIsWhereHeWas) {
   fly(20.0, kStoreyM);
   fly(30.0);
   EXPECT_EQ(storey(), 1U) << "what was seen on the stairs belongs to it";
+}
+
+TEST_F(StoreyTrackerTest, AClimbThatWasGivenUpIsNotTheCellar) {
+  fly(30.0);
+  fly(15.0, 2.3);
+  fly(15.0, -2.3);
+  fly(30.0);
+  fly(20.0, -kStoreyM);
+  fly(30.0);
+  EXPECT_EQ(storey(), 2U);
+  EXPECT_THAT(known_levels_m(), ElementsAre(0.0, DoubleNear(-kStoreyM, 0.3)));
+}
+
+TEST_F(StoreyTrackerTest, AStoreyBetweenTwoIsFoundWhereTheClimbEnds) {
+  fly(30.0);
+  fly(20.0, 2.0 * kStoreyM);
+  fly(30.0);
+  fly(15.0, -kStoreyM);
+  fly(30.0);
+  EXPECT_EQ(storey(), 2U);
 }
 
 TEST_F(StoreyTrackerTest, NeitherWeatherNorTablesNorALandingOnTheStairsChangeIt) {
@@ -118,6 +153,25 @@ TEST_F(StoreyTrackerTest, NeitherWeatherNorTablesNorALandingOnTheStairsChangeIt)
   EXPECT_EQ(storey(), 0U);
 }
 
+constexpr double kWeatherMPerS = 2.5 / 600.0;
+
+TEST_F(StoreyTrackerTest, ASlowClimbAgainstTheWeatherIsOne) {
+  weather(300.0, -kWeatherMPerS);
+  weather(60.0, -kWeatherMPerS, kLowestStoreyM);
+  EXPECT_EQ(storey(), 1U);
+  weather(60.0, -kWeatherMPerS);
+  weather(60.0, -kWeatherMPerS, -kLowestStoreyM);
+  weather(60.0, -kWeatherMPerS);
+  EXPECT_EQ(storey(), 0U);
+}
+
+TEST_F(StoreyTrackerTest, ALandingHalfWayUpWithTheWeatherIsNone) {
+  weather(300.0, kWeatherMPerS);
+  weather(10.0, kWeatherMPerS, 1.5);
+  weather(20.0, kWeatherMPerS);
+  EXPECT_EQ(storey(), 0U);
+}
+
 TEST_F(StoreyTrackerTest, BehindARestartTheGroundMayBeAnother) {
   fly(30.0);
   tracker_.restart();
@@ -126,15 +180,20 @@ TEST_F(StoreyTrackerTest, BehindARestartTheGroundMayBeAnother) {
   tracker_.restart();
   ground_m_ += kStoreyM;
   fly(kSampleS);
+  EXPECT_EQ(storey(), 0U) << "one reading decides nothing";
+  fly(5.0);
   EXPECT_EQ(storey(), 1U);
+  tracker_.restart();
+  fly(20.0);
+  EXPECT_EQ(known_levels_m().size(), 2U) << "a restart while it was new";
 }
 
 TEST_F(StoreyTrackerTest, MoreStoreysThanItCanHoldAreNoNewOnes) {
   for (std::size_t i = 0; i < kMaxStoreys + 3; ++i) {
-    fly(10.0);
+    fly(20.0);
     fly(10.0, kStoreyM);
   }
-  EXPECT_EQ(tracker_.levels_m().size(), kMaxStoreys);
+  EXPECT_EQ(tracker_.levels().size(), kMaxStoreys);
   EXPECT_EQ(storey(), kMaxStoreys - 1);
 }
 
