@@ -101,7 +101,8 @@ class Evaluator {
     take_old(moment);
     near_.clear();
     for (std::vector<OldPlace>& ring : rings_) ring.clear();
-    for (const PublishedKeyframe* keyframe : old_) sort(*keyframe, moment);
+    for (const PublishedKeyframe* keyframe : old_)
+      if (keyframe->storey == moment.storey) sort(*keyframe, moment);
     if (!near_.empty()) judge_pose(moment);
     for (std::size_t i = 0; i < rings_.size(); ++i) judge_map(moment, rings_[i], map_errors_m_[i]);
   }

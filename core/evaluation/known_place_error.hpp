@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/ids.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/geometry/stamped_pose.hpp"
@@ -22,6 +23,7 @@ struct LiveMoment {
   Pose2 T_local_body;                         ///< in a continuous frame, in which nothing is corrected
   Pose2 T_world_body;                         ///< the truth
   std::optional<Point2> wall_normal_world{};  ///< of the nearest wall, where there is one
+  StoreyId storey{};
 };
 
 /// A keyframe's pose as it was published over time, and the truth.
@@ -30,13 +32,14 @@ struct PublishedKeyframe {
   std::vector<StampedPose> T_map_body{};  ///< each from its stamp on, in order
   std::optional<HostTime> erased{};       ///< from then on the map is without it
   Pose2 T_world_body;                     ///< the truth
+  StoreyId storey{};
 };
 
 struct KnownPlaceTuning {
-  double old_after_m = 20.0;                          ///< ground flown this much travel ago is old
-  double near_m = 3.0;                                ///< old ground this close is a known place
-  double off_m = 0.3;                                 ///< a greater error, or a greater jump, counts as one
-  double settled_m = 0.2;                             ///< a smaller error ends the way back to old ground
+  double old_after_m = 20.0;  ///< ground flown this much travel ago is old
+  double near_m = 3.0;        ///< old ground this close, on one storey, is a known place
+  double off_m = 0.3;         ///< a greater error, or a greater jump, counts as one
+  double settled_m = 0.2;     ///< a smaller error ends the way back to old ground
   std::array<double, 3> distances_m{2.0, 5.0, 10.0};  ///< at which the map is judged ...
   double ring_m = 0.5;                                ///< ... give or take this
   double contact_gap_m = 5.0;  ///< old ground that is met after this much travel without any is a new contact

@@ -4,17 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 #include "core/base/check.hpp"
 
 namespace swiftlet {
 namespace {
 
-std::size_t cells_hit(std::span<const Point2> points, double cell_m) {
-  std::vector<std::pair<double, double>> cells;
+struct DrawnPoint {
+  StoreyId storey{};
+  Point2 p_map;
+};
+
+std::size_t cells_hit(std::span<const DrawnPoint> points, double cell_m) {
+  std::vector<std::tuple<StoreyId, double, double>> cells;
   cells.reserve(points.size());
-  for (const Point2& p : points) cells.emplace_back(std::floor(p.x_m / cell_m), std::floor(p.y_m / cell_m));
+  for (const DrawnPoint& drawn : points)
+    cells.emplace_back(drawn.storey, std::floor(drawn.p_map.x_m / cell_m),
+                       std::floor(drawn.p_map.y_m / cell_m));
   std::sort(cells.begin(), cells.end());
   return static_cast<std::size_t>(std::unique(cells.begin(), cells.end()) - cells.begin());
 }
@@ -24,7 +31,7 @@ std::size_t cells_hit(std::span<const Point2> points, double cell_m) {
 MapSharpness map_sharpness(std::span<const RangeSample> samples, std::span<const Pose2> T_map_body,
                            const BeamLayout& beams) {
   SWIFTLET_CHECK(samples.size() == T_map_body.size(), "each sample is drawn from a pose of its own");
-  std::vector<Point2> points;
+  std::vector<DrawnPoint> points;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t beam = 0; beam < samples[i].beam_count; ++beam) {
       const float distance_m = samples[i].distance_m[beam];
@@ -33,8 +40,8 @@ MapSharpness map_sharpness(std::span<const RangeSample> samples, std::span<const
       if (!counts) continue;
       const auto range_m = static_cast<double>(distance_m);
       const double bearing_rad = beams.bearing_rad[beam];
-      points.push_back(T_map_body[i] *
-                       Point2{range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)});
+      const Point2 p_body{range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)};
+      points.push_back({samples[i].storey, T_map_body[i] * p_body});
     }
   }
   return {points.size(), cells_hit(points, 0.1), cells_hit(points, 0.2)};

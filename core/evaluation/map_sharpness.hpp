@@ -15,8 +15,8 @@
 
 namespace swiftlet {
 
-/// The blur of a map, without ground truth: the number of distinct cells with returns. Walls drawn twice take
-/// more cells. Only returns between these limits count, the limits excluded.
+/// The blur of a map, without ground truth: the number of distinct cells with returns, on all storeys. Walls
+/// drawn twice take more cells. Only returns between these limits count, the limits excluded.
 struct MapSharpness {
   static constexpr float kMinRangeM = 0.05F;
   static constexpr float kMaxRangeM = 2.0F;

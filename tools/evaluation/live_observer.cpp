@@ -33,7 +33,8 @@ class WallsAlong {
     std::vector<Point2> returns;
     const std::size_t end = std::min(scans.size(), here + kScansOfWalls + 1);
     for (std::size_t i = here - std::min(here, kScansOfWalls); i < end; ++i) {
-      if (!T_world_scan_[i] || std::abs(scans[i].path_m - scans[here].path_m) > kTravelOfWallsM) continue;
+      if (!T_world_scan_[i] || scans[i].storey != scans[here].storey) continue;
+      if (std::abs(scans[i].path_m - scans[here].path_m) > kTravelOfWallsM) continue;
       for (const ScanReturn& beam : scans_->returns(scans[i]))
         if (beam.is_hit) returns.push_back(*T_world_scan_[i] * scans_->point_body(beam));
     }
@@ -53,7 +54,7 @@ void LiveObserver::look() {
   if (scans.end_id() == seen_) return;
   seen_ = scans.end_id();
   const StoredScan& scan = scans.values().back();
-  moments_.push_back({scan.stamp, scan.path_m, scan.T_map_live, scan.T_dead_body});
+  moments_.push_back({scan.stamp, scan.path_m, scan.T_map_live, scan.T_dead_body, scan.storey});
   const IdMap<KeyframeId, ScanId>& keyframes = backend_->keyframes().all();
   if (index_of(keyframes.end_id()) == histories_.size()) return;
   note_erased();
@@ -93,7 +94,7 @@ std::vector<LiveMoment> LiveObserver::moments(const StampedPath& T_world_body) c
     const Moment& m = moments_[i];
     if (const StampedPose* truth = T_world_body.nearest(m.stamp))
       moments.push_back({m.stamp, m.path_m, m.T_map_body, m.T_local_body, truth->pose,
-                         walls.normal_at(make_id<ScanId>(i))});
+                         walls.normal_at(make_id<ScanId>(i)), m.storey});
   }
   return moments;
 }
@@ -104,7 +105,7 @@ std::vector<PublishedKeyframe> LiveObserver::keyframes(const StampedPath& T_worl
     const Moment& made = moments_[history.moment];
     const StampedPose* truth = T_world_body.nearest(made.stamp);
     if (truth == nullptr) continue;
-    PublishedKeyframe keyframe{made.path_m, {}, {}, truth->pose};
+    PublishedKeyframe keyframe{made.path_m, {}, {}, truth->pose, made.storey};
     if (history.erased) keyframe.erased = moments_[*history.erased].stamp;
     for (const Published& p : history.poses)
       keyframe.T_map_body.push_back({moments_[p.moment].stamp, pose_of(p)});
@@ -122,15 +123,18 @@ KnownPlaceError newest_pose_error(const Backend& finished, const StampedPath& T_
   const ScanId newest = scans.all().last_id();
   const StampedPose* truth = T_world_body.nearest(scans[newest].stamp);
   if (truth == nullptr) return {};
-  const std::vector<LiveMoment> moment{{scans[newest].stamp, scans[newest].path_m,
-                                        finished.T_map_body(newest), Pose2(), truth->pose,
-                                        WallsAlong(finished, T_world_body).normal_at(newest)}};
+  const std::vector<LiveMoment> moment{
+      {scans[newest].stamp, scans[newest].path_m, finished.T_map_body(newest), Pose2(), truth->pose,
+       WallsAlong(finished, T_world_body).normal_at(newest), scans[newest].storey}};
   std::vector<PublishedKeyframe> keyframes;
   for (const auto& [keyframe, scan] : finished.keyframes().all()) {
     const StampedPose* place = T_world_body.nearest(scans[scan].stamp);
     if (place == nullptr) continue;
-    keyframes.push_back(
-        {scans[scan].path_m, {{HostTime::min(), finished.T_map_keyframe(keyframe)}}, {}, place->pose});
+    keyframes.push_back({scans[scan].path_m,
+                         {{HostTime::min(), finished.T_map_keyframe(keyframe)}},
+                         {},
+                         place->pose,
+                         scans[scan].storey});
   }
   return known_place_error(moment, keyframes);
 }

@@ -33,6 +33,7 @@ class LiveObserver {
     double path_m = 0.0;
     Pose2 T_map_body;
     Pose2 T_local_body;
+    StoreyId storey{};
   };
   /// Published after the moment of this number.
   struct Published {

@@ -74,7 +74,9 @@ Result<RunArrays> arrays_of(const MappedRun& run) {
   arrays.closures = rows_of(scene.closures);
   arrays.dropped_closures = rows_of(scene.dropped_closures);
   for (const StoreyId storey : run.view().map.storeys())
-    arrays.grids.emplace(storey, grid_of(make_map_scene(run.backend(), run.view().map, storey)));
+    arrays.grids.emplace(storey, storey == StoreyId{}
+                                     ? grid_of(scene)
+                                     : grid_of(make_map_scene(run.backend(), run.view().map, storey)));
   return arrays;
 }
 

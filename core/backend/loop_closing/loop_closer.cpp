@@ -32,7 +32,7 @@ LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, cons
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
   if (made.id != chain_->all().first_id() &&
       chain_->storey(made.id) != chain_->storey(chain_->all().previous(made.id)))
-    open_submaps_.clear();
+    leave_storey(made.id, T_local_keyframe);
   if (made.starts_segment) {
     open_submaps_.clear();
     if (made.id != chain_->all().first_id()) {
@@ -51,11 +51,22 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
                                    config_->tuning.submap.start_share * config_->submap_length_m)
     open_submaps_.push_back(made.id);
   while (here_m - chain_->path_m(open_submaps_.front()) >= config_->submap_length_m) {
-    submaps_.push_back(std::make_shared<const Submap>(
-        build_submap(open_submaps_.front(), made.id, *scans_, *chain_, T_local_keyframe, *config_)));
-    ++counters_.submaps;
+    finish_oldest(made.id, T_local_keyframe);
     open_submaps_.erase(open_submaps_.begin());
   }
+}
+
+/// Of the open submaps, up to the keyframe before `end`.
+void LoopCloser::finish_oldest(KeyframeId end, const KeyframePoses& T_local_keyframe) {
+  submaps_.push_back(std::make_shared<const Submap>(
+      build_submap(open_submaps_.front(), end, *scans_, *chain_, T_local_keyframe, *config_)));
+  ++counters_.submaps;
+}
+
+/// What is known of it when the vehicle comes back, although its submap is short.
+void LoopCloser::leave_storey(KeyframeId first_elsewhere, const KeyframePoses& T_local_keyframe) {
+  if (!open_submaps_.empty()) finish_oldest(first_elsewhere, T_local_keyframe);
+  open_submaps_.clear();
 }
 
 void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {

@@ -88,6 +88,8 @@ class LoopCloser {
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
                                                     const PoseGraph& graph) const;
+  void finish_oldest(KeyframeId end, const KeyframePoses& T_local_keyframe);
+  void leave_storey(KeyframeId first_elsewhere, const KeyframePoses& T_local_keyframe);
   void suspend_doubt();
   [[nodiscard]] bool resume_doubt();
   void forget_places(const IdRanges<KeyframeId>& pruned = {});

@@ -184,6 +184,7 @@ void OnlineRefinement::file_traversal(TraversalId traversal, const KeyframePoses
   CellNumbers cells(refinement_tuning_.thinning_cell_m);
   cells.reset(std::min<std::size_t>(scans_->return_count(range), tuning_.max_traversal_scans * kMaxBeams));
   for (std::size_t i = 0; i < scans.size(); i += every) {
+    if (scans[i].storey != walls.storey) continue;
     const ScanId id = scans_->all().id_at(first + i);
     const Pose2 T_reference_body = T_reference_map * refined(id, T_map_graph[i / every]);
     const std::span<const ScanReturn> beams = scans_->returns(scans[i]);

@@ -61,7 +61,7 @@ class OnlineRefinement {
   [[nodiscard]] ScanRange scans_of(TraversalId traversal) const {
     return chain_->scans_of(keyframes_of(traversal));
   }
-  /// Of its beginning; one that climbs the stairs has a metre of the next one.
+  /// Of its beginning: what a traversal sees of another one is left out.
   [[nodiscard]] StoreyId storey(TraversalId traversal) const {
     return chain_->storey(keyframes_of(traversal).first);
   }

@@ -5,19 +5,19 @@
 namespace swiftlet {
 
 WallsByStorey RefinementProblem::walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
-                                          std::span<const TraversalPoint> others_thinned) const {
+                                          std::span<const TraversalPoint> others_thinned,
+                                          StoreyId storey_of_others) const {
   std::vector<WallMap> maps;
   std::vector<TraversalPoint> points;
   points.reserve(returns_.size());
-  for (std::size_t i = 0; i <= index_of(highest_); ++i) {
+  for (std::size_t i = 0; i <= index_of(std::max(highest_, storey_of_others)); ++i) {
     const auto storey = make_id<StoreyId>(i);
     points.clear();
     for (const PlacedReturn& r : returns_)
       if (!r.held_out && r.storey == storey)
         points.push_back({T_map_body[index_of(r.pose)] * r.p_body, r.traversal});
-    const bool has_others = returns_.empty() || returns_.front().storey == storey;
-    maps.emplace_back(has_others ? others_thinned : std::span<const TraversalPoint>(), points, radius_m,
-                      tuning_);
+    maps.emplace_back(storey == storey_of_others ? others_thinned : std::span<const TraversalPoint>(), points,
+                      radius_m, tuning_);
   }
   return WallsByStorey(std::move(maps));
 }

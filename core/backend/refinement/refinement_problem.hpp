@@ -80,10 +80,10 @@ class RefinementProblem {
   [[nodiscard]] std::span<const PlacedReturn> returns() const { return returns_; }
 
   /// The walls of all returns but the held-out ones at these poses. `others_thinned`: points of other
-  /// traversals that add to them, on the storey of the first return. Returns must have been added by
-  /// traversal.
+  /// traversals that add to them, all on one storey. Returns must have been added by traversal.
   [[nodiscard]] WallsByStorey walls_at(const std::vector<Pose2>& T_map_body, double radius_m,
-                                       std::span<const TraversalPoint> others_thinned = {}) const;
+                                       std::span<const TraversalPoint> others_thinned = {},
+                                       StoreyId storey_of_others = {}) const;
   /// Adds to a system with `add(pose, H, rhs)` a point-to-line factor for each return that has a wall.
   template <typename System>
   void add_factors(const WallsByStorey& walls, const std::vector<Pose2>& T_map_body, System& system) const {

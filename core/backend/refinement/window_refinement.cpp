@@ -80,7 +80,11 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   take_steps(poses);
   std::vector<TraversalPoint> others_thinned;
   append_thinned(others, tuning_.thinning_cell_m, others_thinned);
-  const WallsByStorey before = problem_.walls_at(poses.T_map_body, tuning_.walls.radius_m, others_thinned);
+  const StoreyId storey = scans_->all().values(window).front().storey;
+  const auto walls_at = [&](const std::vector<Pose2>& T_map_body) {
+    return problem_.walls_at(T_map_body, tuning_.walls.radius_m, others_thinned, storey);
+  };
+  const WallsByStorey before = walls_at(poses.T_map_body);
   report.returns = problem_.size();
   report.points = before.size();
   chain_.reset(moving);
@@ -91,7 +95,7 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   T.resize(moving);
   if (const Status moved = chain_.step(T); !moved) return moved.error();
   report.judge(problem_.held_out_error_m(before, poses.T_map_body),
-               problem_.held_out_error_m(problem_.walls_at(T, tuning_.walls.radius_m, others_thinned), T));
+               problem_.held_out_error_m(walls_at(T), T));
   if (report.accepted) std::copy(T.begin(), T.end(), poses.T_map_body.begin());
   return report;
 }

@@ -36,8 +36,8 @@ class WindowRefinement {
   WindowRefinement(const ScanStore& scans, const OdometryNoise& noise, const RefinementTuning& tuning = {})
       : scans_(&scans), noise_(noise), tuning_(tuning), problem_(tuning) {}
 
-  /// `others`: points nearby of traversals outside of the window, ordered by traversal. Errors: kSolver; the
-  /// poses are then as they were.
+  /// `others`: points nearby of traversals outside of the window, ordered by traversal, on the storey of the
+  /// window's first scan. Errors: kSolver; the poses are then as they were.
   Result<WindowReport> refine(const ScanRange& window, std::span<const TraversalPoint> others,
                               WindowPoses& poses);
 

@@ -71,6 +71,12 @@ TEST(KnownPlaceError, LeavesOutWhatTheMapHasLost) {
   EXPECT_EQ(run.error().moments, 7U) << "39 to 45 s";
 }
 
+TEST(KnownPlaceError, WhatLiesOnAnotherStoreyIsNoKnownPlace) {
+  OutAndBack run(0.5);
+  for (std::size_t i = 31; i < run.moments.size(); ++i) run.moments[i].storey = StoreyId{1};
+  EXPECT_EQ(run.error().moments, 0U);
+}
+
 TEST(KnownPlaceError, CountsJumpsAgainstTheContinuousFrame) {
   OutAndBack run(0.5);
   EXPECT_EQ(run.error().jumps, 0U) << "all of it was flown";

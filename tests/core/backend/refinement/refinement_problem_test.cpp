@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/refinement_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kRadiusM = 0.4;
+constexpr StoreyId kBelow{0};
+constexpr StoreyId kAbove{1};
+
+/// Two traversals along y = 0 below, one along y = 0.1 above.
+RefinementProblem two_storeys() {
+  RefinementProblem problem{RefinementTuning{}};
+  for (const std::uint32_t traversal : {0U, 1U, 2U})
+    for (int i = 0; i < 40; ++i)
+      problem.add({PoseIndex{0},
+                   traversal,
+                   traversal < 2 ? kBelow : kAbove,
+                   false,
+                   {0.02 * i, traversal < 2 ? 0.0 : 0.1}});
+  return problem;
+}
+
+TEST(RefinementProblem, AWallIsThatOfItsOwnStorey) {
+  const WallsByStorey walls = two_storeys().walls_at({Pose2()}, kRadiusM);
+  const auto below = walls.wall_near(kBelow, {{0.4, 0.05}, 7});
+  ASSERT_TRUE(below.has_value());
+  EXPECT_NEAR(below->center_map.y_m, 0.0, 1e-9);
+  const auto above = walls.wall_near(kAbove, {{0.4, 0.05}, 7});
+  ASSERT_TRUE(above.has_value());
+  EXPECT_NEAR(above->center_map.y_m, 0.1, 1e-9);
+  EXPECT_FALSE(walls.wall_near(kAbove, {{0.4, 0.05}, 2}).has_value()) << "no other traversal was there";
+}
+
+TEST(RefinementProblem, PointsOfOthersAddToTheirStorey) {
+  std::vector<TraversalPoint> others;
+  for (int i = 0; i < 40; ++i) others.push_back({{0.02 * i, 0.1}, 9});
+  const WallsByStorey walls = two_storeys().walls_at({Pose2()}, kRadiusM, others, kAbove);
+  EXPECT_TRUE(walls.wall_near(kAbove, {{0.4, 0.05}, 2}).has_value());
+  EXPECT_NEAR(walls.wall_near(kBelow, {{0.4, 0.05}, 7})->center_map.y_m, 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace swiftlet
