@@ -21,11 +21,13 @@ FoxgloveTransforms transforms_of(const TrailPose& first, const TrailPose& pose) 
           .T_map_odom = pose_of(first.map) * pose_of(first.odom).inverse()};
 }
 
+/// Beyond what else makes a content.
+std::uint64_t content_of_storey(StoreyId storey) { return std::uint64_t{index_of(storey)} << 48U; }
+
 /// Changes when the tiles of the storey that is looked at do, and with the storey.
 std::uint64_t content_of_tiles(const RunHistory& history, std::optional<std::int64_t> at_us) {
-  constexpr std::uint64_t kBeyondVersions = 1ULL << 48U;
   const StoreyId storey = history.storey_at(at_us);
-  std::uint64_t versions = index_of(storey) * kBeyondVersions;
+  std::uint64_t versions = content_of_storey(storey);
   for (const auto& [index, tiles] : history.tiles()) {
     if (index.storey != storey) continue;
     const auto* const entry = at_us ? tiles.at(*at_us) : tiles.newest();
@@ -35,7 +37,7 @@ std::uint64_t content_of_tiles(const RunHistory& history, std::optional<std::int
 }
 
 std::uint64_t content_of_closures(const RunHistory& history, std::int64_t now_us) {
-  std::uint64_t seen = 0;
+  std::uint64_t seen = content_of_storey(history.storey_at(now_us));
   for (const auto& [index, numbered] : history.closures()) {
     const SeenClosure& closure = numbered.closure;
     if (closure.found_us <= now_us) ++seen;

@@ -174,9 +174,10 @@ std::string walls_json(std::int64_t utime_us, const std::vector<SeenWall>& walls
 std::string closures_json(std::int64_t utime_us, const RunHistory& history) {
   Points believed;
   Points dropped;
+  const auto storey = static_cast<std::int8_t>(index_of(history.storey_at(utime_us)));
   for (const auto& [index, numbered] : history.closures()) {
     const SeenClosure& closure = numbered.closure;
-    if (closure.found_us > utime_us) continue;
+    if (closure.found_us > utime_us || closure.storey != storey) continue;
     const bool is_dropped = closure.dropped_us != 0 && closure.dropped_us <= utime_us;
     Points& points = is_dropped ? dropped : believed;
     points.push_back(closure.from_map);

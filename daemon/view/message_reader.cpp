@@ -47,7 +47,11 @@ bool is_place(const float (&point)[2]) {
   return is_place(static_cast<double>(point[0]), static_cast<double>(point[1]));
 }
 
-bool is_sound(const pose_t& pose) { return is_place(pose.x, pose.y) && std::isfinite(pose.yaw); }
+bool is_storey(std::int8_t storey) { return storey >= 0 && storey < static_cast<int>(kMaxStoreys); }
+
+bool is_sound(const pose_t& pose) {
+  return is_storey(pose.storey) && is_place(pose.x, pose.y) && std::isfinite(pose.yaw);
+}
 bool is_sound(const ranges_t& ranges) {
   const auto is_length = [](float length_m) {
     return length_m >= 0.0F && length_m < static_cast<float>(kFarthestM);
@@ -57,7 +61,6 @@ bool is_sound(const ranges_t& ranges) {
          std::all_of(ranges.bearing.begin(), ranges.bearing.end(),
                      [](float bearing_rad) { return std::isfinite(bearing_rad); });
 }
-bool is_storey(std::int8_t storey) { return storey >= 0 && storey < static_cast<int>(kMaxStoreys); }
 bool is_sound(const map_tile_t& tile) {
   return is_storey(tile.storey) && std::abs(tile.tile_x) < kMaxTileIndex &&
          std::abs(tile.tile_y) < kMaxTileIndex && tile.version > 0 && tile.resolution > 1e-3 &&

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "swiftlet/landmarks_t.hpp"
+#include "swiftlet/loop_closure_t.hpp"
+#include "swiftlet/map_tile_t.hpp"
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
@@ -109,6 +111,25 @@ TEST_F(MessageReaderTest, WhatIsNoMessageOfOursChangesNothing) {
   pose_t nowhere = pose_message(pose_t::FRAME_MAP, 3);
   nowhere.x = std::nan("");
   take("POSE", nowhere);
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, AStoreyThatNoBuildingHasIsRefused) {
+  for (const int storey : {-1, static_cast<int>(kMaxStoreys)}) {
+    pose_t pose = pose_message(pose_t::FRAME_MAP, 3);
+    map_tile_t tile{};
+    tile.version = 1;
+    tile.resolution = 0.05;
+    loop_closure_t closure{};
+    pose.storey = tile.storey = closure.storey = static_cast<std::int8_t>(storey);
+    landmarks_t walls{};
+    walls.total = walls.count = 1;
+    walls.landmarks.push_back({.id = 1, .storey = pose.storey, .start = {0, 0}, .end = {1, 0}});
+    take("POSE", pose);
+    take("MAP_TILE", tile);
+    take("LANDMARKS", walls);
+    take("LOOP_CLOSURE", closure);
+  }
   EXPECT_EQ(history_.generation(), 0U);
 }
 
