@@ -43,7 +43,8 @@ inline constexpr OdometrySigma kUnknownMotion{100.0, 10.0};
 /// landed. One that was carried contradicts it.
 inline constexpr OdometrySigma kStoodStill{0.4, radians(10.0)};
 
-/// One step of dead reckoning with its error; exactly no motion has none (the vehicle stood still).
+/// One step of dead reckoning, which took `duration`, with its error; exactly no motion has none (the vehicle
+/// stood still).
 UncertainMotion uncertain_step(const OdometryNoise& noise, const Pose2& T_previous_this, Duration duration);
 
 /// A step of dead reckoning over a silence: the vehicle moved from one end to the other on an unknown path.
