@@ -139,7 +139,8 @@ class MbotPublisher final : public Publisher {
       if (cell == 0) continue;  // also all cells of a tile outside: nothing is left in it
       const int column = (index.x * kTileCells + i % kTileCells - layout.first_x) / layout.coarseness;
       const int row = (index.y * kTileCells + i / kTileCells - layout.first_y) / layout.coarseness;
-      std::int8_t& drawn = grid_.cells[static_cast<std::size_t>(row * layout.columns() + column)];
+      const auto cells_before = static_cast<std::size_t>(row) * static_cast<std::size_t>(layout.columns());
+      std::int8_t& drawn = grid_.cells[cells_before + static_cast<std::size_t>(column)];
       drawn = joined(drawn, cell);
     }
   }

@@ -29,20 +29,18 @@ RefinementProblem two_storeys() {
 TEST(RefinementProblem, AWallIsThatOfItsOwnStorey) {
   const WallsByStorey walls = two_storeys().walls_at({Pose2()}, kRadiusM);
   const auto below = walls.wall_near(kBelow, {{0.4, 0.05}, 7});
-  ASSERT_TRUE(below.has_value());
-  EXPECT_NEAR(below->center_map.y_m, 0.0, 1e-9);
+  EXPECT_NEAR(below.value().center_map.y_m, 0.0, 1e-9);
   const auto above = walls.wall_near(kAbove, {{0.4, 0.05}, 7});
-  ASSERT_TRUE(above.has_value());
-  EXPECT_NEAR(above->center_map.y_m, 0.1, 1e-9);
+  EXPECT_NEAR(above.value().center_map.y_m, 0.1, 1e-9);
   EXPECT_FALSE(walls.wall_near(kAbove, {{0.4, 0.05}, 2}).has_value()) << "no other traversal was there";
 }
 
 TEST(RefinementProblem, PointsOfOthersAddToTheirStorey) {
-  std::vector<TraversalPoint> others;
-  for (int i = 0; i < 40; ++i) others.push_back({{0.02 * i, 0.1}, 9});
+  std::vector<TraversalPoint> others(40, TraversalPoint{{0.0, 0.1}, 9});
+  for (std::size_t i = 0; i < others.size(); ++i) others[i].p_map.x_m = 0.02 * static_cast<double>(i);
   const WallsByStorey walls = two_storeys().walls_at({Pose2()}, kRadiusM, others, kAbove);
   EXPECT_TRUE(walls.wall_near(kAbove, {{0.4, 0.05}, 2}).has_value());
-  EXPECT_NEAR(walls.wall_near(kBelow, {{0.4, 0.05}, 7})->center_map.y_m, 0.0, 1e-9);
+  EXPECT_NEAR(walls.wall_near(kBelow, {{0.4, 0.05}, 7}).value().center_map.y_m, 0.0, 1e-9);
 }
 
 }  // namespace
