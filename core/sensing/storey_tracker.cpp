@@ -18,7 +18,8 @@ constexpr double kSameStoreyM = 1.2;
 constexpr Duration kSmoothedOver = std::chrono::seconds(2);
 // Weather and ventilation move the pressure by 2.5 m in ten minutes at most.
 constexpr double kDriftMPerS = 0.004;
-// No climb: a tenth of the lowest storey in as long as the fastest stairs take.
+// A climb has ended where the ground has changed by less than a tenth of the lowest storey for as long as the
+// fastest climb takes.
 constexpr double kLevelM = 0.25;
 constexpr Duration kLevelFor = std::chrono::seconds(10);
 
