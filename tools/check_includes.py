@@ -16,7 +16,7 @@ SENSING = ["core/base", "core/geometry", "core/sensing"]
 BACKEND = ["core/backend/config", "core/backend/store", "core/backend/pose_graph", "core/backend/loop_closing",
            "core/backend/refinement", "core/backend/pruning", "core/backend/confidence"]
 SLAM = SENSING + ["core/frontend", "core/backend"]
-CORE = SLAM + BACKEND + ["core/mapping", "core/mapping/picture", "core/evaluation", "core/calibration"]
+CORE = SLAM + BACKEND + ["core/mapping", "core/mapping/picture", "core/evaluation", "core/calibration", "core/run"]
 LINK = ["firmware_link/crtp", "firmware_link/link"]
 SESSION = LINK + ["firmware_link/session"]
 SAMPLE = SESSION + ["firmware_link/sample", "firmware_link/file"]
@@ -42,6 +42,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "core/mapping/picture": SLAM + BACKEND + ["core/mapping"],
     "core/evaluation": SENSING,
     "core/calibration": SLAM + BACKEND,
+    "core/run": SLAM + BACKEND,
     "firmware_link/crtp": SENSING,
     "firmware_link/link": SENSING + ["firmware_link/crtp"],
     "firmware_link/session": SENSING + LINK,

@@ -12,7 +12,7 @@ STAGES = {
     "decoding": ["LinkSampleSource::next()"],
     "frontend": ["Frontend::process("],
     "backend": ["Backend::add("],
-    "final pass": ["Backend::finish()"],
+    "final pass": ["Backend::finish("],
     "map": ["MapBuilder::settle("],
 }
 PARTS = {  # of backend and final pass

@@ -25,7 +25,13 @@ void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs,
               static_cast<unsigned long long>(counters.keyframes),
               static_cast<unsigned long long>(counters.closures_accepted),
               static_cast<unsigned long long>(counters.closures_dropped), run.input.problems.size());
-  if (counters.map_source != MapSource::kPoseGraph)
+  if (counters.map_source == MapSource::kOtherYawNoise)
+    std::fprintf(
+        stderr,
+        "swiftlet: note: the map is that of the run mapped again with %g times the noise of the heading: "
+        "it explains the ranges better\n",
+        counters.yaw_noise_factor);
+  else if (counters.map_source != MapSource::kPoseGraph)
     std::fprintf(stderr,
                  "swiftlet: note: the map follows %s alone, which explains the ranges no worse than loop "
                  "closures do\n",

@@ -99,7 +99,9 @@ Result<PreparedRun> read_first(const MapCommand& command, const Configuration& c
 /// when it is mapped for good.
 Result<std::optional<double>> misfit_of(const MapCommand& command, const PreparedRun& run,
                                         const std::stop_token& stop) {
-  Pipeline pipeline(run.config, *run.source);
+  Configuration once = run.config;
+  once.backend.map_again = false;
+  Pipeline pipeline(once, *run.source);
   for (Result<bool> more = true; more && *more; more = pipeline.step())
     if (stop.stop_requested()) return stopped_error(command.input);
   return std::as_const(pipeline).backend().counters().misfit;

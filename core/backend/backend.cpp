@@ -167,7 +167,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   return update;
 }
 
-BackendUpdate Backend::finish() {
+BackendUpdate Backend::finish(std::span<const OtherPath> others) {
   State& s = *state_;
   BackendUpdate update;
   if (!s.loops.closures().empty() || !s.graph.graph().headings.empty()) {
@@ -175,12 +175,16 @@ BackendUpdate Backend::finish() {
     while (s.loops.drop_worst(s.graph) && s.follow_graph(s.graph.optimize())) {
     }
   }
-  if (s.refinement.refine_all(s.graph.graph(), s.T_local_keyframe())) {
+  if (s.refinement.refine_all(s.graph.graph(), s.T_local_keyframe(), others)) {
     update.poses_changed = true;
     ++s.version;
   }
   if (s.chain.size() > 0) s.correct_newest(s.T_local_keyframe().values().back());
   return update;
+}
+
+bool Backend::can_be_mapped_again() const {
+  return state_->refinement.is_wanted() && state_->config.map_again && state_->scans_pruned == 0;
 }
 
 Pruning Backend::next_pruning() {
@@ -278,6 +282,7 @@ BackendCounters Backend::counters() const {
           .held_out_before_m = refinement.held_out_before_m,
           .held_out_after_m = refinement.held_out_after_m,
           .map_source = refinement.map_source,
+          .yaw_noise_factor = refinement.yaw_noise_factor,
           .misfit = refinement.misfit};
 }
 

@@ -12,6 +12,7 @@
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/pruning/pruning.hpp"
 #include "core/backend/refinement/map_source.hpp"
+#include "core/backend/refinement/other_path.hpp"
 #include "core/backend/store/frontend_estimates.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
@@ -46,6 +47,7 @@ struct BackendCounters {
   double held_out_before_m = 0.0;     ///< its criterion: distance of held-out returns from walls
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;  ///< what the final map follows
+  double yaw_noise_factor = 1.0;                 ///< OtherPath's of what it follows
   /// Minus the log likelihood of the final map but for a constant, comparable between runs of one input;
   /// nothing where no final pass has refined it.
   std::optional<double> misfit;
@@ -79,9 +81,11 @@ class Backend {
   [[nodiscard]] Pruning next_pruning();
   /// Prunes it. Precondition: nothing was added since next_pruning().
   void prune(const Pruning& pruning);
-  /// The final pass: last optimisation, false closures dropped, every scan's pose refined. Nothing may be
-  /// added afterwards.
-  BackendUpdate finish();
+  /// The final pass: last optimisation, false closures dropped, every scan's pose refined, or that of the one
+  /// among `others` which explains the ranges better. Nothing may be added afterwards.
+  BackendUpdate finish(std::span<const OtherPath> others = {});
+  /// Whether others may be found: the final pass refines, and no scan was pruned.
+  [[nodiscard]] bool can_be_mapped_again() const;
 
   [[nodiscard]] const ScanStore& scans() const;
   [[nodiscard]] const KeyframeChain& keyframes() const;

@@ -5,12 +5,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <chrono>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/backend/refinement/poses_and_walls.hpp"
 #include "core/backend/refinement/rigid_nodes.hpp"
+#include "core/base/go_on.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/calibration_scan.hpp"
 #include "core/sensing/sensor_model.hpp"
@@ -40,9 +40,6 @@ struct JointProblemTuning {
   RigidNodesTuning nodes{.way_m = 0.25};  ///< a few numbers of the whole input need no finer path
   PosesAndWalls::Tuning problem;
 };
-
-/// Called between steps of long work with the share done, 0 to 1; false stops the work.
-using GoOn = std::function<bool(double done)>;
 
 /// From the path, the walls and the systematic errors as unknowns of one problem (PosesAndWalls). Patches are
 /// found again as the path converges.

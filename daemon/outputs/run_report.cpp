@@ -94,6 +94,7 @@ Json backend_json(const Backend& backend) {
           {"optimizations", counters.optimizations},
           {"windows", {{"refined", counters.windows_refined}, {"refused", counters.windows_refused}}},
           {"map_source", name_of(counters.map_source)},
+          {"yaw_noise_factor", counters.yaw_noise_factor},
           {"refined", counters.refined},
           {"solver_failures", counters.solver_failures}};
 }

@@ -4,12 +4,20 @@
 
 #include <utility>
 
+#include "daemon/workers/map_again.hpp"
+
 namespace swiftlet {
 
-BackendWorker::BackendWorker(Backend& backend, MapBuilder& map, const Clock& clock, StepQueue::Consumer steps,
-                             CorrectionValue& correction, const std::optional<BackendOutlet>& publisher,
-                             StageTimes& times)
-    : backend_(backend), map_(map), clock_(clock), steps_(steps), correction_(correction), times_(times) {
+BackendWorker::BackendWorker(const MappingSettings& settings, Backend& backend, MapBuilder& map,
+                             const Clock& clock, StepQueue::Consumer steps, CorrectionValue& correction,
+                             const std::optional<BackendOutlet>& publisher, StageTimes& times)
+    : settings_(settings),
+      backend_(backend),
+      map_(map),
+      clock_(clock),
+      steps_(steps),
+      correction_(correction),
+      times_(times) {
   if (publisher) feed_.emplace(*publisher);
 }
 
@@ -70,7 +78,7 @@ void BackendWorker::prune() {
 void BackendWorker::run_final_pass() {
   {
     const StageTimer timer(clock_, times_.final_pass);
-    static_cast<void>(backend_.finish());
+    static_cast<void>(backend_.finish(map_again(backend_, settings_)));
   }
   final_pass_done_ = true;
   hand_on_correction();

@@ -6,6 +6,7 @@
 
 #include "core/backend/backend.hpp"
 #include "core/mapping/map_builder.hpp"
+#include "core/run/mapping_run.hpp"
 #include "daemon/system/clock.hpp"
 #include "daemon/workers/command_handler.hpp"
 #include "daemon/workers/map_feed.hpp"
@@ -22,9 +23,10 @@ namespace swiftlet {
 class BackendWorker {
  public:
   /// References must outlive the worker.
-  BackendWorker(Backend& backend, MapBuilder& map, const Clock& clock, StepQueue::Consumer steps,
-                CorrectionValue& correction, const std::optional<BackendOutlet>& publisher,
-                StageTimes& times);
+  /// `settings`: what the run is mapped with.
+  BackendWorker(const MappingSettings& settings, Backend& backend, MapBuilder& map, const Clock& clock,
+                StepQueue::Consumer steps, CorrectionValue& correction,
+                const std::optional<BackendOutlet>& publisher, StageTimes& times);
 
   /// Trajectories will be written: what is pruned is kept there, which must outlive the worker.
   void keep_pruned(PrunedScans& pruned) { pruned_ = &pruned; }
@@ -40,6 +42,7 @@ class BackendWorker {
   }
 
  private:
+  MappingSettings settings_;
   Backend& backend_;
   MapBuilder& map_;
   const Clock& clock_;

@@ -35,8 +35,8 @@ struct Pipeline::State {
         frontend_worker(frontend, clock, queues.samples.consumer(), queues.steps.producer(),
                         queues.correction, frontend_outlet(), BeamReadings::of(source.beams(), sensor),
                         times.frontend),
-        backend_worker(backend, map, clock, queues.steps.consumer(), queues.correction, backend_outlet(),
-                       times) {}
+        backend_worker({config.frontend, config.backend, sensor}, backend, map, clock,
+                       queues.steps.consumer(), queues.correction, backend_outlet(), times) {}
 
   std::optional<InputOutlet> input_outlet() {
     if (!publishes) return std::nullopt;

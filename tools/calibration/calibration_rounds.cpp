@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "core/calibration/calibration_findings.hpp"
-#include "core/calibration/mapping_run.hpp"
+#include "core/run/mapping_run.hpp"
 
 namespace swiftlet {
 namespace {
@@ -61,7 +61,7 @@ Result<Round> Calibration::run_round(std::optional<Duration> range_age) {
   const std::vector<CalibrationScan> scans = calibration_scans(run.samples, run.beams);
   round.motion = summarize_motion(scans);
   if (why_hopeless(round.motion)) return round;
-  Result<MappingRun> map = map_samples(run.samples, run.sensor, run.beams, next_part());
+  Result<MappingRun> map = map_samples(run.samples, {.sensor = run.sensor}, run.beams, next_part());
   if (!map) return map.error();
   round.counters = map->counters;
   const Result<JointEstimate> estimate = estimate_jointly(scans, run.sensor, map->T_map_body, next_part());
@@ -76,7 +76,7 @@ Result<CalibrationCheck> Calibration::check(const CalibrationFindings& findings,
   const SensorModel sensor = calibrated(findings, first);
   const Result<PairedRun> run = read_run_(sensor.range_age);
   if (!run) return run.error();
-  const Result<MappingRun> map = map_samples(run->samples, sensor, run->beams, next_part());
+  const Result<MappingRun> map = map_samples(run->samples, {.sensor = sensor}, run->beams, next_part());
   if (!map) return map.error();
   return CalibrationCheck{before.held_out_after_m, map->counters.held_out_after_m};
 }

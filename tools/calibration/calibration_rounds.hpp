@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/go_on.hpp"
 #include "core/base/result.hpp"
 #include "core/calibration/joint_problem.hpp"
 #include "core/sensing/range_sample.hpp"

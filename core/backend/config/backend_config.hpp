@@ -40,7 +40,9 @@ struct BackendConfig {
 
   // Joint refinement
   bool refine = true;
+  bool refine_online = true;
   int refinement_iterations = 8;
+  bool map_again = true;
 
   // Known space
   int max_scans = 20000;
@@ -84,8 +86,11 @@ struct BackendConfig {
        "Gauss-Newton steps at most; while flying never more than 4 a keyframe", 1, 1000},
       {"refine", &BackendConfig::refine, "",
        "false: poses between keyframes stay interpolated, while flying and at the end"},
+      {"refine_online", &BackendConfig::refine_online, "", "false: at the end only"},
       {"refinement_iterations", &BackendConfig::refinement_iterations, "",
        "rounds of walls and poses in turn, at the end of a run", 1, 1000},
+      {"map_again", &BackendConfig::map_again, "",
+       "at the end of a run map it again with other noise of the heading, and keep the best map"},
       {"max_scans", &BackendConfig::max_scans, "",
        "with more than these, scans of space that others cover as well are pruned; 600 are a minute at 10 Hz",
        1000, 100000000},

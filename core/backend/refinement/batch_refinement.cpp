@@ -129,6 +129,18 @@ void take(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report
 
 }  // namespace
 
+RefinementReport judge_unrefined(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body) {
+  const RefinementProblem problem = problem_of(batch.scans, batch.config.tuning.refinement);
+  const Factors factors = factors_of(batch);
+  Judged judged = judge(batch.scans, problem, motions_in(factors, batch), T_map_body, batch.config);
+  RefinementReport report;
+  report.judge(judged.held_out_m, judged.held_out_m);
+  report.share_on_walls = judged.share_on_walls;
+  report.misfit = judged.misfit;
+  report.misfit_at_start = std::move(judged.misfit);
+  return report;
+}
+
 Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vector<Pose2>& T_map_body) {
   SWIFTLET_CHECK(T_map_body.size() == batch.scans.size(), "every scan has a pose");
   RefinementReport report;

@@ -12,6 +12,7 @@ enum class MapSource : std::uint8_t {
   kDeadReckoning,  ///< the odometry as reported
   kFrontend,       ///< the landmark graph: no loop closures
   kPoseGraph,
+  kOtherYawNoise,  ///< the pose graph of the run mapped again (OtherPath)
 };
 
 constexpr std::string_view name_of(MapSource source) {
@@ -20,6 +21,8 @@ constexpr std::string_view name_of(MapSource source) {
       return "dead reckoning";
     case MapSource::kFrontend:
       return "frontend";
+    case MapSource::kOtherYawNoise:
+      return "pose graph, other yaw noise";
     case MapSource::kPoseGraph:
       break;
   }

@@ -55,6 +55,8 @@ double gain_sigmas(std::span<const double> misfit, std::span<const double> other
   return variance > 0.0 ? gain / std::sqrt(variance) : 0.0;
 }
 
+double sum(std::span<const double> misfit) { return std::accumulate(misfit.begin(), misfit.end(), 0.0); }
+
 double rms_distance_m(std::span<const Pose2> a, std::span<const Pose2> b) {
   double sum_m2 = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -94,7 +96,7 @@ void RunRefinement::follow(const KeyframePoses& T_map_keyframe) {
 
 ScanRange RunRefinement::refine_window(const KeyframePoses& T_map_keyframe,
                                        const KeyframePoses& T_local_keyframe) {
-  if (!is_wanted()) return {};
+  if (!is_wanted() || !config_->refine_online) return {};
   const Result<ScanRange> refined = online_.step(T_map_keyframe, T_local_keyframe);
   if (refined) return *refined;
   ++counters_.solver_failures;
@@ -110,7 +112,7 @@ RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const Pose
     T_map_body = from(T_map_first, chain_->T_w_bodies(all, T_local_keyframe));
   if (source == MapSource::kDeadReckoning)
     T_map_body = from(T_map_first, reported_path(scans_->all().values(), sensor_.calibration_as_reported()));
-  return {source, std::move(T_map_body), {}};
+  return {.source = source, .T_map_body = std::move(T_map_body)};
 }
 
 RunRefinement::Known RunRefinement::known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const {
@@ -168,8 +170,9 @@ bool RunRefinement::is_likelier(const Hypothesis& hypothesis, const Hypothesis& 
          std::log(2.0) * apart / tuning.median_drift;
 }
 
-bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
-  if (!is_wanted() || scans_->size() < 2) return false;
+/// Refined. Nothing where there is no solution.
+std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGraph& graph,
+                                                                    const KeyframePoses& T_local_keyframe) {
   std::optional<Hypothesis> best;
   Hypothesis simplest = hypothesis(MapSource::kDeadReckoning, graph, T_local_keyframe);
   if (try_refine(simplest, graph)) best = std::move(simplest);
@@ -179,16 +182,44 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
     best = std::move(correction);
     break;
   }
+  if (best) complete(*best, graph);
+  return best;
+}
+
+/// Both as they are: refine_together() has corrected the dead reckoning that the best one is judged by. Dead
+/// reckoning has odds of its own against every correction.
+bool RunRefinement::is_better(const Hypothesis& other, const Hypothesis& best) const {
+  if (best.source == MapSource::kDeadReckoning) return is_likelier(other, best);
+  return sum(other.report.misfit) < sum(judge_unrefined(batch(best, {}), best.T_map_body).misfit);
+}
+
+void RunRefinement::take_if_better(const OtherPath& other, Hypothesis& best) const {
+  Hypothesis correction{.source = MapSource::kOtherYawNoise,
+                        .T_map_body = from(best.T_map_body.front(), other.T_map_body),
+                        .yaw_noise_factor = other.yaw_noise_factor};
+  correction.report = judge_unrefined(batch(correction, {}), correction.T_map_body);
+  if (is_better(correction, best)) best = std::move(correction);
+}
+
+void RunRefinement::take(Hypothesis best) {
+  counters_.held_out_before_m = best.report.held_out_before_m;
+  counters_.held_out_after_m = best.report.held_out_after_m;
+  counters_.refined = best.report.accepted;
+  counters_.map_source = best.source;
+  counters_.yaw_noise_factor = best.yaw_noise_factor;
+  counters_.misfit = sum(best.report.misfit);
+  if (best.report.accepted || best.source != MapSource::kPoseGraph)
+    T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
+}
+
+bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
+                               std::span<const OtherPath> others) {
+  if (!is_wanted() || scans_->size() < 2) return false;
+  std::optional<Hypothesis> best = best_of_run(graph, T_local_keyframe);
   if (!best) return false;
-  complete(*best, graph);
-  counters_.held_out_before_m = best->report.held_out_before_m;
-  counters_.held_out_after_m = best->report.held_out_after_m;
-  counters_.refined = best->report.accepted;
-  counters_.map_source = best->source;
-  counters_.misfit = std::accumulate(best->report.misfit.begin(), best->report.misfit.end(), 0.0);
-  const bool has_moved = best->report.accepted || best->source != MapSource::kPoseGraph;
-  if (has_moved) T_map_refined_ = scans_->all().with(std::move(best->T_map_body));
-  return has_moved;
+  for (const OtherPath& other : others) take_if_better(other, *best);
+  take(std::move(*best));
+  return is_final();
 }
 
 void RunRefinement::erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals) {

@@ -11,6 +11,7 @@
 #include "core/backend/refinement/batch_refinement.hpp"
 #include "core/backend/refinement/map_source.hpp"
 #include "core/backend/refinement/online_refinement.hpp"
+#include "core/backend/refinement/other_path.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/sensing/sensor_model.hpp"
 
@@ -24,7 +25,8 @@ struct RefinementCounters {
   double held_out_before_m = 0.0;
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;
-  std::optional<double> misfit;  ///< of that map: RefinementReport's, of all traversals
+  double yaw_noise_factor = 1.0;  ///< of the path that it follows
+  std::optional<double> misfit;   ///< of that map: RefinementReport's, of all traversals
 };
 
 /// The poses of all scans: between the graph's keyframes, refined window by window while the run goes on, and
@@ -35,6 +37,7 @@ class RunRefinement {
   RunRefinement(const BackendConfig& config, const SensorModel& sensor, const ScanStore& scans,
                 const KeyframeChain& chain);
 
+  [[nodiscard]] bool is_wanted() const { return config_->refine && config_->close_loops; }
   void add_scan() { online_.add_scan(); }
   /// A loop has closed there.
   void queue_around(KeyframeId place) {
@@ -47,8 +50,10 @@ class RunRefinement {
   /// Gives every scan a pose of its own, for good. True: poses have moved. The graph's path is held against
   /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way, walls and
   /// poses in turn; the one chosen then together. Dead reckoning is the map unless the ranges pay for how far
-  /// a correction departs from it.
-  bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
+  /// a correction departs from it. `others`: final paths already; one of them becomes the map where it
+  /// explains the ranges better.
+  bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
+                  std::span<const OtherPath> others);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
   [[nodiscard]] Pose2 T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const;
@@ -65,7 +70,8 @@ class RunRefinement {
   struct Hypothesis {
     MapSource source{};
     std::vector<Pose2> T_map_body;
-    RefinementReport report;
+    RefinementReport report{};
+    double yaw_noise_factor = 1.0;
   };
   [[nodiscard]] Hypothesis hypothesis(MapSource source, const PoseGraph& graph,
                                       const KeyframePoses& T_local_keyframe) const;
@@ -79,8 +85,11 @@ class RunRefinement {
   bool try_refine(Hypothesis& hypothesis, const PoseGraph& graph);
   void complete(Hypothesis& hypothesis, const PoseGraph& graph);
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
-
-  [[nodiscard]] bool is_wanted() const { return config_->refine && config_->close_loops; }
+  [[nodiscard]] std::optional<Hypothesis> best_of_run(const PoseGraph& graph,
+                                                      const KeyframePoses& T_local_keyframe);
+  [[nodiscard]] bool is_better(const Hypothesis& other, const Hypothesis& best) const;
+  void take_if_better(const OtherPath& other, Hypothesis& best) const;
+  void take(Hypothesis best);
 
   const BackendConfig* config_;
   SensorModel sensor_;

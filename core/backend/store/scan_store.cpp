@@ -17,6 +17,7 @@ std::array<Point2, kMaxBeams> ScanStore::unit_directions(const BeamLayout& beams
 ScanId ScanStore::add(const FrontendStep& step) {
   const RangeSample& sample = step.sample;
   StoredScan scan{.stamp = sample.stamp,
+                  .measured_at = sample.measured_at,
                   .T_odom_body = sample.T_odom_body,
                   .T_dead_body = step.T_dead_body,
                   .T_keyframe_body = step.T_keyframe_body,
@@ -42,6 +43,28 @@ ScanId ScanStore::add(const FrontendStep& step) {
   }
   scan.return_count = static_cast<std::uint16_t>(returns_.size() - scan.first_return);
   return scans_.push_back(scan);
+}
+
+std::vector<RangeSample> ScanStore::samples() const {
+  std::vector<RangeSample> samples;
+  samples.reserve(size());
+  for (const auto& [id, scan] : scans_) {
+    RangeSample& sample = samples.emplace_back();
+    sample.sequence = index_of(id);
+    sample.measured_at = scan.measured_at;
+    sample.stamp = scan.stamp;
+    sample.T_odom_body = scan.T_odom_body;
+    sample.starts_segment = scan.starts_segment;
+    sample.odometry_ran_on = scan.odometry_ran_on;
+    sample.storey = scan.storey;
+    sample.beam_count = beams_.count;
+    sample.status.fill(RangeStatus::kInvalid);
+    for (const ScanReturn& beam : returns(scan)) {
+      sample.status[beam.beam] = beam.is_hit ? RangeStatus::kHit : RangeStatus::kNoReturn;
+      sample.distance_m[beam.beam] = beam.distance_m;
+    }
+  }
+  return samples;
 }
 
 void ScanStore::erase(const IdRanges<ScanId>& pruned) {

@@ -27,6 +27,7 @@ struct ScanReturn {
 /// One scan as the backend stores it: about 250 bytes with four beams.
 struct StoredScan {
   HostTime stamp{};
+  DeviceTime measured_at{};
   Pose2 T_odom_body;
   Pose2 T_dead_body;      ///< dead reckoning less its learnt drift
   Pose2 T_keyframe_body;  ///< by dead reckoning from `keyframe`
@@ -60,6 +61,8 @@ class ScanStore {
     if (scans.empty()) return 0;
     return scans.back().first_return + scans.back().return_count - scans.front().first_return;
   }
+  /// The samples that the scans were made of. Precondition: none was erased. Allocates.
+  [[nodiscard]] std::vector<RangeSample> samples() const;
   [[nodiscard]] const BeamLayout& beams() const { return beams_; }
   /// Where a return lies in the body frame.
   [[nodiscard]] Point2 point_body(const ScanReturn& r) const {

@@ -78,6 +78,7 @@ TEST(BackendPruning, HoldsNoMoreScansThanItIsAllowedInKnownSpace) {
   EXPECT_LE(finished_patrol().max_scans, kMaxScans + kMaxScans / 10);
   EXPECT_EQ(finished_patrol().pruned + finished_patrol().backend->scans().size(), patrol().samples().size());
   EXPECT_EQ(finished_patrol().backend->counters().scans, patrol().samples().size());
+  EXPECT_FALSE(finished_patrol().backend->can_be_mapped_again());
   EXPECT_EQ(finished_patrol().backend->counters().scans_pruned, finished_patrol().pruned);
 }
 

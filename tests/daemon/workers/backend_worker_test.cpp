@@ -15,7 +15,7 @@ namespace {
 /// A backend worker behind a queue that the test fills from a frontend.
 struct BackendBench {
   BackendBench()
-      : worker(backend, map, clock, queues->steps.consumer(), queues->correction,
+      : worker({}, backend, map, clock, queues->steps.consumer(), queues->correction,
                queues->to_publisher.backend_outlet(), times) {}
 
   void push(const RangeSample& sample) {
@@ -96,7 +96,7 @@ TEST(BackendWorker, RunsTheFinalPassOnceAndFinishesWhenAllIsHandedOn) {
 TEST(BackendWorker, WithoutAPublisherDrawsTheSameMapOnceAtTheEnd) {
   BackendBench published;
   BackendBench unpublished;
-  BackendWorker alone(unpublished.backend, unpublished.map, unpublished.clock,
+  BackendWorker alone({}, unpublished.backend, unpublished.map, unpublished.clock,
                       unpublished.queues->steps.consumer(), unpublished.queues->correction, std::nullopt,
                       unpublished.times);
   for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) {

@@ -74,14 +74,15 @@ struct FinalMap {
 /// The map of a run whose pose graph has put the keyframes on this path.
 FinalMap final_map(const StoredRun& run, const std::vector<Pose2>& T_graph_body,
                    std::span<const RelativePoseFactor<KeyframeId>> closures = {},
-                   const BackendConfig& config = {}, const SensorModel& sensor = SensorModel::crazyflie()) {
+                   const BackendConfig& config = {}, const SensorModel& sensor = SensorModel::crazyflie(),
+                   std::span<const OtherPath> others = {}) {
   PoseGraph graph;
   for (const auto& [keyframe, scan] : run.chain().all())
     graph.T_map_keyframe.push_back(T_graph_body[index_of(scan)]);
   for (const RelativePoseFactor<KeyframeId>& closure : closures) graph.factors.push_back(closure);
   RunRefinement refinement(config, sensor, run.scans(), run.chain());
   for (std::size_t i = 0; i < run.scans().size(); ++i) refinement.add_scan();
-  refinement.refine_all(graph, run.T_local_keyframe());
+  refinement.refine_all(graph, run.T_local_keyframe(), others);
   FinalMap map;
   for (const auto& [scan, stored] : run.scans().all())
     map.T_map_body.push_back(refinement.T_map_body(scan, graph.T_map_keyframe));
@@ -191,6 +192,38 @@ TEST(RunRefinement, ARestartThatLoopsHaveBridgedIsNoDrift) {
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.1);
 }
 
+/// One path, with the graph's, and what the map is then.
+FinalMap final_map_beside(const OtherPath& other, const std::vector<Pose2>& T_graph_body) {
+  const StoredRun run(two_laps().samples());
+  return final_map(run, T_graph_body, {}, {}, SensorModel::crazyflie(), std::span(&other, 1));
+}
+
+TEST(RunRefinement, AnotherPathThatExplainsTheRangesBetterIsTheMapAsItIs) {
+  const std::vector<Pose2> truth = true_poses(two_laps());
+  const FinalMap map = final_map_beside({0.5, truth}, bent(two_laps(), -0.015));
+  EXPECT_EQ(map.counters.map_source, MapSource::kOtherYawNoise);
+  EXPECT_EQ(map.counters.yaw_noise_factor, 0.5);
+  EXPECT_TRUE(poses_near(between(map.T_map_body.front(), map.T_map_body.back()),
+                         between(truth.front(), truth.back()), 1e-9, 1e-9));
+}
+
+TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
+  const std::vector<Pose2> waves = in_small_waves(true_poses(two_laps()));
+  const FinalMap alone = final_map(StoredRun(two_laps().samples()), waves);
+  const FinalMap beside = final_map_beside({2.0, waves}, waves);
+  EXPECT_EQ(beside.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_EQ(beside.counters.yaw_noise_factor, 1.0);
+  EXPECT_TRUE(same_bits(beside.T_map_body, alone.T_map_body));
+}
+
+TEST(RunRefinement, AnotherPathHasToPayForHowFarItDepartsFromDeadReckoning) {
+  const TestVehicle vehicle = along_the_corridor();
+  const OtherPath other{2.0, bent(vehicle, 0.03)};
+  const FinalMap map = final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {},
+                                 SensorModel::crazyflie(), std::span(&other, 1));
+  EXPECT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
+}
+
 TEST(RunRefinement, TwoRunsGiveTheSameBytes) {
   const std::vector<Pose2> T_graph_body = in_small_waves(true_poses(two_laps()));
   const FinalMap one = final_map(StoredRun(two_laps().samples()), T_graph_body);
@@ -216,6 +249,7 @@ TEST(MapSource, EachHasAName) {
   EXPECT_EQ(name_of(MapSource::kDeadReckoning), "dead reckoning");
   EXPECT_EQ(name_of(MapSource::kFrontend), "frontend");
   EXPECT_EQ(name_of(MapSource::kPoseGraph), "pose graph");
+  EXPECT_EQ(name_of(MapSource::kOtherYawNoise), "pose graph, other yaw noise");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <vector>
 
 namespace swiftlet {
 namespace {
@@ -60,6 +61,34 @@ TEST(ScanStore, BeamsBeyondTheSamplesCountAreNotRead) {
   step.sample.status.fill(RangeStatus::kHit);
   scans.add(step);
   EXPECT_EQ(scans.returns(ScanId{0}).size(), 2U);
+}
+
+TEST(ScanStore, GivesTheSamplesBack) {
+  ScanStore scans(BeamLayout::multiranger());
+  FrontendStep step = step_at({1.0, 2.0, 0.5}, true);
+  RangeSample& given = step.sample;
+  given.stamp = HostTime(std::chrono::seconds(77));
+  given.measured_at = DeviceTime(std::chrono::seconds(3));
+  given.odometry_ran_on = true;
+  given.storey = StoreyId{2};
+  given.status[0] = RangeStatus::kHit;
+  given.distance_m[0] = 1.5F;
+  given.status[2] = RangeStatus::kNoReturn;
+  scans.add(step);
+  scans.add(step_at({}));
+  const std::vector<RangeSample> samples = scans.samples();
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_EQ(samples[1].sequence, 1U);
+  const RangeSample& back = samples[0];
+  EXPECT_EQ(back.stamp, given.stamp);
+  EXPECT_EQ(back.measured_at, given.measured_at);
+  EXPECT_EQ(back.T_odom_body.vector(), given.T_odom_body.vector());
+  EXPECT_TRUE(back.starts_segment);
+  EXPECT_TRUE(back.odometry_ran_on);
+  EXPECT_EQ(back.storey, given.storey);
+  EXPECT_EQ(back.beam_count, 4);
+  EXPECT_EQ(back.status, given.status);
+  EXPECT_EQ(back.distance_m, given.distance_m);
 }
 
 TEST(ScanStore, ReturnsLieAlongTheirBeams) {

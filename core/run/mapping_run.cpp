@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/calibration/mapping_run.hpp"
+#include "core/run/mapping_run.hpp"
 
 #include "core/frontend/frontend.hpp"
 
 namespace swiftlet {
 
-Result<MappingRun> map_samples(std::span<const RangeSample> samples, const SensorModel& sensor,
+Result<MappingRun> map_samples(std::span<const RangeSample> samples, const MappingSettings& settings,
                                const BeamLayout& beams, const GoOn& go_on) {
-  Frontend frontend(FrontendConfig{}, sensor, beams);
-  Backend backend(BackendConfig{}, sensor, beams);
+  Frontend frontend(settings.frontend, settings.sensor, beams);
+  Backend backend(settings.backend, settings.sensor, beams);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const FrontendStep& step = frontend.process(samples[i]);
     static_cast<void>(backend.add(step));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "core/calibration/mapping_run.hpp"
+#include "core/run/mapping_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace {
 
 TEST(MappingRun, GivesEverySampleAPose) {
   const std::vector<RangeSample> samples = samples_of({});
-  const Result<MappingRun> run =
-      map_samples(samples, SensorModel::crazyflie(), BeamLayout::multiranger(), [](double) { return true; });
+  const Result<MappingRun> run = map_samples(samples, {.sensor = SensorModel::crazyflie()},
+                                             BeamLayout::multiranger(), [](double) { return true; });
   ASSERT_TRUE(run);
   ASSERT_EQ(run->T_map_body.size(), samples.size());
   EXPECT_GT(run->counters.keyframes, 10U);
@@ -25,7 +25,7 @@ TEST(MappingRun, GivesEverySampleAPose) {
 }
 
 TEST(MappingRun, StopsWhenToldTo) {
-  const Result<MappingRun> stopped = map_samples(samples_of({}), SensorModel::crazyflie(),
+  const Result<MappingRun> stopped = map_samples(samples_of({}), {.sensor = SensorModel::crazyflie()},
                                                  BeamLayout::multiranger(), [](double) { return false; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kTimeout);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "daemon/workers/map_again.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/frontend/frontend.hpp"
+#include "core/run/other_yaw_noise.hpp"
+#include "tests/support/loop_corridor.hpp"
+#include "tests/support/pose_near.hpp"
+
+namespace swiftlet {
+namespace {
+
+struct FlownBackend {
+  explicit FlownBackend(const BackendConfig& config)
+      : settings{.backend = config, .sensor = SensorModel::crazyflie()},
+        backend(config, settings.sensor, BeamLayout::multiranger()) {
+    TestVehicle vehicle = vehicle_at_start({}, 82);
+    fly_along(vehicle, loop_corridor(), "bcdab");
+    Frontend frontend(settings.frontend, settings.sensor, BeamLayout::multiranger());
+    for (const RangeSample& sample : vehicle.samples())
+      static_cast<void>(backend.add(frontend.process(sample)));
+  }
+
+  MappingSettings settings;
+  Backend backend;
+};
+
+TEST(MapAgain, GivesThePathsInTheirOrderAndTheSameOnesEachTime) {
+  const FlownBackend flown({});
+  const std::vector<OtherPath> once = map_again(flown.backend, flown.settings);
+  const std::vector<OtherPath> again = map_again(flown.backend, flown.settings);
+  ASSERT_EQ(once.size(), kOtherYawNoise.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].yaw_noise_factor, kOtherYawNoise[i]);
+    EXPECT_TRUE(same_bits(once[i].T_map_body, again[i].T_map_body));
+  }
+}
+
+TEST(MapAgain, GivesNothingWhereItIsNotWanted) {
+  for (bool BackendConfig::*const off :
+       {&BackendConfig::map_again, &BackendConfig::refine, &BackendConfig::close_loops}) {
+    BackendConfig config;
+    config.*off = false;
+    const FlownBackend flown(config);
+    EXPECT_TRUE(map_again(flown.backend, flown.settings).empty());
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
