@@ -67,6 +67,7 @@ SILENT_TEXTS = {
     "names that stand within messages": """
         dead reckoning
         pose graph
+        other yaw noise
         age of the ranges
         metres moved per metre measured, forward
         the same, sideways

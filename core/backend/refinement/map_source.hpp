@@ -22,7 +22,7 @@ constexpr std::string_view name_of(MapSource source) {
     case MapSource::kFrontend:
       return "frontend";
     case MapSource::kOtherYawNoise:
-      return "pose graph, other yaw noise";
+      return "other yaw noise";
     case MapSource::kPoseGraph:
       break;
   }

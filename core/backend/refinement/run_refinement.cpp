@@ -186,19 +186,17 @@ std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGr
   return best;
 }
 
-/// Both as they are: refine_together() has corrected the dead reckoning that the best one is judged by. Dead
-/// reckoning has odds of its own against every correction.
-bool RunRefinement::is_better(const Hypothesis& other, const Hypothesis& best) const {
-  if (best.source == MapSource::kDeadReckoning) return is_likelier(other, best);
-  return sum(other.report.misfit) < sum(judge_unrefined(batch(best, {}), best.T_map_body).misfit);
-}
-
+/// Both are judged as they are: refine_together() has corrected the dead reckoning that the best one was
+/// judged by. Where that is dead reckoning itself it stays: each other path would be one more chance to beat
+/// it by luck.
 void RunRefinement::take_if_better(const OtherPath& other, Hypothesis& best) const {
+  if (best.source == MapSource::kDeadReckoning) return;
   Hypothesis correction{.source = MapSource::kOtherYawNoise,
                         .T_map_body = from(best.T_map_body.front(), other.T_map_body),
                         .yaw_noise_factor = other.yaw_noise_factor};
   correction.report = judge_unrefined(batch(correction, {}), correction.T_map_body);
-  if (is_better(correction, best)) best = std::move(correction);
+  const RefinementReport as_it_is = judge_unrefined(batch(best, {}), best.T_map_body);
+  if (sum(correction.report.misfit) < sum(as_it_is.misfit)) best = std::move(correction);
 }
 
 void RunRefinement::take(Hypothesis best) {

@@ -87,7 +87,6 @@ class RunRefinement {
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
   [[nodiscard]] std::optional<Hypothesis> best_of_run(const PoseGraph& graph,
                                                       const KeyframePoses& T_local_keyframe);
-  [[nodiscard]] bool is_better(const Hypothesis& other, const Hypothesis& best) const;
   void take_if_better(const OtherPath& other, Hypothesis& best) const;
   void take(Hypothesis best);
 
