@@ -14,6 +14,7 @@ std::vector<OtherPath> map_again(const Backend& backend, const MappingSettings& 
   if (!backend.can_be_mapped_again()) return {};
   const std::vector<RangeSample> samples = backend.scans().samples();
   std::vector<std::future<std::optional<OtherPath>>> begun;
+  begun.reserve(kOtherYawNoise.size());
   for (const double factor : kOtherYawNoise)
     begun.push_back(std::async(std::launch::async, [&, factor] {
       return path_with_yaw_noise(factor, samples, settings, backend.scans().beams());
