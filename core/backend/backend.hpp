@@ -48,8 +48,8 @@ struct BackendCounters {
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;  ///< what the final map follows
   double yaw_noise_factor = 1.0;                 ///< OtherPath's of what it follows
-  /// Minus the log likelihood of the final map but for a constant, comparable between runs of one input;
-  /// nothing where no final pass has refined it.
+  /// Minus the log likelihood of the final map but for a constant, comparable between runs of one input
+  /// that were not mapped again; nothing where no final pass has refined it.
   std::optional<double> misfit;
 };
 

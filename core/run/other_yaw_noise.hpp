@@ -15,8 +15,8 @@ namespace swiftlet {
 // the finished map tells whether what was assumed was right. So a run is mapped again with other factors of
 // that noise, and the map that explains the ranges best is delivered (RunRefinement::refine_all()).
 
-/// Of its standard deviations: steps of 1.4, which as many maps survive as break ones, so that each is
-/// another chance and none is hopeless (a quarter and twice break nearly every long laser log).
+/// Of its standard deviations, a step of 1.4 from one to the next. At a quarter and at twice most long laser
+/// logs break; between those, which copies break differs from factor to factor.
 inline constexpr std::array kOtherYawNoise{0.5, 0.7, 1.4};
 
 /// The final path with so many times the noise; nothing where that map is dead reckoning alone.

@@ -16,7 +16,7 @@ std::vector<OtherPath> map_again(const Backend& backend, const MappingSettings& 
   std::vector<std::future<std::optional<OtherPath>>> begun;
   begun.reserve(kOtherYawNoise.size());
   for (const double factor : kOtherYawNoise)
-    begun.push_back(std::async(std::launch::async, [&, factor] {
+    begun.push_back(std::async([&, factor] {  // in this thread where the system has no other to give
       return path_with_yaw_noise(factor, samples, settings, backend.scans().beams());
     }));
   std::vector<OtherPath> others;

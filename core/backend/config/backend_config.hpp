@@ -86,7 +86,7 @@ struct BackendConfig {
        "Gauss-Newton steps at most; while flying never more than 4 a keyframe", 1, 1000},
       {"refine", &BackendConfig::refine, "",
        "false: poses between keyframes stay interpolated, while flying and at the end"},
-      {"refine_online", &BackendConfig::refine_online, "", "false: at the end only"},
+      {"refine_online", &BackendConfig::refine_online, "", "false: poses are refined at the end only"},
       {"refinement_iterations", &BackendConfig::refinement_iterations, "",
        "rounds of walls and poses in turn, at the end of a run", 1, 1000},
       {"map_again", &BackendConfig::map_again, "",

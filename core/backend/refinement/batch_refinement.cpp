@@ -129,7 +129,7 @@ void take(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report
 
 }  // namespace
 
-RefinementReport judge_unrefined(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body) {
+RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body) {
   const RefinementProblem problem = problem_of(batch.scans, batch.config.tuning.refinement);
   const Factors factors = factors_of(batch);
   Judged judged = judge(batch.scans, problem, motions_in(factors, batch), T_map_body, batch.config);

@@ -48,8 +48,8 @@ struct BatchRefinement {
 /// each other: refinement closes no loops. `T_map_body`: one pose per scan, in and out, the first one is
 /// held. Errors: kSolver. Allocates. Repeatable.
 Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vector<Pose2>& T_map_body);
-/// A path that is left as it is, judged like those that are refined.
-RefinementReport judge_unrefined(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body);
+/// Judges a path, by the same returns and dead reckoning, and leaves it alone. One pose per scan. Allocates.
+RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body);
 /// Then walls and poses together, by refine_jointly(), from what refine_in_turn() reports and returns.
 /// Accepted on the same condition; else, and where there is no solution (kSolver), both are left as they are.
 Status refine_together(const BatchRefinement& batch, RefinementReport& report,

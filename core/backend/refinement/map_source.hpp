@@ -12,7 +12,7 @@ enum class MapSource : std::uint8_t {
   kDeadReckoning,  ///< the odometry as reported
   kFrontend,       ///< the landmark graph: no loop closures
   kPoseGraph,
-  kOtherYawNoise,  ///< the pose graph of the run mapped again (OtherPath)
+  kOtherYawNoise,  ///< the map of the run mapped again (OtherPath)
 };
 
 constexpr std::string_view name_of(MapSource source) {

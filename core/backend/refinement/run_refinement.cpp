@@ -186,17 +186,22 @@ std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGr
   return best;
 }
 
-/// Both are judged as they are: refine_together() has corrected the dead reckoning that the best one was
+/// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was
 /// judged by. Where that is dead reckoning itself it stays: each other path would be one more chance to beat
 /// it by luck.
-void RunRefinement::take_if_better(const OtherPath& other, Hypothesis& best) const {
-  if (best.source == MapSource::kDeadReckoning) return;
-  Hypothesis correction{.source = MapSource::kOtherYawNoise,
-                        .T_map_body = from(best.T_map_body.front(), other.T_map_body),
-                        .yaw_noise_factor = other.yaw_noise_factor};
-  correction.report = judge_unrefined(batch(correction, {}), correction.T_map_body);
-  const RefinementReport as_it_is = judge_unrefined(batch(best, {}), best.T_map_body);
-  if (sum(correction.report.misfit) < sum(as_it_is.misfit)) best = std::move(correction);
+void RunRefinement::take_better(std::span<const OtherPath> others, Hypothesis& best) const {
+  if (others.empty() || best.source == MapSource::kDeadReckoning) return;
+  double least = sum(judge_as_it_is(batch(best, {}), best.T_map_body).misfit);
+  for (const OtherPath& other : others) {
+    Hypothesis correction{.source = MapSource::kOtherYawNoise,
+                          .T_map_body = from(best.T_map_body.front(), other.T_map_body),
+                          .yaw_noise_factor = other.yaw_noise_factor};
+    correction.report = judge_as_it_is(batch(correction, {}), correction.T_map_body);
+    const double misfit = sum(correction.report.misfit);
+    if (misfit >= least) continue;
+    least = misfit;
+    best = std::move(correction);
+  }
 }
 
 void RunRefinement::take(Hypothesis best) {
@@ -215,7 +220,7 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
   if (!is_wanted() || scans_->size() < 2) return false;
   std::optional<Hypothesis> best = best_of_run(graph, T_local_keyframe);
   if (!best) return false;
-  for (const OtherPath& other : others) take_if_better(other, *best);
+  take_better(others, *best);
   take(std::move(*best));
   return is_final();
 }

@@ -87,7 +87,7 @@ class RunRefinement {
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
   [[nodiscard]] std::optional<Hypothesis> best_of_run(const PoseGraph& graph,
                                                       const KeyframePoses& T_local_keyframe);
-  void take_if_better(const OtherPath& other, Hypothesis& best) const;
+  void take_better(std::span<const OtherPath> others, Hypothesis& best) const;
   void take(Hypothesis best);
 
   const BackendConfig* config_;
