@@ -167,7 +167,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   return update;
 }
 
-BackendUpdate Backend::finish(std::span<const OtherPath> others) {
+BackendUpdate Backend::finish(const MapAgain& map_again) {
   State& s = *state_;
   BackendUpdate update;
   if (!s.loops.closures().empty() || !s.graph.graph().headings.empty()) {
@@ -175,7 +175,7 @@ BackendUpdate Backend::finish(std::span<const OtherPath> others) {
     while (s.loops.drop_worst(s.graph) && s.follow_graph(s.graph.optimize())) {
     }
   }
-  if (s.refinement.refine_all(s.graph.graph(), s.T_local_keyframe(), others)) {
+  if (s.refinement.refine_all(s.graph.graph(), s.T_local_keyframe(), map_again)) {
     update.poses_changed = true;
     ++s.version;
   }

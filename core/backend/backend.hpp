@@ -82,9 +82,10 @@ class Backend {
   /// Prunes it. Precondition: nothing was added since next_pruning().
   void prune(const Pruning& pruning);
   /// The final pass: last optimisation, false closures dropped, every scan's pose refined, or that of the one
-  /// among `others` which explains the ranges better. Nothing may be added afterwards.
-  BackendUpdate finish(std::span<const OtherPath> others = {});
-  /// Whether others may be found: the final pass refines, and no scan was pruned.
+  /// among `map_again`'s paths which explains the ranges better. It is called in this thread, and not where
+  /// dead reckoning is the map. Nothing may be added afterwards.
+  BackendUpdate finish(const MapAgain& map_again = {});
+  /// Whether such paths may be found: the final pass refines, and no scan was pruned.
   [[nodiscard]] bool can_be_mapped_again() const;
 
   [[nodiscard]] const ScanStore& scans() const;

@@ -78,7 +78,7 @@ void BackendWorker::prune() {
 void BackendWorker::run_final_pass() {
   {
     const StageTimer timer(clock_, times_.final_pass);
-    static_cast<void>(backend_.finish(map_again(backend_, settings_)));
+    static_cast<void>(backend_.finish([&] { return map_again(backend_, settings_); }));
   }
   final_pass_done_ = true;
   hand_on_correction();

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
@@ -13,5 +14,8 @@ struct OtherPath {
   double yaw_noise_factor = 1.0;
   std::vector<Pose2> T_map_body;  ///< one per scan
 };
+
+/// Maps the run again. May read the store of its scans.
+using MapAgain = std::function<std::vector<OtherPath>()>;
 
 }  // namespace swiftlet

@@ -187,10 +187,9 @@ std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGr
 }
 
 /// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was
-/// judged by. Where that is dead reckoning itself it stays: each other path would be one more chance to beat
-/// it by luck.
+/// judged by.
 void RunRefinement::take_better(std::span<const OtherPath> others, Hypothesis& best) const {
-  if (others.empty() || best.source == MapSource::kDeadReckoning) return;
+  if (others.empty()) return;
   double least = sum(judge_as_it_is(batch(best, {}), best.T_map_body).misfit);
   for (const OtherPath& other : others) {
     Hypothesis correction{.source = MapSource::kOtherYawNoise,
@@ -215,12 +214,13 @@ void RunRefinement::take(Hypothesis best) {
     T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
 }
 
+/// Where dead reckoning is the map it stays: each other path would be one more chance to beat it by luck.
 bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
-                               std::span<const OtherPath> others) {
+                               const MapAgain& map_again) {
   if (!is_wanted() || scans_->size() < 2) return false;
   std::optional<Hypothesis> best = best_of_run(graph, T_local_keyframe);
   if (!best) return false;
-  take_better(others, *best);
+  if (map_again && best->source != MapSource::kDeadReckoning) take_better(map_again(), *best);
   take(std::move(*best));
   return is_final();
 }

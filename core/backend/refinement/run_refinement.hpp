@@ -50,10 +50,9 @@ class RunRefinement {
   /// Gives every scan a pose of its own, for good. True: poses have moved. The graph's path is held against
   /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way, walls and
   /// poses in turn; the one chosen then together. Dead reckoning is the map unless the ranges pay for how far
-  /// a correction departs from it. `others`: final paths already; one of them becomes the map where it
-  /// explains the ranges better.
-  bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe,
-                  std::span<const OtherPath> others);
+  /// a correction departs from it. `map_again`: asked for final paths, unless dead reckoning is the map; one
+  /// of them becomes the map where it explains the ranges better.
+  bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe, const MapAgain& map_again);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
   [[nodiscard]] Pose2 T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const;

@@ -75,14 +75,14 @@ struct FinalMap {
 FinalMap final_map(const StoredRun& run, const std::vector<Pose2>& T_graph_body,
                    std::span<const RelativePoseFactor<KeyframeId>> closures = {},
                    const BackendConfig& config = {}, const SensorModel& sensor = SensorModel::crazyflie(),
-                   std::span<const OtherPath> others = {}) {
+                   const MapAgain& map_again = {}) {
   PoseGraph graph;
   for (const auto& [keyframe, scan] : run.chain().all())
     graph.T_map_keyframe.push_back(T_graph_body[index_of(scan)]);
   for (const RelativePoseFactor<KeyframeId>& closure : closures) graph.factors.push_back(closure);
   RunRefinement refinement(config, sensor, run.scans(), run.chain());
   for (std::size_t i = 0; i < run.scans().size(); ++i) refinement.add_scan();
-  refinement.refine_all(graph, run.T_local_keyframe(), others);
+  refinement.refine_all(graph, run.T_local_keyframe(), map_again);
   FinalMap map;
   for (const auto& [scan, stored] : run.scans().all())
     map.T_map_body.push_back(refinement.T_map_body(scan, graph.T_map_keyframe));
@@ -195,7 +195,7 @@ TEST(RunRefinement, ARestartThatLoopsHaveBridgedIsNoDrift) {
 /// One path, with the graph's, and what the map is then.
 FinalMap final_map_beside(const OtherPath& other, const std::vector<Pose2>& T_graph_body) {
   const StoredRun run(two_laps().samples());
-  return final_map(run, T_graph_body, {}, {}, SensorModel::crazyflie(), std::span(&other, 1));
+  return final_map(run, T_graph_body, {}, {}, SensorModel::crazyflie(), [&] { return std::vector{other}; });
 }
 
 TEST(RunRefinement, AnotherPathThatExplainsTheRangesBetterIsTheMapAsItIs) {
@@ -216,11 +216,15 @@ TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
   EXPECT_TRUE(same_bits(beside.T_map_body, alone.T_map_body));
 }
 
-TEST(RunRefinement, DeadReckoningThatIsTheMapStaysWhateverElseThereIs) {
+TEST(RunRefinement, WhereDeadReckoningIsTheMapTheRunIsNotMappedAgain) {
   const TestVehicle vehicle = along_the_corridor();
-  const OtherPath other{1.4, true_poses(vehicle)};
-  const FinalMap map = final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {},
-                                 SensorModel::crazyflie(), std::span(&other, 1));
+  bool was_asked = false;
+  const FinalMap map =
+      final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {}, SensorModel::crazyflie(), [&] {
+        was_asked = true;
+        return std::vector{OtherPath{1.4, true_poses(vehicle)}};
+      });
+  EXPECT_FALSE(was_asked);
   EXPECT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
 }
 
