@@ -23,13 +23,16 @@ struct LoopDetectorTuning {
   double min_search_radius_m = 0.5;   ///< ... this far to either side ...
   double min_search_angle_rad = 0.1;  ///< ... and turned by this: covariances of motion are models, and dead
                                       ///< reckoning drifts by less from one query to the next
-  double thinning_cell_m = 0.1;       ///< of the hits that are matched, one per cell
+  double newer_query_m = 4.0;    ///< this much of the recent travel is matched where the window reaches no
+                                 ///< farther: no other stretch as long fits into it beside the true one
+  double thinning_cell_m = 0.1;  ///< of the hits that are matched, one per cell
   std::size_t max_closures = 3;  ///< of one query: in laps each overlaps all before, which fills the graph
 
   static constexpr TuningValue<LoopDetectorTuning> kValues[] = {
       {"search_sigmas", &LoopDetectorTuning::search_sigmas},
       {"min_search_radius_m", &LoopDetectorTuning::min_search_radius_m},
       {"min_search_angle_rad", &LoopDetectorTuning::min_search_angle_rad},
+      {"newer_query_m", &LoopDetectorTuning::newer_query_m},
       {"thinning_cell_m", &LoopDetectorTuning::thinning_cell_m},
       {"max_closures", &LoopDetectorTuning::max_closures}};
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/backend/loop_closing/correlative_matcher.hpp"
 #include "core/backend/loop_closing/cross_check.hpp"
@@ -15,6 +16,10 @@ namespace {
 
 double lowest_score(const BackendConfig& config) {
   return std::min(config.min_group_score, config.min_score);
+}
+
+double newer_length_m(const BackendConfig& config) {
+  return std::min(config.tuning.detector.newer_query_m, config.multiscan_length_m);
 }
 
 double widest_search_m(const BackendConfig& config) {
@@ -66,15 +71,26 @@ double share_within(std::span<const Point2> points, const SearchWindow& window, 
 
 }  // namespace
 
+/// The newest travel.
+struct LoopDetector::Multiscan {
+  std::vector<Point2> points;  ///< its hits, in the frame of the keyframe that ends it
+  CrossCheck cross_check;
+};
+
 struct LoopDetector::Candidate {
+  Multiscan* multiscan = nullptr;  ///< that is matched
   const Submap* submap = nullptr;
   SearchWindow window;
   double overlap = 0.0;  ///< share of the points that may fall on the submap
 };
 
 ScanRange LoopDetector::recent_scans(KeyframeId query) const {
+  return newest_scans(query, config_->multiscan_length_m);
+}
+
+ScanRange LoopDetector::newest_scans(KeyframeId query, double length_m) const {
   const ScanId newest = chain_->scan_of(query);
-  const double from_m = chain_->path_m(query) - config_->multiscan_length_m;
+  const double from_m = chain_->path_m(query) - length_m;
   const std::span<const StoredScan> scans = scans_->all().values();
   std::size_t first = scans_->all().position(newest);
   // What lies before the start of a segment is not connected by motion.
@@ -84,14 +100,28 @@ ScanRange LoopDetector::recent_scans(KeyframeId query) const {
   return {scans_->all().id_at(first), newest + 1};
 }
 
+/// Nothing where it decides nothing.
+std::optional<LoopDetector::Multiscan> LoopDetector::multiscan(KeyframeId query, double length_m,
+                                                               const KeyframePoses& T_local_keyframe) const {
+  const ScanRange scans = newest_scans(query, length_m);
+  // Less than the travel from the keyframe before cannot be drawn, and so not be held the other way round.
+  if (query == chain_->all().first_id() || chain_->scan_of(chain_->all().previous(query)) < scans.first)
+    return std::nullopt;
+  std::vector<Point2> points =
+      thinned_hits(*scans_, *chain_, scans, T_local_keyframe, T_local_keyframe[query].inverse(),
+                   config_->tuning.detector.thinning_cell_m);
+  if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return std::nullopt;
+  return Multiscan{std::move(points), CrossCheck(*config_, *scans_, *chain_, scans, query, T_local_keyframe)};
+}
+
 std::vector<LoopDetector::Candidate> LoopDetector::candidates(
-    KeyframeId query, KeyframeId since, std::span<const Point2> points_query,
+    KeyframeId query, KeyframeId since, Multiscan& whole, Multiscan& newer,
     std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph) const {
   std::vector<Candidate> found;
   std::optional<IdMap<KeyframeId, Eigen::Matrix3d>> covariances;
   const Pose2& T_map_query = graph.T_map_keyframe[query];
   const Pose2 T_query_map = T_map_query.inverse();
-  const Disc around_points = disc_around(points_query);
+  const Disc around_points = disc_around(whole.points);
   const LoopDetectorTuning& tuning = config_->tuning.detector;
   for (const auto& submap : submaps) {
     if (submap->storey != chain_->storey(query)) continue;
@@ -115,7 +145,8 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.window.angle_rad =
         std::min(std::max(tuning.search_sigmas * std::sqrt(P(2, 2)), tuning.min_search_angle_rad),
                  config_->search_angle_rad);
-    c.overlap = share_within(points_query, c.window, *submap);
+    c.multiscan = c.window.radius_m <= tuning.newer_query_m ? &newer : &whole;
+    c.overlap = share_within(c.multiscan->points, c.window, *submap);
     if (c.overlap >= lowest_score(*config_)) found.push_back(c);
   }
   const auto most = static_cast<std::size_t>(config_->max_candidates);
@@ -129,21 +160,15 @@ FoundLoops LoopDetector::find(KeyframeId query, KeyframeId since,
                               std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
                               const KeyframePoses& T_local_keyframe, std::uint64_t& tried) const {
   FoundLoops loops;
-  const ScanRange recent = recent_scans(query);
-  // Less than the travel from the keyframe before cannot be drawn, and so not be held the other way round.
-  if (query == chain_->all().first_id() || chain_->scan_of(chain_->all().previous(query)) < recent.first)
-    return loops;
-  const std::vector<Point2> points =
-      thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_local_keyframe[query].inverse(),
-                   config_->tuning.detector.thinning_cell_m);
-  if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return loops;
-  CrossCheck cross_check(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
-  for (const Candidate& c : candidates(query, since, points, submaps, graph)) {
+  std::optional<Multiscan> whole = multiscan(query, config_->multiscan_length_m, T_local_keyframe);
+  if (!whole) return loops;
+  std::optional<Multiscan> newer = multiscan(query, newer_length_m(*config_), T_local_keyframe);
+  for (const Candidate& c : candidates(query, since, *whole, newer ? *newer : *whole, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
-        CorrelativeMatcher(*c.submap, points, c.window, config_->tuning.matcher)
+        CorrelativeMatcher(*c.submap, c.multiscan->points, c.window, config_->tuning.matcher)
             .match(lowest_score(*config_));
-    if (!match || !cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
+    if (!match || !c.multiscan->cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
     const bool is_sure = match->score >= config_->min_score && c.submap->reference >= since;
     (is_sure ? loops.confirmed : loops.tentative)
         .push_back({.from = c.submap->reference,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,9 +28,9 @@ class LoopDetector {
       : config_(&config), scans_(&scans), chain_(&chain) {}
 
   /// Matches the recent multiscan, as seen from keyframe `query`, against every submap it may overlap, given
-  /// how well the graph knows where they are. `T_local_keyframe`: the frontend's estimates. `since`: from
-  /// there to the query the motion was watched; what matches earlier submaps proves nothing alone. `tried`
-  /// counts the submaps searched. Allocates.
+  /// how well the graph knows where they are; where that is well enough, the newer part of it.
+  /// `T_local_keyframe`: the frontend's estimates. `since`: from there to the query the motion was watched;
+  /// what matches earlier submaps proves nothing alone. `tried` counts the submaps searched. Allocates.
   FoundLoops find(KeyframeId query, KeyframeId since, std::span<const std::shared_ptr<const Submap>> submaps,
                   const PoseGraph& graph, const KeyframePoses& T_local_keyframe, std::uint64_t& tried) const;
 
@@ -37,9 +38,13 @@ class LoopDetector {
   [[nodiscard]] ScanRange recent_scans(KeyframeId query) const;
 
  private:
+  struct Multiscan;
   struct Candidate;
-  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, KeyframeId since,
-                                                  std::span<const Point2> points_query,
+  [[nodiscard]] ScanRange newest_scans(KeyframeId query, double length_m) const;
+  [[nodiscard]] std::optional<Multiscan> multiscan(KeyframeId query, double length_m,
+                                                   const KeyframePoses& T_local_keyframe) const;
+  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, KeyframeId since, Multiscan& whole,
+                                                  Multiscan& newer,
                                                   std::span<const std::shared_ptr<const Submap>> submaps,
                                                   const PoseGraph& graph) const;
 

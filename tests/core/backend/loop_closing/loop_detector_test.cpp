@@ -130,6 +130,34 @@ TEST_F(LoopDetectorTest, AStretchWithoutAKeyframeBehindItIsNotMatched) {
   EXPECT_EQ(tried_, 0U);
 }
 
+/// The first keyframe, at the end of the first lap, from which old ground is found.
+class LoopDetectorAtFirstContactTest : public LoopDetectorTest {
+ protected:
+  [[nodiscard]] KeyframeId first_contact() {
+    for (KeyframeId query{}; query <= run_.newest(); query = query + 1)
+      if (!find(query).empty()) return query;
+    ADD_FAILURE() << "no closure";
+    return {};
+  }
+  KeyframeId first_contact_by(double newer_query_m) {
+    config_.tuning.detector.newer_query_m = newer_query_m;
+    return first_contact();
+  }
+};
+
+TEST_F(LoopDetectorAtFirstContactTest, InANarrowWindowTheNewerTravelIsEnough) {
+  const KeyframeId by_the_whole = first_contact_by(config_.multiscan_length_m);
+  const KeyframeId by_the_newer = first_contact_by(4.0);
+  EXPECT_LT(by_the_newer, by_the_whole);
+  for (const LoopClosure& c : find(by_the_newer))
+    EXPECT_LT(chi_square_against(c, T_from_to_truth(c)), kChiSquare99);
+}
+
+TEST_F(LoopDetectorAtFirstContactTest, InAWindowThatReachesFartherItIsNot) {
+  for (RelativePoseFactor<KeyframeId>& step : graph_.factors.values()) step.information /= 100.0;
+  EXPECT_EQ(first_contact_by(4.0), first_contact_by(config_.multiscan_length_m));
+}
+
 TEST_F(LoopDetectorTest, KeepsNoMatchBelowTheLeastScore) {
   config_.min_score = 0.95;  // of the points; of the overlap as well, which is full here
   for (const LoopClosure& c : find(run_.newest())) EXPECT_GE(c.score, 0.95);
