@@ -71,14 +71,14 @@ double share_within(std::span<const Point2> points, const SearchWindow& window, 
 
 }  // namespace
 
-/// The newest travel.
-struct LoopDetector::Multiscan {
-  std::vector<Point2> points;  ///< its hits, in the frame of the keyframe that ends it
+/// The last metres before a keyframe.
+struct LoopDetector::Travel {
+  std::vector<Point2> points;  ///< its hits, in the frame of that keyframe
   CrossCheck cross_check;
 };
 
 struct LoopDetector::Candidate {
-  Multiscan* multiscan = nullptr;  ///< that is matched
+  Travel* travel = nullptr;  ///< that is matched
   const Submap* submap = nullptr;
   SearchWindow window;
   double overlap = 0.0;  ///< share of the points that may fall on the submap
@@ -101,8 +101,8 @@ ScanRange LoopDetector::newest_scans(KeyframeId query, double length_m) const {
 }
 
 /// Nothing where it decides nothing.
-std::optional<LoopDetector::Multiscan> LoopDetector::multiscan(KeyframeId query, double length_m,
-                                                               const KeyframePoses& T_local_keyframe) const {
+std::optional<LoopDetector::Travel> LoopDetector::newest_travel(KeyframeId query, double length_m,
+                                                                const KeyframePoses& T_local_keyframe) const {
   const ScanRange scans = newest_scans(query, length_m);
   // Less than the travel from the keyframe before cannot be drawn, and so not be held the other way round.
   if (query == chain_->all().first_id() || chain_->scan_of(chain_->all().previous(query)) < scans.first)
@@ -111,11 +111,11 @@ std::optional<LoopDetector::Multiscan> LoopDetector::multiscan(KeyframeId query,
       thinned_hits(*scans_, *chain_, scans, T_local_keyframe, T_local_keyframe[query].inverse(),
                    config_->tuning.detector.thinning_cell_m);
   if (points.size() < static_cast<std::size_t>(config_->min_match_points)) return std::nullopt;
-  return Multiscan{std::move(points), CrossCheck(*config_, *scans_, *chain_, scans, query, T_local_keyframe)};
+  return Travel{std::move(points), CrossCheck(*config_, *scans_, *chain_, scans, query, T_local_keyframe)};
 }
 
 std::vector<LoopDetector::Candidate> LoopDetector::candidates(
-    KeyframeId query, KeyframeId since, Multiscan& whole, Multiscan& newer,
+    KeyframeId query, KeyframeId since, Travel& whole, Travel& newer,
     std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph) const {
   std::vector<Candidate> found;
   std::optional<IdMap<KeyframeId, Eigen::Matrix3d>> covariances;
@@ -145,8 +145,8 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
     c.window.angle_rad =
         std::min(std::max(tuning.search_sigmas * std::sqrt(P(2, 2)), tuning.min_search_angle_rad),
                  config_->search_angle_rad);
-    c.multiscan = c.window.radius_m <= tuning.newer_query_m ? &newer : &whole;
-    c.overlap = share_within(c.multiscan->points, c.window, *submap);
+    c.travel = c.window.radius_m <= tuning.newer_query_m ? &newer : &whole;
+    c.overlap = share_within(c.travel->points, c.window, *submap);
     if (c.overlap >= lowest_score(*config_)) found.push_back(c);
   }
   const auto most = static_cast<std::size_t>(config_->max_candidates);
@@ -160,15 +160,15 @@ FoundLoops LoopDetector::find(KeyframeId query, KeyframeId since,
                               std::span<const std::shared_ptr<const Submap>> submaps, const PoseGraph& graph,
                               const KeyframePoses& T_local_keyframe, std::uint64_t& tried) const {
   FoundLoops loops;
-  std::optional<Multiscan> whole = multiscan(query, config_->multiscan_length_m, T_local_keyframe);
+  std::optional<Travel> whole = newest_travel(query, config_->multiscan_length_m, T_local_keyframe);
   if (!whole) return loops;
-  std::optional<Multiscan> newer = multiscan(query, newer_length_m(*config_), T_local_keyframe);
+  std::optional<Travel> newer = newest_travel(query, newer_length_m(*config_), T_local_keyframe);
   for (const Candidate& c : candidates(query, since, *whole, newer ? *newer : *whole, submaps, graph)) {
     ++tried;
     const std::optional<MatchResult> match =
-        CorrelativeMatcher(*c.submap, c.multiscan->points, c.window, config_->tuning.matcher)
+        CorrelativeMatcher(*c.submap, c.travel->points, c.window, config_->tuning.matcher)
             .match(lowest_score(*config_));
-    if (!match || !c.multiscan->cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
+    if (!match || !c.travel->cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
     const bool is_sure = match->score >= config_->min_score && c.submap->reference >= since;
     (is_sure ? loops.confirmed : loops.tentative)
         .push_back({.from = c.submap->reference,

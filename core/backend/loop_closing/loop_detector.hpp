@@ -38,13 +38,13 @@ class LoopDetector {
   [[nodiscard]] ScanRange recent_scans(KeyframeId query) const;
 
  private:
-  struct Multiscan;
+  struct Travel;
   struct Candidate;
   [[nodiscard]] ScanRange newest_scans(KeyframeId query, double length_m) const;
-  [[nodiscard]] std::optional<Multiscan> multiscan(KeyframeId query, double length_m,
-                                                   const KeyframePoses& T_local_keyframe) const;
-  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, KeyframeId since, Multiscan& whole,
-                                                  Multiscan& newer,
+  [[nodiscard]] std::optional<Travel> newest_travel(KeyframeId query, double length_m,
+                                                    const KeyframePoses& T_local_keyframe) const;
+  [[nodiscard]] std::vector<Candidate> candidates(KeyframeId query, KeyframeId since, Travel& whole,
+                                                  Travel& newer,
                                                   std::span<const std::shared_ptr<const Submap>> submaps,
                                                   const PoseGraph& graph) const;
 
