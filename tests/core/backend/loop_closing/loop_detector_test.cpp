@@ -10,6 +10,7 @@
 
 #include "tests/support/closure_error.hpp"
 #include "tests/support/loop_corridor.hpp"
+#include "tests/support/other_storey.hpp"
 #include "tests/support/stored_run.hpp"
 
 namespace swiftlet {
@@ -105,6 +106,13 @@ TEST_F(LoopDetectorTest, LeavesRecentSubmapsAlone) {
       EXPECT_GT(run_.chain().path_m(c.to) - run_.chain().path_m(c.from), config_.min_travel_between_m);
   }
   config_.min_travel_between_m = 1000.0;
+  EXPECT_TRUE(find(run_.newest()).empty());
+  EXPECT_EQ(tried_, 0U);
+}
+
+TEST_F(LoopDetectorTest, AnotherStoreyIsNotSearched) {
+  ASSERT_FALSE(find(run_.newest()).empty());
+  submaps_ = one_storey_up(submaps_);
   EXPECT_TRUE(find(run_.newest()).empty());
   EXPECT_EQ(tried_, 0U);
 }

@@ -18,6 +18,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "tests/support/loop_corridor.hpp"
+#include "tests/support/other_storey.hpp"
 #include "tests/support/pose_near.hpp"
 #include "tests/support/stored_run.hpp"
 
@@ -217,6 +218,12 @@ TEST_F(PlaceHypothesesTest, APlaceFoundElsewhereIsAcceptedAfterThreeMatches) {
   ASSERT_GT(more, 1) << "two matches are too few";
   EXPECT_THAT(places_.decided(), SizeIs(more + 1)) << "one for each query, from the first on";
   expect_true(places_.decided());
+}
+
+TEST_F(PlaceHypothesesTest, AnotherStoreyIsNoEvidence) {
+  submaps_ = one_storey_up(submaps_);
+  places_.begin(carried_for(seconds(10)));
+  EXPECT_EQ(queries_until_decided(), 0);
 }
 
 TEST_F(PlaceHypothesesTest, WhereNothingIsKnownNothingIsDecided) {

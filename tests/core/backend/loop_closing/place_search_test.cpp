@@ -10,6 +10,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "tests/support/loop_corridor.hpp"
+#include "tests/support/other_storey.hpp"
 #include "tests/support/pose_near.hpp"
 #include "tests/support/stored_run.hpp"
 
@@ -63,11 +64,15 @@ class PlaceSearchTest : public testing::Test {
   }
   /// What is found of the travel between two ways.
   [[nodiscard]] std::vector<LoopClosure> found(double from_m, double to_m) const {
+    return found(from_m, to_m, submaps());
+  }
+  [[nodiscard]] std::vector<LoopClosure> found(
+      double from_m, double to_m, const std::vector<std::shared_ptr<const Submap>>& earlier) const {
     PlaceSearch search(config_, run_.scans(), run_.chain());
     const KeyframeId query = keyframe_of(scan_at(to_m));
     const ScanRange recent{run_.chain().scan_of(keyframe_of(scan_at(from_m))),
                            run_.chain().scan_of(query) + 1};
-    search.begin(query, recent, submaps(), run_.T_local_keyframe());
+    search.begin(query, recent, earlier, run_.T_local_keyframe());
     while (search.is_busy()) search.step();
     return search.take_found();
   }
@@ -88,6 +93,10 @@ TEST_F(PlaceSearchTest, FindsThePlaceWhateverTheDeadReckoningSays) {
   const std::vector<LoopClosure> closures = found(kLapM + 8.0, kLapM + 14.0);
   ASSERT_FALSE(closures.empty());
   EXPECT_TRUE(is_right(*std::ranges::max_element(closures, {}, &LoopClosure::score)));
+}
+
+TEST_F(PlaceSearchTest, AnotherStoreyIsNotSearched) {
+  EXPECT_TRUE(found(kLapM + 8.0, kLapM + 14.0, one_storey_up(submaps())).empty());
 }
 
 TEST_F(PlaceSearchTest, TooFewHitsAreNotSearchedFor) { EXPECT_TRUE(found(kLapM + 8.0, kLapM + 8.2).empty()); }
