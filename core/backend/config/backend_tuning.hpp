@@ -24,7 +24,7 @@ struct LoopDetectorTuning {
   double min_search_angle_rad = 0.1;  ///< ... and turned by this: covariances of motion are models, and dead
                                       ///< reckoning drifts by less from one query to the next
   double newer_query_m = 4.0;    ///< this much of the recent travel is matched where the window reaches no
-                                 ///< farther: no other stretch as long fits into it beside the true one
+                                 ///< farther: the next stretch as long begins just beyond it
   double thinning_cell_m = 0.1;  ///< of the hits that are matched, one per cell
   std::size_t max_closures = 3;  ///< of one query: in laps each overlaps all before, which fills the graph
 
