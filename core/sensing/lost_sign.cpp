@@ -26,21 +26,29 @@ double forward_m(const Pose2& motion) {
   return std::cos(half_rad) * motion.x_m() + std::sin(half_rad) * motion.y_m();
 }
 
+/// The same in the frame of the odometry.
+Point2 forward_step(const Pose2& T_odom_from, const Pose2& motion) {
+  const double heading_rad = T_odom_from.yaw_rad() + motion.yaw_rad() / 2.0;
+  return forward_m(motion) * Point2{std::cos(heading_rad), std::sin(heading_rad)};
+}
+
 }  // namespace
 
 Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp, const Pose2& T_mended) {
   const auto after = std::upper_bound(mended.begin(), mended.end(), stamp,
                                       [](HostTime at, const MendedPositions& m) { return at < m.since; });
   if (after == mended.begin()) return T_mended;
-  const MendedPositions& m = *std::prev(after);
-  const Point2 p = m.sign * (T_mended.position() - m.offset);
+  const Point2 p = T_mended.position() - std::prev(after)->offset;
   return {p.x_m, p.y_m, T_mended.yaw_rad()};
 }
 
 double prior_cost(std::span<const MendedPositions> mended, const LostSignTuning& tuning) {
-  const auto begins = static_cast<double>((mended.size() + 1) / 2);
-  const auto ends = static_cast<double>(mended.size() / 2);
-  return begins * tuning.begin_cost + ends * tuning.end_cost;
+  double cost = 0.0;
+  bool was_reversed = false;
+  for (const MendedPositions& m : mended)
+    if (std::exchange(was_reversed, m.reversed) != m.reversed)
+      cost += m.reversed ? tuning.begin_cost : tuning.end_cost;
+  return cost;
 }
 
 LostSign::LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning)
@@ -69,8 +77,9 @@ void LostSign::follow(const RangeSample& sample) {
   const double duration_s = to_seconds(sample.measured_at - newest_->measured_at);
   if (duration_s > 0.0) on_speed(length(step) / duration_s);
   path_m_ += length(step);
+  const Point2 forward = forward_step(newest_->T_odom_body, motion);
   for (Path& path : paths_)
-    if (path.reversed) path.offset = path.offset - 2.0 * step;
+    if (path.reversed) path.offset = path.offset - 2.0 * forward;
   const Scan& last = scans_.back();
   if (path_m_ - last.path_m >= tuning_.scan_spacing_m ||
       std::abs(wrap_angle(sample.T_odom_body.yaw_rad() - last.yaw_rad)) >= tuning_.scan_spacing_rad)
@@ -279,16 +288,28 @@ const LostSign::Path& LostSign::best() const {
                            [](const Path& a, const Path& b) { return a.cost.misfit < b.cost.misfit; });
 }
 
+/// By how much less the path contradicts itself for the stretch that begins with this change.
+double LostSign::gain(const Path& path, std::size_t begin) const {
+  const bool is_last = begin + 2 >= path.changes.size();
+  const double margin = is_last ? reported_.cost.contradiction - path.cost.contradiction
+                                : path.changes[begin + 2].margin_before;
+  return margin - path.changes[begin].margin_before;
+}
+
 double LostSign::evidence() const {
   const Path& path = best();
   double sum = 0.0;
-  for (std::size_t begin = 0; begin < path.changes.size(); begin += 2) {
-    const bool is_last = begin + 2 >= path.changes.size();
-    const double margin = is_last ? reported_.cost.contradiction - path.cost.contradiction
-                                  : path.changes[begin + 2].margin_before;
-    sum += std::min(margin - path.changes[begin].margin_before, tuning_.max_gain) - tuning_.stretch_doubt;
-  }
+  for (std::size_t begin = 0; begin < path.changes.size(); begin += 2)
+    sum += std::min(gain(path, begin), tuning_.max_gain) - tuning_.stretch_doubt;
   return sum;
+}
+
+bool LostSign::are_lost() const {
+  if (evidence() >= tuning_.min_evidence) return true;
+  const Path& path = best();
+  for (std::size_t begin = 0; begin < path.changes.size(); begin += 2)
+    if (gain(path, begin) >= tuning_.clear_gain) return true;
+  return false;
 }
 
 std::optional<RangeSample> LostSign::take() {
@@ -300,28 +321,28 @@ std::optional<RangeSample> LostSign::take() {
   return sample;
 }
 
+/// A path is chosen as a whole: stretches on it may look reversed only because they lead to known ground.
 bool LostSign::is_reversed(std::uint64_t sample) const {
-  if (refuted_ || evidence() < tuning_.min_evidence) return false;
-  const std::vector<Change>& changes = best().changes;
-  const auto after = std::upper_bound(changes.begin(), changes.end(), sample,
+  if (refuted_ || !are_lost()) return false;
+  const Path& path = best();
+  const auto after = std::upper_bound(path.changes.begin(), path.changes.end(), sample,
                                       [](std::uint64_t at, const Change& c) { return at < c.sample; });
-  return (after - changes.begin()) % 2 == 1;
+  const auto before = static_cast<std::size_t>(after - path.changes.begin());
+  return before % 2 == 1 && gain(path, before - 1) >= tuning_.stretch_doubt;
 }
 
 void LostSign::mend(RangeSample& sample, bool reversed) {
   const Pose2 T_odom_body = sample.T_odom_body;
-  const double sign = reversed ? -1.0 : 1.0;
-  if (sign != (mended_.empty() ? 1.0 : mended_.back().sign)) {
-    // The step to this sample is the first with the other sign: positions are mirrored in the sample before.
-    const Point2 before = T_odom_taken_->position();
-    const Point2 before_mended =
-        mended_.empty() ? before : mended_.back().offset + mended_.back().sign * before;
-    mended_.push_back({sample.stamp, sign, before_mended - sign * before});
+  if (reversed) {
+    const Pose2 motion = between(*T_odom_taken_, T_odom_body);
+    offset_ = offset_ - 2.0 * forward_step(*T_odom_taken_, motion);
+    reversed_m_ += length(motion.position());
   }
-  if (reversed) reversed_m_ += length(T_odom_body.position() - T_odom_taken_->position());
+  if (reversed || (!mended_.empty() && mended_.back().reversed))
+    mended_.push_back({sample.stamp, offset_, reversed});
   T_odom_taken_ = T_odom_body;
   if (mended_.empty()) return;
-  const Point2 p = mended_.back().offset + sign * T_odom_body.position();
+  const Point2 p = offset_ + T_odom_body.position();
   sample.T_odom_body = Pose2(p.x_m, p.y_m, T_odom_body.yaw_rad());
 }
 

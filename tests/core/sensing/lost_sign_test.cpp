@@ -63,8 +63,8 @@ class Drive {
     measure();
   }
 
-  /// Speeds up and brakes with 1 m/s^2.
-  void go(double way_m) {
+  /// Speeds up and brakes with 1 m/s^2. `left`: that much to the left with each metre.
+  void go(double way_m, double left = 0.0) {
     const double sign = way_m < 0.0 ? -1.0 : 1.0;
     const double length_m = std::abs(way_m);
     for (double done_m = 0.0; done_m < length_m;) {
@@ -73,8 +73,9 @@ class Drive {
       const double step_m = std::min(0.1 * speed_m_per_s, length_m - done_m);
       done_m += step_m;
       if (sign < 0.0) reversed_m_ += step_m;
-      T_world_ = T_world_ * Pose2(sign * step_m, 0.0, random_.normal(0.002));
-      steps_.push_back({sign * step_m * (1.0 + random_.normal(0.02)), 0.0, T_world_.yaw_rad() - yaw_before_});
+      T_world_ = T_world_ * Pose2(sign * step_m, left * step_m, random_.normal(0.002));
+      steps_.push_back(
+          {sign * step_m * (1.0 + random_.normal(0.02)), left * step_m, T_world_.yaw_rad() - yaw_before_});
       yaw_before_ = T_world_.yaw_rad();
       measure();
     }
@@ -122,7 +123,7 @@ class Drive {
     for (std::size_t i = 1; i < out.size(); ++i) {
       const Pose2& step = steps_[i - 1];
       const double sign = step.x_m() < 0.0 ? sign_in_reverse : 1.0;
-      out[i].T_odom_body = out[i - 1].T_odom_body * Pose2(sign * step.x_m(), 0.0, step.yaw_rad());
+      out[i].T_odom_body = out[i - 1].T_odom_body * Pose2(sign * step.x_m(), step.y_m(), step.yaw_rad());
     }
     return out;
   }
@@ -212,25 +213,52 @@ TEST(LostSign, ChangesNothingAfterFewerThanThreeStretches) {
 
 TEST(LostSign, ForATrialOneClearStretchIsEnough) {
   Drive drive(corridor_with_doors());
-  for (const double way_m : {4.2, -1.2, 2.5}) drive.go(way_m);
+  for (const double way_m : {4.2, -2.8, 2.5}) drive.go(way_m);
   const Mending mending = mend(drive.with_lost_signs(), LostSignTuning::for_a_trial());
   EXPECT_NEAR(mending.reversed_m, drive.reversed_m(), 0.2);
-  EXPECT_EQ(mending.mended.size(), 2U);
+  EXPECT_EQ(prior_cost(mending.mended), 7.0);  // one stretch
 
   Drive forward(corridor_with_doors());
   for (int i = 0; i < 22; ++i) forward.go(1.0);
   EXPECT_TRUE(mend(forward.with_lost_signs(), LostSignTuning::for_a_trial()).mended.empty());
 }
 
+TEST(LostSign, WhatGoesSidewaysInReverseStays) {
+  Drive drive(corridor_with_doors());
+  for (const double way_m : {4.2, 3.0, 2.5, 3.5, 4.1}) {
+    drive.go(way_m);
+    drive.go(-1.2, 0.35);
+    drive.go(1.2, -0.35);
+  }
+  const std::vector<RangeSample> truth = drive.with_true_odometry();
+  const Mending mending = mend(drive.with_lost_signs());
+  ASSERT_GT(mending.reversed_m, 0.8 * drive.reversed_m());
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    ASSERT_TRUE(poses_near(mending.samples[i].T_odom_body, truth[i].T_odom_body, 0.3, 1e-9)) << i;
+}
+
+TEST(LostSign, StretchesThatGainNoMoreThanTheDoubtStayAsReported) {
+  Drive drive(corridor_with_doors());
+  drive.to_and_fro();
+  const std::vector<RangeSample> reported = drive.with_lost_signs();
+  const auto reversed_m = [&](double doubt) {
+    return mend(reported, {.stretch_doubt = doubt, .min_evidence = -1e9}).reversed_m;
+  };
+  EXPECT_LT(reversed_m(60.0), 0.9 * drive.reversed_m());
+  EXPECT_GT(reversed_m(60.0), 0.0);
+  EXPECT_EQ(reversed_m(1e6), 0.0);
+}
+
 TEST(LostSign, EachChangeHasItsPrice) {
   const LostSignTuning tuning{.begin_cost = 5.0, .end_cost = 2.0};
-  std::vector<MendedPositions> changes;
-  EXPECT_EQ(prior_cost(changes, tuning), 0.0);
-  changes.push_back({HostTime(milliseconds(1)), -1.0, {}});
-  EXPECT_EQ(prior_cost(changes, tuning), 5.0);
-  changes.push_back({HostTime(milliseconds(2)), 1.0, {}});
-  changes.push_back({HostTime(milliseconds(3)), -1.0, {}});
-  EXPECT_EQ(prior_cost(changes, tuning), 12.0);
+  std::vector<MendedPositions> mended;
+  EXPECT_EQ(prior_cost(mended, tuning), 0.0);
+  mended.push_back({HostTime(milliseconds(1)), {}, true});
+  mended.push_back({HostTime(milliseconds(2)), {}, true});
+  EXPECT_EQ(prior_cost(mended, tuning), 5.0);
+  mended.push_back({HostTime(milliseconds(3)), {}, false});
+  mended.push_back({HostTime(milliseconds(4)), {}, true});
+  EXPECT_EQ(prior_cost(mended, tuning), 12.0);
 }
 
 TEST(LostSign, ABackwardStepShowsThatSignsAreReported) {
