@@ -14,7 +14,7 @@ import whole_runs
 
 BUILDINGS = range(1000, 1100)  # seeds that nothing was set on
 HEALTHY_WORLDS = ["office", "maze", "corridors", "loop", "wings"]
-HEALTHY_SEEDS = 20  # of each world; with the buildings some 9 hours
+HEALTHY_SEEDS = 27  # of each world; with the buildings more than 20 hours
 FAULTS = [fault_runs.Fault("jump", 20), fault_runs.Fault("jump", 30), fault_runs.Fault("slip", 6),
           fault_runs.Fault("teleport", 20)]
 FAULT_SEEDS = 10
