@@ -130,7 +130,7 @@ struct RelativeCovarianceTuning {
 /// Shares and probabilities: figures of 60 simulated buildings, docs/results/confidence.md.
 struct ConfidenceTuning {
   double slip_along_m2_per_m = 0.048;   ///< variance of dead reckoning beyond its noise model, along ...
-  double slip_yaw_rad2_per_m = 0.0004;  ///< ... and of its heading: with them the mean NEES is 1.8 to 3.8
+  double slip_yaw_rad2_per_m = 0.0004;  ///< ... and of its heading: with them the mean NEES is 1.7 to 2.0
   double recompute_after_m = 2.0;       ///< of way: between, covariances are carried on
   double old_after_m = 15.0;            ///< ground flown this much travel ago is older map
   double near_m = 3.0;                  ///< so far from the vehicle, the reach of its beams, it counts
