@@ -31,11 +31,16 @@ void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs,
         "swiftlet: note: the map is that of the run mapped again with %g times the noise of the heading: "
         "it explains the ranges better\n",
         counters.yaw_noise_factor);
-  else if (counters.map_source != MapSource::kPoseGraph)
+  else if (counters.map_source == MapSource::kDeadReckoning || counters.map_source == MapSource::kFrontend)
     std::fprintf(stderr,
                  "swiftlet: note: the map follows %s alone, which explains the ranges no worse than loop "
                  "closures do\n",
                  std::string(name_of(counters.map_source)).c_str());
+  if (counters.floor_cost > 0.0)
+    std::fprintf(
+        stderr,
+        "swiftlet: note: over some floors the flow sensor misses a part of the motion: the map makes "
+        "up for it\n");
   if (const auto note = replacement_note(output.path(), outputs))
     std::fprintf(stderr, "swiftlet: note: %s\n", note->c_str());
   std::string files;

@@ -101,6 +101,7 @@ Result<std::optional<double>> misfit_of(const MapCommand& command, const Prepare
                                         const std::stop_token& stop) {
   Configuration once = run.config;
   once.backend.map_again = false;
+  once.backend.floor_varies = false;
   Pipeline pipeline(once, *run.source);
   for (Result<bool> more = true; more && *more; more = pipeline.step())
     if (stop.stop_requested()) return stopped_error(command.input);

@@ -283,6 +283,7 @@ BackendCounters Backend::counters() const {
           .held_out_after_m = refinement.held_out_after_m,
           .map_source = refinement.map_source,
           .yaw_noise_factor = refinement.yaw_noise_factor,
+          .floor_cost = refinement.floor_cost,
           .misfit = refinement.misfit};
 }
 

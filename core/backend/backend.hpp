@@ -48,6 +48,7 @@ struct BackendCounters {
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;  ///< what the final map follows
   double yaw_noise_factor = 1.0;                 ///< OtherPath's of what it follows
+  double floor_cost = 0.0;  ///< FloorField::cost() of the floors found; 0 where all are taken as even
   /// Minus the log likelihood of the final map but for a constant, comparable between runs of one input
   /// that were not mapped again; nothing where no final pass has refined it.
   std::optional<double> misfit;

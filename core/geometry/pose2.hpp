@@ -61,6 +61,11 @@ class Pose2 {
 /// T_a_b of two poses in one frame: the pose of b in the frame of a.
 inline Pose2 between(const Pose2& T_w_a, const Pose2& T_w_b) { return T_w_a.inverse() * T_w_b; }
 
+/// A step that is so many times as long, and turns as far.
+inline Pose2 stretched(const Pose2& step, double scale) {
+  return {scale * step.x_m(), scale * step.y_m(), step.yaw_rad()};
+}
+
 /// Derivative of T_a_b * T_b_c (as a vector) with respect to T_a_b (Smith, Self & Cheeseman 1990, J1 of the
 /// compounding operator).
 inline Eigen::Matrix3d jacobian_compose_first(const Pose2& T_a_b, const Pose2& T_b_c) {

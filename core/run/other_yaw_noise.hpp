@@ -20,11 +20,14 @@ namespace swiftlet {
 inline constexpr std::array kOtherYawNoise{0.5, 0.7, 1.4};
 
 /// The final path with so many times the noise; nothing where that map is dead reckoning alone.
-/// `samples`: all of the run. Poses are refined at the end only. Allocates; takes less time than the run
-/// took. Thread-safe.
+/// `samples`: all of the run. Poses are refined at the end only, over floors as they are reported. Allocates;
+/// takes less time than the run took. Thread-safe.
 [[nodiscard]] std::optional<OtherPath> path_with_yaw_noise(double factor,
                                                            std::span<const RangeSample> samples,
                                                            const MappingSettings& settings,
                                                            const BeamLayout& beams);
+
+/// Makes the step to each sample so many times as long.
+void stretch_steps(std::vector<RangeSample>& samples, std::span<const double> step_scale);
 
 }  // namespace swiftlet

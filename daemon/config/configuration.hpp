@@ -173,6 +173,7 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
   visit("backend_graph", backend.graph);
   visit("backend_refinement", backend.refinement);
   visit("backend_joint", backend.joint);
+  visit("backend_floor", backend.floor);
   visit("backend_wall_fit", backend.refinement.walls);
   visit("backend_poses_and_walls", backend.poses_and_walls);
   visit("backend_nodes", backend.nodes);

@@ -95,6 +95,7 @@ Json backend_json(const Backend& backend) {
           {"windows", {{"refined", counters.windows_refined}, {"refused", counters.windows_refused}}},
           {"map_source", name_of(counters.map_source)},
           {"yaw_noise_factor", counters.yaw_noise_factor},
+          {"floor_cost", counters.floor_cost},
           {"refined", counters.refined},
           {"solver_failures", counters.solver_failures}};
 }

@@ -78,7 +78,8 @@ void BackendWorker::prune() {
 void BackendWorker::run_final_pass() {
   {
     const StageTimer timer(clock_, times_.final_pass);
-    static_cast<void>(backend_.finish([&] { return map_again(backend_, settings_); }));
+    static_cast<void>(backend_.finish(
+        [&](std::span<const double> step_scale) { return map_again(backend_, settings_, step_scale); }));
   }
   final_pass_done_ = true;
   hand_on_correction();

@@ -42,6 +42,7 @@ struct BackendConfig {
   bool refine = true;
   bool refine_online = true;
   int refinement_iterations = 8;
+  bool floor_varies = true;
   bool map_again = true;
 
   // Known space
@@ -89,6 +90,8 @@ struct BackendConfig {
       {"refine_online", &BackendConfig::refine_online, "", "false: poses are refined at the end only"},
       {"refinement_iterations", &BackendConfig::refinement_iterations, "",
        "rounds of walls and poses in turn, at the end of a run", 1, 1000},
+      {"floor_varies", &BackendConfig::floor_varies, "",
+       "at the end of a flight find floors of which the flow sensor sees a part"},
       {"map_again", &BackendConfig::map_again, "",
        "at the end of a run map it again with other noise of the heading, and keep the best map"},
       {"max_scans", &BackendConfig::max_scans, "",

@@ -322,6 +322,21 @@ struct JointRefinementTuning {
       {"closure_weight", &JointRefinementTuning::closure_weight}};
 };
 
+/// Floors of which a flow sensor sees a part. Half and twice the cell and the usual error make little
+/// difference: docs/decisions/0030-floors-are-unknowns.md.
+struct FloorFieldTuning {
+  double cell_m = 1.5;       ///< side: what differs in a room is carpets, mats and puddles of light
+  double usual_error = 0.1;  ///< scale of the Cauchy prior: half of the cells err by less
+  int associations = 6;      ///< of returns with patches: an error of a passage moves all behind it
+  double min_cost = 2.3;     ///< log odds, 10 to 1: floors that differ must have paid so much
+
+  static constexpr TuningValue<FloorFieldTuning> kValues[] = {
+      {"cell_m", &FloorFieldTuning::cell_m},
+      {"usual_error", &FloorFieldTuning::usual_error},
+      {"associations", &FloorFieldTuning::associations},
+      {"min_cost", &FloorFieldTuning::min_cost}};
+};
+
 /// What a step of the online refinement may cost, and where it takes place.
 struct OnlineRefinementTuning {
   std::size_t max_window_scans = 300;       ///< scans refined at once
@@ -392,6 +407,7 @@ struct BackendTuning {
   KeyframeGraphTuning graph;
   RefinementTuning refinement;
   JointRefinementTuning joint;
+  FloorFieldTuning floor;
   PosesAndWallsTuning poses_and_walls;
   RigidNodesTuning nodes;
   WallPatchesTuning patches;

@@ -47,6 +47,11 @@ Factors motions_of(std::span<const StoredScan> scans, const SensorModel& sensor,
   return motions;
 }
 
+void stretch(Factors& motions, std::span<const double> step_scale) {
+  for (std::size_t i = 1; i < step_scale.size(); ++i)
+    motions[i - 1].T_from_to = stretched(motions[i - 1].T_from_to, step_scale[i]);
+}
+
 /// The dead reckoning among factors_of().
 std::span<const RelativePoseFactor<PoseIndex>> motions_in(const Factors& factors,
                                                           const BatchRefinement& batch) {
@@ -91,6 +96,7 @@ Judged judge(const ScanStore& scans, const RefinementProblem& problem,
 /// Dead reckoning from each scan to the next, then closures.
 Factors factors_of(const BatchRefinement& batch) {
   Factors factors = motions_of(batch.scans.all().values(), batch.sensor, batch.dead_reckoning);
+  stretch(factors, batch.step_scale);
   for (const RelativePoseFactor<ScanId>& c : batch.closures)
     factors.push_back(c.joining(pose_of(batch, c.from), pose_of(batch, c.to)));
   return factors;
@@ -125,6 +131,17 @@ void take(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report
   report.share_on_walls = refined.share_on_walls;
   report.misfit = std::move(refined.misfit);
   T_map_body = std::move(T_refined);
+}
+
+/// Of walls and poses together.
+void take_if_held_out_agree(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report,
+                            std::vector<Pose2>& T_map_body) {
+  HeldOutVerdict verdict;
+  verdict.judge(report.held_out_before_m, refined.held_out_m);
+  report.moved_walls = verdict.accepted;
+  if (!verdict.accepted) return;
+  static_cast<HeldOutVerdict&>(report) = verdict;
+  take(std::move(refined), std::move(T_refined), report, T_map_body);
 }
 
 }  // namespace
@@ -164,21 +181,29 @@ Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vecto
 Status refine_together(const BatchRefinement& batch, RefinementReport& report,
                        std::vector<Pose2>& T_map_body) {
   if (batch.scans.size() < 2) return {};
-  const RefinementTuning& tuning = batch.config.tuning.refinement;
-  const RefinementProblem problem = problem_of(batch.scans, tuning);
+  const RefinementProblem problem = problem_of(batch.scans, batch.config.tuning.refinement);
   Factors factors = factors_of(batch);
   std::vector<Pose2> T = T_map_body;
   Status solved = refine_jointly(batch.scans, batch.sensor, problem.returns(), headings_of(batch),
                                  batch.config.tuning, factors, T);
   if (!solved) return solved;
   Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, batch.config);
-  HeldOutVerdict verdict;
-  verdict.judge(report.held_out_before_m, refined.held_out_m);
-  report.moved_walls = verdict.accepted;
-  if (!verdict.accepted) return {};
-  static_cast<HeldOutVerdict&>(report) = verdict;
-  take(std::move(refined), std::move(T), report, T_map_body);
+  take_if_held_out_agree(std::move(refined), std::move(T), report, T_map_body);
   return {};
+}
+
+Result<FloorFindings> refine_together_with_floor(const BatchRefinement& batch, RefinementReport& report,
+                                                 std::vector<Pose2>& T_map_body) {
+  if (batch.scans.size() < 2) return FloorFindings();
+  const RefinementProblem problem = problem_of(batch.scans, batch.config.tuning.refinement);
+  Factors factors = factors_of(batch);
+  std::vector<Pose2> T = T_map_body;
+  Result<FloorFindings> floor = refine_jointly_with_floor(
+      batch.scans, batch.sensor, problem.returns(), headings_of(batch), batch.config.tuning, factors, T);
+  if (!floor) return floor;
+  Judged refined = judge(batch.scans, problem, motions_in(factors, batch), T, batch.config);
+  take_if_held_out_agree(std::move(refined), std::move(T), report, T_map_body);
+  return report.moved_walls ? std::move(floor) : FloorFindings();
 }
 
 }  // namespace swiftlet

@@ -8,6 +8,7 @@
 
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/floor_field.hpp"
 #include "core/backend/refinement/refinement_problem.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
@@ -39,6 +40,7 @@ struct BatchRefinement {
   std::span<const HeadingFactor<ScanId>> headings{};       ///< likewise
   const BackendConfig& config;
   DeadReckoning dead_reckoning = DeadReckoning::kLessDrift;
+  std::span<const double> step_scale{};  ///< FloorFindings'; empty: steps are as long as that says
 };
 
 /// Refinement of every scan's pose: a sparse Gauss-Newton problem of point-to-line factors to the walls of
@@ -54,5 +56,9 @@ RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<
 /// Accepted on the same condition; else, and where there is no solution (kSolver), both are left as they are.
 Status refine_together(const BatchRefinement& batch, RefinementReport& report,
                        std::vector<Pose2>& T_map_body);
+/// The same with the floors as unknowns, by refine_jointly_with_floor(). Where it was not accepted, the
+/// findings cost nothing.
+Result<FloorFindings> refine_together_with_floor(const BatchRefinement& batch, RefinementReport& report,
+                                                 std::vector<Pose2>& T_map_body);
 
 }  // namespace swiftlet

@@ -56,30 +56,75 @@ std::vector<ScanHit> hits_of(std::span<const PlacedReturn> returns) {
   return hits;
 }
 
+PosesAndWalls problem_of(const ScanStore& scans, const SensorModel& sensor,
+                         std::span<const PlacedReturn> returns,
+                         std::span<const HeadingFactor<PoseIndex>> headings, const BackendTuning& tuning,
+                         const std::vector<Factor>& factors, std::span<const Pose2> T_map_body) {
+  const auto closures = factors.begin() + static_cast<std::ptrdiff_t>(scans.size() - 1);
+  RigidNodes nodes = nodes_of(scans, {factors.begin(), closures}, tuning.nodes);
+  const SystematicCovariance prior = prior_of(sensor, nodes.shows_time_offset(), tuning.joint);
+  return {std::move(nodes),
+          hits_of(returns),
+          {{closures, factors.end()}, {headings.begin(), headings.end()}, tuning.joint.closure_weight},
+          T_map_body,
+          prior,
+          kWallSigmasOfReading * sensor.range_sigma_m,
+          {tuning.poses_and_walls, tuning.refinement.walls, tuning.patches}};
+}
+
+Status solve(PosesAndWalls& problem, int associations, int steps_per_association) {
+  for (int round = 0; round < associations; ++round) {
+    problem.associate();
+    for (int step = 0; step < steps_per_association; ++step)
+      if (Status status = problem.step(); !status) return status;
+  }
+  return {};
+}
+
+void take(const PosesAndWalls& problem, std::vector<Factor>& factors, std::vector<Pose2>& T_map_body) {
+  const Pose2 T_map_first = T_map_body.front();
+  T_map_body = problem.nodes().blended(problem.T_map_node());
+  T_map_body.front() = T_map_first;  // but for rounding it has not moved
+  for (std::size_t i = 1; i < T_map_body.size(); ++i) factors[i - 1].T_from_to = problem.nodes().step_to(i);
+}
+
+/// A step that was not measured is as long as it is.
+FloorFindings floor_of(const PosesAndWalls& problem, std::span<const StoredScan> scans) {
+  const FloorField& floor = *problem.floor();
+  FloorFindings found{floor.cost(), std::vector<double>(scans.size(), 1.0)};
+  for (std::size_t i = problem.nodes().first_scan(1); i < scans.size(); ++i)
+    if (!scans[i].starts_segment)
+      found.step_scale[i] = 1.0 + floor.error(floor.cell_of(problem.nodes().node_of(i)));
+  return found;
+}
+
 }  // namespace
 
 Status refine_jointly(const ScanStore& scans, const SensorModel& sensor,
                       std::span<const PlacedReturn> returns,
                       std::span<const HeadingFactor<PoseIndex>> headings, const BackendTuning& tuning,
                       std::vector<Factor>& factors, std::vector<Pose2>& T_map_body) {
-  const auto closures = factors.begin() + static_cast<std::ptrdiff_t>(scans.size() - 1);
-  RigidNodes nodes = nodes_of(scans, {factors.begin(), closures}, tuning.nodes);
-  const SystematicCovariance prior = prior_of(sensor, nodes.shows_time_offset(), tuning.joint);
-  PosesAndWalls problem(
-      std::move(nodes), hits_of(returns),
-      {{closures, factors.end()}, {headings.begin(), headings.end()}, tuning.joint.closure_weight},
-      T_map_body, prior, kWallSigmasOfReading * sensor.range_sigma_m,
-      {tuning.poses_and_walls, tuning.refinement.walls, tuning.patches});
-  for (int round = 0; round < tuning.joint.associations; ++round) {
-    problem.associate();
-    for (int step = 0; step < tuning.joint.steps_per_association; ++step)
-      if (Status status = problem.step(); !status) return status;
-  }
-  const Pose2 T_map_first = T_map_body.front();
-  T_map_body = problem.nodes().blended(problem.T_map_node());
-  T_map_body.front() = T_map_first;  // but for rounding it has not moved
-  for (std::size_t i = 1; i < scans.size(); ++i) factors[i - 1].T_from_to = problem.nodes().step_to(i);
-  return {};
+  PosesAndWalls problem = problem_of(scans, sensor, returns, headings, tuning, factors, T_map_body);
+  Status status = solve(problem, tuning.joint.associations, tuning.joint.steps_per_association);
+  if (status) take(problem, factors, T_map_body);
+  return status;
+}
+
+Result<FloorFindings> refine_jointly_with_floor(const ScanStore& scans, const SensorModel& sensor,
+                                                std::span<const PlacedReturn> returns,
+                                                std::span<const HeadingFactor<PoseIndex>> headings,
+                                                const BackendTuning& tuning, std::vector<Factor>& factors,
+                                                std::vector<Pose2>& T_map_body) {
+  PosesAndWalls problem = problem_of(scans, sensor, returns, headings, tuning, factors, T_map_body);
+  problem.let_floor_vary(tuning.floor);
+  Status status = solve(problem, tuning.floor.associations, tuning.joint.steps_per_association);
+  if (!status) return status.error();
+  take(problem, factors, T_map_body);
+  FloorFindings found;
+  if (problem.nodes().size() > 1) found = floor_of(problem, scans.all().values());
+  for (std::size_t i = 1; i < found.step_scale.size(); ++i)
+    factors[i - 1].T_from_to = stretched(factors[i - 1].T_from_to, found.step_scale[i]);
+  return found;
 }
 
 }  // namespace swiftlet

@@ -7,6 +7,7 @@
 
 #include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/floor_field.hpp"
 #include "core/backend/refinement/refinement_problem.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
@@ -33,5 +34,11 @@ namespace swiftlet {
                                     const BackendTuning& tuning,
                                     std::vector<RelativePoseFactor<PoseIndex>>& factors,
                                     std::vector<Pose2>& T_map_body);
+/// The same with what the floors do to a flow sensor as further unknowns (FloorField). The dead reckoning in
+/// `factors` is as reported, out less what was found of floors, too.
+[[nodiscard]] Result<FloorFindings> refine_jointly_with_floor(
+    const ScanStore& scans, const SensorModel& sensor, std::span<const PlacedReturn> returns,
+    std::span<const HeadingFactor<PoseIndex>> headings, const BackendTuning& tuning,
+    std::vector<RelativePoseFactor<PoseIndex>>& factors, std::vector<Pose2>& T_map_body);
 
 }  // namespace swiftlet

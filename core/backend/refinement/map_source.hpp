@@ -13,6 +13,7 @@ enum class MapSource : std::uint8_t {
   kFrontend,       ///< the landmark graph: no loop closures
   kPoseGraph,
   kOtherYawNoise,  ///< the map of the run mapped again (OtherPath)
+  kFloorKnown,     ///< likewise, once the floors had been found (FloorField)
 };
 
 constexpr std::string_view name_of(MapSource source) {
@@ -23,6 +24,8 @@ constexpr std::string_view name_of(MapSource source) {
       return "frontend";
     case MapSource::kOtherYawNoise:
       return "other yaw noise";
+    case MapSource::kFloorKnown:
+      return "floor known";
     case MapSource::kPoseGraph:
       break;
   }

@@ -28,7 +28,7 @@ class NodePatchMatrix {
     std::uint32_t patch = 0;
   };
 
-  /// `pairs`: may repeat. `sights`: each once, by node and then by patch. Allocates.
+  /// `pairs`: may repeat. `sights`: each once. Allocates.
   NodePatchMatrix(std::size_t nodes, std::size_t patches, std::vector<NodePair> pairs,
                   std::span<const Sight> sights);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/geometry/angle.hpp"
@@ -57,6 +58,7 @@ void PosesAndWalls::associate() {
   patches_.clear();
   for (const WallPatch& patch : found.patches) patches_.push_back({patch, 0.0, 0.0});
   find_sights(found, drawn);
+  if (floor_) find_floor_sights();
 }
 
 /// A storey at a time.
@@ -115,6 +117,30 @@ void PosesAndWalls::find_sights(const WallPatches& found, std::span<const DrawnR
   if (!hits_.empty()) end_node(nodes_.node_of(hits_.back().scan), first_return);
 }
 
+/// Behind those of the patches. A node without returns lies on the storey of the one before.
+void PosesAndWalls::find_floor_sights() {
+  std::vector<PlaceOnFloor> places;
+  places.reserve(nodes_.size());
+  std::size_t hit = 0;
+  StoreyId storey = hits_.empty() ? StoreyId{} : hits_.front().storey;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    for (; hit < hits_.size() && nodes_.node_of(hits_[hit].scan) <= k; ++hit) storey = hits_[hit].storey;
+    places.push_back({T_map_node_[k].position(), storey});
+  }
+  floor_->place(places);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sight_of;  // node and cell
+  const auto sight = [&](std::size_t node, std::size_t cell) {
+    const Sight s{static_cast<std::uint32_t>(node), static_cast<std::uint32_t>(patches_.size() + cell)};
+    const auto [at, is_new] =
+        sight_of.try_emplace({s.node, s.patch}, static_cast<std::uint32_t>(sights_.size()));
+    if (is_new) sights_.push_back(s);
+    return at->second;
+  };
+  floor_sights_.assign(nodes_.size(), {});
+  for (std::size_t k = 1; k < nodes_.size(); ++k)
+    floor_sights_[k] = {sight(k - 1, floor_->cell_of(k)), sight(k, floor_->cell_of(k))};
+}
+
 /// With the pattern of the present patches.
 NodePatchMatrix PosesAndWalls::matrix() const {
   std::vector<NodePatchMatrix::NodePair> pairs;
@@ -125,7 +151,8 @@ NodePatchMatrix PosesAndWalls::matrix() const {
     if (earlier < later)
       pairs.push_back({static_cast<std::uint32_t>(earlier), static_cast<std::uint32_t>(later)});
   }
-  return {nodes_.size(), patches_.size(), std::move(pairs), sights_};
+  const std::size_t cells = floor_ ? floor_->size() : 0;
+  return {nodes_.size(), patches_.size() + cells, std::move(pairs), sights_};
 }
 
 PosesAndWalls::WallRow PosesAndWalls::wall_row(const WallReturn& wall) const {
@@ -172,6 +199,11 @@ PosesAndWalls::MotionRow PosesAndWalls::motion_row(std::size_t to) const {
   const StepVariance& variance = nodes_.variance_to(to);
   const double by_xy = 1.0 / (position_noise_scale_ * position_noise_scale_ * variance.xy_m2);
   row.weight << by_xy, by_xy, 1.0 / variance.yaw_rad2;
+  if (floor_) {
+    row.by_floor = row.by_errors.col(index_of(SystematicError::kForwardScale)) +
+                   row.by_errors.col(index_of(SystematicError::kSidewaysScale));
+    row.error += floor_->error(floor_->cell_of(to)) * row.by_floor;
+  }
   return row;
 }
 
@@ -218,9 +250,33 @@ void PosesAndWalls::gather_walls() {
   }
 }
 
+/// Of the two unknowns of a patch a cell has the first; the second is held.
+void PosesAndWalls::gather_floor_prior() {
+  for (std::size_t c = 0; c < floor_->size(); ++c) {
+    const std::size_t patch = patches_.size() + c;
+    H_->add_patch(patch, Eigen::Vector2d(floor_->information(c), 1.0).asDiagonal());
+    gradient_(H_->row_of_patch(patch)) += floor_->information(c) * floor_->error(c);
+  }
+}
+
+void PosesAndWalls::gather_floor(std::size_t to, const MotionRow& row) {
+  const std::size_t patch = patches_.size() + floor_->cell_of(to);
+  Eigen::Matrix<double, 2, 3> A = Eigen::Matrix<double, 2, 3>::Zero();
+  A.row(0) = row.by_floor.cwiseProduct(row.weight);
+  Eigen::Matrix2d by_itself = Eigen::Matrix2d::Zero();
+  by_itself(0, 0) = A.row(0) * row.by_floor;
+  H_->add_patch(patch, by_itself);
+  H_->add_sight(floor_sights_[to].from, A * row.by_from);
+  H_->add_sight(floor_sights_[to].to, A * row.by_to);
+  gradient_.segment<2>(H_->row_of_patch(patch)) += A * row.error;
+  H_errors_.middleRows<2>(H_->row_of_patch(patch)) += A * row.by_errors;
+}
+
 void PosesAndWalls::gather_motions() {
+  if (floor_) gather_floor_prior();
   for (std::uint32_t k = 1; k < nodes_.size(); ++k) {
     const MotionRow row = motion_row(k);
+    if (floor_) gather_floor(k, row);
     const Index from = H_->row_of_node(k - 1);
     const Index to = H_->row_of_node(k);
     const Eigen::Matrix3d A = row.by_from.transpose() * row.weight.asDiagonal();
@@ -298,6 +354,9 @@ void PosesAndWalls::move(const Eigen::VectorXd& unknowns, const SystematicErrors
     patches_[m].distance_m += d(0);
     patches_[m].turn_rad += d(1);
   }
+  if (floor_)
+    for (std::size_t c = 0; c < floor_->size(); ++c)
+      floor_->change(c, unknowns(H_->row_of_patch(patches_.size() + c)));
   errors_ += errors;
   nodes_.reckon(errors_);
 }

@@ -14,6 +14,7 @@
 
 #include "core/backend/config/backend_tuning.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/floor_field.hpp"
 #include "core/backend/refinement/node_patch_matrix.hpp"
 #include "core/backend/refinement/rigid_nodes.hpp"
 #include "core/backend/refinement/wall_patches.hpp"
@@ -63,12 +64,15 @@ class PosesAndWalls {
   void associate();
   /// One Gauss-Newton step over all unknowns. Errors: kSolver; all is then as it was.
   Status step();
+  /// From the next associate() on, what the floor does to dead reckoning is unknown, too.
+  void let_floor_vary(const FloorFieldTuning& tuning) { floor_.emplace(tuning); }
   /// Scales the standard deviations of dead reckoning's positions.
   void scale_position_noise(double scale) { position_noise_scale_ = scale; }
 
   [[nodiscard]] const RigidNodes& nodes() const { return nodes_; }
   [[nodiscard]] std::span<const Pose2> T_map_node() const { return T_map_node_; }
   [[nodiscard]] const SystematicErrors& errors() const { return errors_; }
+  [[nodiscard]] const std::optional<FloorField>& floor() const { return floor_; }
   [[nodiscard]] std::size_t patches() const { return patches_.size(); }
   [[nodiscard]] std::size_t returns_on_patches() const { return returns_.size(); }
   /// Robust scatter of the returns around their patches.
@@ -114,6 +118,12 @@ class PosesAndWalls {
     Eigen::Matrix3d by_from;
     Eigen::Matrix3d by_to;
     Eigen::Matrix<double, 3, kSystematicErrors> by_errors;
+    Eigen::Vector3d by_floor = Eigen::Vector3d::Zero();
+  };
+  /// A cell of the floor under the motion to a node, as seen from either end.
+  struct FloorSights {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
   };
 
   [[nodiscard]] Pose2 T_map_scan(std::size_t scan) const {
@@ -123,12 +133,15 @@ class PosesAndWalls {
   [[nodiscard]] MotionRow motion_row(std::size_t to) const;
   [[nodiscard]] WallPatches find_patches(std::span<const DrawnReturn> drawn) const;
   void find_sights(const WallPatches& found, std::span<const DrawnReturn> drawn);
+  void find_floor_sights();
   [[nodiscard]] NodePatchMatrix matrix() const;
   void measure_wall_sigma();
   void gather();
   void gather_patches();
   void gather_walls();
   void gather_motions();
+  void gather_floor(std::size_t to, const MotionRow& row);
+  void gather_floor_prior();
   void gather_known();
   void move(const Eigen::VectorXd& unknowns, const SystematicErrors& errors);
 
@@ -146,6 +159,8 @@ class PosesAndWalls {
   std::vector<WallReturn> returns_;
   std::vector<Sight> sights_;
   std::vector<PatchState> patches_;
+  std::optional<FloorField> floor_;        // its cells follow the patches as further ones of one unknown
+  std::vector<FloorSights> floor_sights_;  // by node
 
   // Normal equations of the last step, with the unknowns eliminated.
   std::optional<NodePatchMatrix> H_;

@@ -13,6 +13,7 @@
 #include "core/backend/refinement/batch_refinement.hpp"
 #include "core/backend/refinement/point_to_line_factor.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/sensing/systematic_motion.hpp"
 
 namespace swiftlet {
 namespace {
@@ -121,13 +122,14 @@ RunRefinement::Known RunRefinement::known_of(const Hypothesis& hypothesis, const
 }
 
 BatchRefinement RunRefinement::batch(const Hypothesis& hypothesis, const Known& known) const {
-  return {*scans_,
-          sensor_,
-          known.closures,
-          known.headings,
-          *config_,
-          hypothesis.source == MapSource::kDeadReckoning ? DeadReckoning::kAsReported
-                                                         : DeadReckoning::kLessDrift};
+  return {
+      *scans_,
+      sensor_,
+      known.closures,
+      known.headings,
+      *config_,
+      hypothesis.source == MapSource::kDeadReckoning ? DeadReckoning::kAsReported : DeadReckoning::kLessDrift,
+      hypothesis.floor.step_scale};
 }
 
 /// The odometry is left as reported unless that is significantly worse.
@@ -188,19 +190,40 @@ std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGr
 
 /// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was
 /// judged by.
-void RunRefinement::take_better(std::span<const OtherPath> others, Hypothesis& best) const {
+void RunRefinement::take_better(MapSource source, std::span<const OtherPath> others, Hypothesis& best) const {
   if (others.empty()) return;
   double least = sum(judge_as_it_is(batch(best, {}), best.T_map_body).misfit);
   for (const OtherPath& other : others) {
-    Hypothesis correction{.source = MapSource::kOtherYawNoise,
+    Hypothesis correction{.source = source,
                           .T_map_body = from(best.T_map_body.front(), other.T_map_body),
-                          .yaw_noise_factor = other.yaw_noise_factor};
+                          .yaw_noise_factor = other.yaw_noise_factor,
+                          .floor = best.floor};
     correction.report = judge_as_it_is(batch(correction, {}), correction.T_map_body);
+    correction.report.held_out_before_m = best.report.held_out_before_m;
     const double misfit = sum(correction.report.misfit);
     if (misfit >= least) continue;
     least = misfit;
     best = std::move(correction);
   }
+}
+
+/// Dead reckoning that stays as reported is left alone.
+bool RunRefinement::may_find_floor(const Hypothesis& best) const {
+  return config_->floor_varies && !yaw_goes_with_travel(sensor_.odometry) &&
+         (best.source != MapSource::kDeadReckoning || best.report.accepted);
+}
+
+/// Where they differ by so much that it was worth its cost.
+bool RunRefinement::find_floor(Hypothesis& best, const PoseGraph& graph) {
+  Hypothesis on_floor = best;
+  const Known known = known_of(best, graph);
+  Result<FloorFindings> floor =
+      refine_together_with_floor(batch(best, known), on_floor.report, on_floor.T_map_body);
+  if (!floor) ++counters_.solver_failures;
+  if (!floor || floor->cost < config_->tuning.floor.min_cost) return false;
+  best = std::move(on_floor);
+  best.floor = std::move(*floor);
+  return true;
 }
 
 void RunRefinement::take(Hypothesis best) {
@@ -209,6 +232,7 @@ void RunRefinement::take(Hypothesis best) {
   counters_.refined = best.report.accepted;
   counters_.map_source = best.source;
   counters_.yaw_noise_factor = best.yaw_noise_factor;
+  counters_.floor_cost = best.floor.cost;
   counters_.misfit = sum(best.report.misfit);
   if (best.report.accepted || best.source != MapSource::kPoseGraph)
     T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
@@ -220,7 +244,10 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
   if (!is_wanted() || scans_->size() < 2) return false;
   std::optional<Hypothesis> best = best_of_run(graph, T_local_keyframe);
   if (!best) return false;
-  if (map_again && best->source != MapSource::kDeadReckoning) take_better(map_again(), *best);
+  const bool again = map_again && best->source != MapSource::kDeadReckoning;
+  if (again) take_better(MapSource::kOtherYawNoise, map_again({}), *best);
+  if (may_find_floor(*best) && find_floor(*best, graph) && again)
+    take_better(MapSource::kFloorKnown, map_again(best->floor.step_scale), *best);
   take(std::move(*best));
   return is_final();
 }

@@ -10,6 +10,7 @@
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/backend/refinement/batch_refinement.hpp"
+#include "core/backend/refinement/floor_field.hpp"
 #include "core/backend/refinement/map_source.hpp"
 #include "core/backend/refinement/online_refinement.hpp"
 #include "core/backend/refinement/other_path.hpp"
@@ -27,6 +28,7 @@ struct RefinementCounters {
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;
   double yaw_noise_factor = 1.0;  ///< of the path that it follows
+  double floor_cost = 0.0;        ///< FloorFindings'; 0 where the floors are taken as even
   std::optional<double> misfit;   ///< of that map: RefinementReport's, of all traversals
 };
 
@@ -52,7 +54,8 @@ class RunRefinement {
   /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way, walls and
   /// poses in turn; the one chosen then together. Dead reckoning is the map unless the ranges pay for how far
   /// a correction departs from it. `map_again`: asked for final paths, unless dead reckoning is the map; one
-  /// of them becomes the map where it explains the ranges better.
+  /// of them becomes the map where it explains the ranges better. Then the floors are found, and with them
+  /// `map_again` is asked once more.
   bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe, const MapAgain& map_again);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
 
@@ -72,6 +75,7 @@ class RunRefinement {
     std::vector<Pose2> T_map_body;
     RefinementReport report{};
     double yaw_noise_factor = 1.0;
+    FloorFindings floor{};
   };
   [[nodiscard]] Hypothesis hypothesis(MapSource source, const PoseGraph& graph,
                                       const KeyframePoses& T_local_keyframe) const;
@@ -87,7 +91,9 @@ class RunRefinement {
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
   [[nodiscard]] std::optional<Hypothesis> best_of_run(const PoseGraph& graph,
                                                       const KeyframePoses& T_local_keyframe);
-  void take_better(std::span<const OtherPath> others, Hypothesis& best) const;
+  void take_better(MapSource source, std::span<const OtherPath> others, Hypothesis& best) const;
+  [[nodiscard]] bool may_find_floor(const Hypothesis& best) const;
+  bool find_floor(Hypothesis& best, const PoseGraph& graph);
   void take(Hypothesis best);
 
   const BackendConfig* config_;

@@ -63,5 +63,19 @@ TEST(OtherYawNoise, ThereIsNoneWhereDeadReckoningIsTheMap) {
   EXPECT_FALSE(path_with_yaw_noise(0.5, blind, kSettings, BeamLayout::multiranger()));
 }
 
+TEST(OtherYawNoise, StretchedStepsAreSoManyTimesAsLongAndTurnAsFar) {
+  const std::vector<RangeSample> reported = two_laps();
+  std::vector<RangeSample> samples = reported;
+  std::vector<double> scale(samples.size(), 1.0);
+  for (std::size_t i = 100; i < 200; ++i) scale[i] = 1.5;
+  stretch_steps(samples, scale);
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Pose2 step = between(reported[i - 1].T_odom_body, reported[i].T_odom_body);
+    ASSERT_TRUE(poses_near(between(samples[i - 1].T_odom_body, samples[i].T_odom_body),
+                           stretched(step, scale[i]), 1e-9, 1e-9))
+        << i;
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -30,6 +30,7 @@ TEST(RunReport, TellsWhatCameInAndWhatWasMadeOfIt) {
   EXPECT_EQ(report["backend"]["windows"]["refused"], 0);
   EXPECT_EQ(report["backend"]["map_source"], "pose graph");
   EXPECT_EQ(report["backend"]["yaw_noise_factor"], 1.0);
+  EXPECT_EQ(report["backend"]["floor_cost"], 0.0);
   EXPECT_NEAR(report["trajectory"]["duration_s"].get<double>(), 8.0, 1e-9);
   EXPECT_NEAR(report["trajectory"]["odometry_length_m"].get<double>(), 8.0, 1e-9);
   EXPECT_GT(report["map"]["tiles"], 0);

@@ -31,13 +31,25 @@ struct FlownBackend {
 
 TEST(MapAgain, GivesThePathsInTheirOrderAndTheSameOnesEachTime) {
   const FlownBackend flown({});
-  const std::vector<OtherPath> once = map_again(flown.backend, flown.settings);
-  const std::vector<OtherPath> again = map_again(flown.backend, flown.settings);
+  const std::vector<OtherPath> once = map_again(flown.backend, flown.settings, {});
+  const std::vector<OtherPath> again = map_again(flown.backend, flown.settings, {});
   ASSERT_EQ(once.size(), kOtherYawNoise.size());
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_EQ(once[i].yaw_noise_factor, kOtherYawNoise[i]);
     EXPECT_TRUE(same_bits(once[i].T_map_body, again[i].T_map_body));
   }
+}
+
+TEST(MapAgain, GivesOnePathWithStepsOfOtherLengths) {
+  const FlownBackend flown({});
+  const std::vector<double> as_reported(flown.backend.scans().size(), 1.0);
+  const std::vector<double> longer(flown.backend.scans().size(), 1.1);
+  const std::vector<OtherPath> one = map_again(flown.backend, flown.settings, as_reported);
+  const std::vector<OtherPath> other = map_again(flown.backend, flown.settings, longer);
+  ASSERT_EQ(one.size(), 1U);
+  ASSERT_EQ(other.size(), 1U);
+  EXPECT_EQ(one.front().yaw_noise_factor, 1.0);
+  EXPECT_FALSE(same_bits(one.front().T_map_body, other.front().T_map_body));
 }
 
 TEST(MapAgain, GivesNothingWhereItIsNotWanted) {
@@ -46,7 +58,7 @@ TEST(MapAgain, GivesNothingWhereItIsNotWanted) {
     BackendConfig config;
     config.*off = false;
     const FlownBackend flown(config);
-    EXPECT_TRUE(map_again(flown.backend, flown.settings).empty());
+    EXPECT_TRUE(map_again(flown.backend, flown.settings, {}).empty());
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -195,7 +196,8 @@ TEST(RunRefinement, ARestartThatLoopsHaveBridgedIsNoDrift) {
 /// One path, with the graph's, and what the map is then.
 FinalMap final_map_beside(const OtherPath& other, const std::vector<Pose2>& T_graph_body) {
   const StoredRun run(two_laps().samples());
-  return final_map(run, T_graph_body, {}, {}, SensorModel::crazyflie(), [&] { return std::vector{other}; });
+  return final_map(run, T_graph_body, {}, {}, SensorModel::crazyflie(),
+                   [&](std::span<const double>) { return std::vector{other}; });
 }
 
 TEST(RunRefinement, AnotherPathThatExplainsTheRangesBetterIsTheMapAsItIs) {
@@ -219,13 +221,62 @@ TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
 TEST(RunRefinement, WhereDeadReckoningIsTheMapTheRunIsNotMappedAgain) {
   const TestVehicle vehicle = along_the_corridor();
   bool was_asked = false;
-  const FinalMap map =
-      final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {}, SensorModel::crazyflie(), [&] {
-        was_asked = true;
-        return std::vector{OtherPath{1.4, true_poses(vehicle)}};
-      });
+  const FinalMap map = final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {},
+                                 SensorModel::crazyflie(), [&](std::span<const double>) {
+                                   was_asked = true;
+                                   return std::vector{OtherPath{1.4, true_poses(vehicle)}};
+                                 });
   EXPECT_FALSE(was_asked);
   EXPECT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
+}
+
+/// Twice round the block. The flow sensor sees 70 % of the motion along the corridor in the east.
+struct UnevenFlight {
+  std::vector<RangeSample> samples = two_laps().samples();
+  std::vector<Pose2> truth = true_poses(two_laps());
+
+  UnevenFlight() {
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      const Pose2 step = between(truth[i - 1], truth[i]);
+      samples[i].T_odom_body = samples[i - 1].T_odom_body * stretched(step, is_plain(i) ? 0.7 : 1.0);
+    }
+  }
+  [[nodiscard]] bool is_plain(std::size_t i) const {
+    return truth[i].x_m() > loop_corridor().place('c').x_m - loop_corridor().place('a').x_m - 1.0;
+  }
+};
+
+TEST(RunRefinement, FloorsThatTheOdometryMissesAreFoundAndTheRunIsMappedAgainWithThem) {
+  const UnevenFlight flight;
+  std::vector<std::vector<double>> asked;
+  const MapAgain map_again = [&](std::span<const double> step_scale) {
+    asked.emplace_back(step_scale.begin(), step_scale.end());
+    return asked.size() == 1 ? std::vector<OtherPath>() : std::vector{OtherPath{1.0, flight.truth}};
+  };
+  const FinalMap map = final_map(StoredRun(flight.samples), in_small_waves(flight.truth), {}, {},
+                                 SensorModel::crazyflie(), map_again);
+  EXPECT_GT(map.counters.floor_cost, FloorFieldTuning().min_cost);
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_TRUE(asked.front().empty());
+  ASSERT_EQ(asked.back().size(), flight.samples.size());
+  EXPECT_GT(*std::max_element(asked.back().begin(), asked.back().end()), 1.25);
+  BackendConfig even;
+  even.floor_varies = false;
+  const FinalMap without = final_map(StoredRun(flight.samples), in_small_waves(flight.truth), {}, even);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, flight.truth),
+            0.8 * aligned_rms_error_m(without.T_map_body, flight.truth));
+}
+
+TEST(RunRefinement, FloorsAreEvenUnlessAFlowSensorSawThem) {
+  const UnevenFlight flight;
+  BackendConfig even;
+  even.floor_varies = false;
+  const std::vector<Pose2> start = in_small_waves(flight.truth);
+  EXPECT_EQ(final_map(StoredRun(flight.samples), start, {}, even).counters.floor_cost, 0.0);
+  EXPECT_EQ(
+      final_map(StoredRun(flight.samples), start, {}, {}, SensorModel::carmen_laser()).counters.floor_cost,
+      0.0);
+  EXPECT_EQ(final_map(StoredRun(two_laps().samples()), start).counters.floor_cost, 0.0);
 }
 
 TEST(RunRefinement, TwoRunsGiveTheSameBytes) {
@@ -254,6 +305,7 @@ TEST(MapSource, EachHasAName) {
   EXPECT_EQ(name_of(MapSource::kFrontend), "frontend");
   EXPECT_EQ(name_of(MapSource::kPoseGraph), "pose graph");
   EXPECT_EQ(name_of(MapSource::kOtherYawNoise), "other yaw noise");
+  EXPECT_EQ(name_of(MapSource::kFloorKnown), "floor known");
 }
 
 }  // namespace
