@@ -134,7 +134,7 @@ What `pose_t` says of the live pose ([lcm](../lcm.md#how-far-a-pose-can-be-relie
 `swiftlet map 'sim://building?seed=1' -o out` has it in `report.json`, `swiftlet eval --consistency FLIGHT TRUTH` prints it
 for a recording. NEES is the normalised estimation error squared of (x, y, yaw) relative to the start: 3 on average where
 the covariance is right, below {NEES_95} in 95 % of the cases. Buildings are seeds {confidence_runs.BUILDINGS[0]} to {confidence_runs.BUILDINGS[-1]};
-what is added to each motion for slips was set on seeds 0 to 59.
+what is added to each motion for slips was set on seeds 0 to 299.
 
 An alarm is a stretch in which the state is not `TRACKING_GOOD`. It is false if the pose was within 0.5 m of the older map
 around it all the time and for 5 s before. A pose is noticed to be off if an alarm begins before its error at a known place
