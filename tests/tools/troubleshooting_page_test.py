@@ -68,6 +68,7 @@ SILENT_TEXTS = {
         dead reckoning
         pose graph
         other yaw noise
+        floor known
         age of the ranges
         metres moved per metre measured, forward
         the same, sideways
