@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/backend/config/backend_tuning.hpp"
@@ -43,12 +44,7 @@ class FloorField {
   [[nodiscard]] double cost() const;
 
  private:
-  struct Key {
-    StoreyId storey{};
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    auto operator<=>(const Key&) const = default;
-  };
+  using Key = std::tuple<StoreyId, std::int32_t, std::int32_t>;  // storey, x and y in cells
   [[nodiscard]] Key key_between(const PlaceOnFloor& from, const PlaceOnFloor& to) const;
 
   FloorFieldTuning tuning_;

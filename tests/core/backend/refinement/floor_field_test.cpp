@@ -18,6 +18,7 @@ constexpr auto kFloorAbove = StoreyId{1};
 std::vector<PlaceOnFloor> there_and_back() {
   const double quarter_m = 0.5 * FloorFieldTuning().cell_m;
   std::vector<PlaceOnFloor> nodes;
+  nodes.reserve(16);
   for (int k = 0; k < 8; ++k) nodes.push_back({{quarter_m * (k + 0.4), 0.3}, kGroundFloor});
   for (int k = 7; k >= 0; --k) nodes.push_back({{quarter_m * (k + 0.4), 0.6}, kGroundFloor});
   return nodes;
