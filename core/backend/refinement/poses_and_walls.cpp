@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/geometry/angle.hpp"
@@ -128,17 +127,17 @@ void PosesAndWalls::find_floor_sights() {
     places.push_back({T_map_node_[k].position(), storey});
   }
   floor_->place(places);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sight_of;  // node and cell
-  const auto sight = [&](std::size_t node, std::size_t cell) {
-    const Sight s{static_cast<std::uint32_t>(node), static_cast<std::uint32_t>(patches_.size() + cell)};
-    const auto [at, is_new] =
-        sight_of.try_emplace({s.node, s.patch}, static_cast<std::uint32_t>(sights_.size()));
-    if (is_new) sights_.push_back(s);
-    return at->second;
+  const auto new_sight = [&](std::size_t node, std::size_t cell) {
+    sights_.push_back({static_cast<std::uint32_t>(node), static_cast<std::uint32_t>(patches_.size() + cell)});
+    return static_cast<std::uint32_t>(sights_.size() - 1);
   };
   floor_sights_.assign(nodes_.size(), {});
-  for (std::size_t k = 1; k < nodes_.size(); ++k)
-    floor_sights_[k] = {sight(k - 1, floor_->cell_of(k)), sight(k, floor_->cell_of(k))};
+  for (std::size_t k = 1; k < nodes_.size(); ++k) {
+    const std::size_t cell = floor_->cell_of(k);
+    const bool goes_on = k > 1 && cell == floor_->cell_of(k - 1);
+    floor_sights_[k].from = goes_on ? floor_sights_[k - 1].to : new_sight(k - 1, cell);
+    floor_sights_[k].to = new_sight(k, cell);
+  }
 }
 
 /// With the pattern of the present patches.

@@ -250,12 +250,5 @@ TEST(JointRefinement, AnEvenFloorCostsNothing) {
   }
 }
 
-TEST(JointRefinement, AStepThatWasNotMeasuredIsAsLongAsItIs) {
-  Flight flight = fly({.seen_in_the_east = 0.6}, true_pose);
-  const Result<FloorFindings> floor = refine_with_floor(flight);
-  ASSERT_TRUE(floor);
-  EXPECT_EQ(floor->step_scale.front(), 1.0);
-}
-
 }  // namespace
 }  // namespace swiftlet
