@@ -93,8 +93,10 @@ bool Backend::State::newest_contact_is_at_fault() const {
   for (KeyframeId k = contact->since; k < chain.all().end_id(); k = chain.all().at_or_after(k + 1))
     T_map_without[k] = contact->T_map_since * between(T_local[contact->since], T_local[k]);
   const ScanRange scans_since{chain.scan_of(contact->since), scans.all().end_id()};
+  const ReturnEvidence returns(config.tuning.confidence, scans);
   const auto evidence = [&](const KeyframePoses& T_map_seen_from) {
-    return agreement.evidence_against(scans_since, chain, T_map_seen_from, loops.submaps(), T_map_keyframe());
+    return returns.against(scans_since, chain.T_w_bodies(scans_since, T_map_seen_from),
+                           config.tuning.confidence.old_after_m, loops.submaps(), T_map_keyframe());
   };
   const double corrected = evidence(T_map_keyframe());
   return corrected > evidence(T_map_without) + 0.5 * config.tuning.confidence.alarm_log_odds;

@@ -8,18 +8,11 @@
 #include <vector>
 
 #include "core/backend/config/backend_tuning.hpp"
+#include "core/backend/loop_closing/return_evidence.hpp"
 #include "core/backend/loop_closing/submap.hpp"
-#include "core/backend/store/keyframe_chain.hpp"
 #include "core/backend/store/scan_store.hpp"
 
 namespace swiftlet {
-
-/// What one return contributes about the pose it was seen from.
-enum class ReturnVerdict : std::uint8_t {
-  kUnknown,      ///< ground that no older submap knows
-  kAgrees,       ///< near a wall of an older submap
-  kContradicts,  ///< in what was seen free, or behind a wall
-};
 
 /// Whether what is seen agrees with the map of long ago: CUSUM (Page 1954, "Continuous inspection schemes")
 /// over the returns of the scans, between the share of contradictions when the pose is right and that when it
@@ -27,7 +20,8 @@ enum class ReturnVerdict : std::uint8_t {
 /// one. Views its arguments, which must outlive it. One thread at a time; allocates.
 class MapAgreement {
  public:
-  MapAgreement(const ConfidenceTuning& tuning, const ScanStore& scans) : tuning_(&tuning), scans_(&scans) {}
+  MapAgreement(const ConfidenceTuning& tuning, const ScanStore& scans)
+      : tuning_(&tuning), scans_(&scans), returns_(tuning, scans) {}
 
   /// Takes the submaps that the next scans are compared with: those around `T_map_body`, on that storey, that
   /// ended long ago.
@@ -36,13 +30,6 @@ class MapAgreement {
                    const KeyframePoses& T_map_keyframe);
   /// Compares the newest scan.
   void add_newest_scan(const Pose2& T_map_body);
-  /// Log odds of the pose being off rather than right, by all these scans against what was mapped long before
-  /// each, were their keyframes at `T_map_seen_from`. `T_map_keyframe`: of the submaps. Changes nothing;
-  /// allocates.
-  [[nodiscard]] double evidence_against(const ScanRange& scans, const KeyframeChain& chain,
-                                        const KeyframePoses& T_map_seen_from,
-                                        std::span<const std::shared_ptr<const Submap>> submaps,
-                                        const KeyframePoses& T_map_keyframe) const;
   /// The pose was corrected: what contradicted the old one is forgotten.
   void begin_again();
 
@@ -57,23 +44,12 @@ class MapAgreement {
   [[nodiscard]] std::uint64_t times_contradicted() const { return times_contradicted_; }
 
  private:
-  struct Around {
-    std::shared_ptr<const Submap> submap;
-    Pose2 T_submap_map;
-  };
-  [[nodiscard]] std::vector<Around> around(const Pose2& T_map_body, double path_m, StoreyId storey,
-                                           std::span<const std::shared_ptr<const Submap>> submaps,
-                                           const KeyframePoses& T_map_keyframe) const;
-  [[nodiscard]] bool is_farther_on(const Pose2& T_map_compared, const Pose2& T_map_body) const;
-  [[nodiscard]] double weight_of(std::span<const ScanReturn> returns) const;
-  [[nodiscard]] ReturnVerdict verdict(std::span<const Around> around, const Pose2& T_map_body,
-                                      const ScanReturn& beam) const;
-  [[nodiscard]] double log_odds_of(ReturnVerdict verdict) const;
   void weigh(ReturnVerdict verdict, double weight);
 
   const ConfidenceTuning* tuning_;
   const ScanStore* scans_;
-  std::vector<Around> around_;
+  ReturnEvidence returns_;
+  std::vector<SubmapAround> around_;
   Pose2 T_map_compared_;  // of the scan that was compared last
   double log_odds_ = 0.0;
   double share_ = 0.0;

@@ -19,6 +19,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kEvenPer255 = 127.5;
+constexpr double kUsualExcess = 0.25;      // mean of seen() over the points of a query at its place
 constexpr double kMaxTurnRad = kPi / 2.0;  // of a vehicle whose estimate ran on, beyond it
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
@@ -76,6 +77,11 @@ double PlaceHypotheses::queries_alike() const {
   return std::max(1.0, config_->multiscan_length_m / config_->tuning.places.way_between_m);
 }
 
+/// Log likelihood of a query by the mean of seen() over its points.
+double PlaceHypotheses::likelihood_per_excess() const {
+  return config_->tuning.matcher.likelihood_per_score / queries_alike();
+}
+
 PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T_map_query,
                                                     std::span<const std::shared_ptr<const Submap>> submaps,
                                                     const PoseGraph& graph) const {
@@ -108,11 +114,23 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
                               .covariance = Covariance3::from_matrix(match->covariance),
                               .score = match->score};
   }
-  found.log_likelihood = config_->tuning.matcher.likelihood_per_score / queries_alike() *
-                         seen(*best, query.points, T_submap_query).excess /
+  found.log_likelihood = likelihood_per_excess() * seen(*best, query.points, T_submap_query).excess /
                          static_cast<double>(query.points.size());
   if (!match || found.log_likelihood <= 0.0 || query.cross_check.holds(*best, T_submap_query)) return found;
   return {};
+}
+
+/// By the returns since the query before: beams through walls are no hits. Those of scans 0.1 m apart count
+/// for about half. What a map lacks, or a place that is off by a little, refutes no place at once: a query
+/// takes no more than it gives.
+double PlaceHypotheses::against(const Query& query, const Pose2& T_map_query,
+                                std::span<const std::shared_ptr<const Submap>> submaps,
+                                const PoseGraph& graph) const {
+  std::vector<Pose2> T_map_body;
+  T_map_body.reserve(query.T_query_body.size());
+  for (const Pose2& T_query_body : query.T_query_body) T_map_body.push_back(T_map_query * T_query_body);
+  const double evidence = 0.5 * returns_.against(query.newer, T_map_body, 0.0, submaps, graph.T_map_keyframe);
+  return std::clamp(evidence, 0.0, likelihood_per_excess() * kUsualExcess);
 }
 
 void PlaceHypotheses::weigh(Query& query, std::span<const std::shared_ptr<const Submap>> submaps,
@@ -120,13 +138,15 @@ void PlaceHypotheses::weigh(Query& query, std::span<const std::shared_ptr<const 
                             Hypothesis& hypothesis) const {
   const Pose2& T_path_query = T_path_keyframe[query.id];
   const Evidence found = evidence(query, hypothesis.T_map_path * T_path_query, submaps, graph);
-  hypothesis.log_likelihoods.push_back(found.log_likelihood);
-  hypothesis.log_odds += found.log_likelihood;
-  if (!found.match || found.log_likelihood <= 0.0) return;
+  const bool is_matched = found.match && found.log_likelihood > 0.0;
+  const Pose2 T_map_query = is_matched ? graph.T_map_keyframe[found.match->from] * found.match->T_from_to
+                                       : hypothesis.T_map_path * T_path_query;
+  const double log_likelihood = found.log_likelihood - against(query, T_map_query, submaps, graph);
+  hypothesis.log_likelihoods.push_back(log_likelihood);
+  hypothesis.log_odds += log_likelihood;
+  if (!is_matched || log_likelihood <= 0.0) return;
   hypothesis.matches.push_back(*found.match);
-  // Dead reckoning drifts on the way.
-  hypothesis.T_map_path =
-      graph.T_map_keyframe[found.match->from] * found.match->T_from_to * T_path_query.inverse();
+  hypothesis.T_map_path = T_map_query * T_path_query.inverse();  // dead reckoning drifts on the way
 }
 
 /// Where the travel's end lies decides; from there back dead reckoning drifts.
@@ -172,6 +192,11 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
               CrossCheck(*config_, *scans_, *chain_, recent, query, T_local_keyframe)};
   if (taken.points.size() < static_cast<std::size_t>(config_->min_match_points)) return false;
   taken.reach_m = farthest_m(taken.points, 0.0);
+  taken.newer = recent;
+  if (!queries_.empty()) taken.newer.first = std::max(recent.first, chain_->scan_of(queries_.back().id) + 1);
+  const Pose2 T_query_local = T_local_keyframe[query].inverse();
+  for (const Pose2& T_local_body : chain_->T_w_bodies(taken.newer, T_local_keyframe))
+    taken.T_query_body.push_back(T_query_local * T_local_body);
   const Pose2 T_map_path = graph.T_map_keyframe[query] * T_path_keyframe[query].inverse();
   const double prior = std::log(tuning.not_moved_odds) - break_.log_odds_moved;
   if (hypotheses_.empty()) hypotheses_.push_back({T_map_path, prior, {}, {}});

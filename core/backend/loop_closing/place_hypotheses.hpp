@@ -12,6 +12,7 @@
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/loop_closing/cross_check.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
+#include "core/backend/loop_closing/return_evidence.hpp"
 #include "core/backend/loop_closing/submap.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
@@ -34,7 +35,8 @@ struct MotionBreak {
 class PlaceHypotheses {
  public:
   PlaceHypotheses(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
-      : config_(&config), scans_(&scans), chain_(&chain) {}
+
+      : config_(&config), scans_(&scans), chain_(&chain), returns_(config.tuning.confidence, scans) {}
 
   /// Starts anew: the first query begins with one hypothesis, that the travel lies where the graph puts it.
   void begin(const MotionBreak& motion_break);
@@ -64,7 +66,9 @@ class PlaceHypotheses {
     double yaw_local_rad = 0.0;
     std::vector<Point2> points;
     CrossCheck cross_check;
-    double reach_m = 0.0;  // of the points
+    double reach_m = 0.0;               // of the points
+    ScanRange newer{};                  // since the query before
+    std::vector<Pose2> T_query_body{};  // of these
   };
   struct Hypothesis {
     Pose2 T_map_path;
@@ -88,12 +92,17 @@ class PlaceHypotheses {
   void forget_oldest();
   [[nodiscard]] double log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
                                  const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const;
+  [[nodiscard]] double against(const Query& query, const Pose2& T_map_query,
+                               std::span<const std::shared_ptr<const Submap>> submaps,
+                               const PoseGraph& graph) const;
+  [[nodiscard]] double likelihood_per_excess() const;
   [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;
 
   const BackendConfig* config_;
   const ScanStore* scans_;
   const KeyframeChain* chain_;
+  ReturnEvidence returns_;
   MotionBreak break_;
   bool is_graph_corrected_ = false;  // since the last query
   std::deque<Query> queries_;

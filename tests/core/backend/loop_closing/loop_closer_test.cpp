@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/backend/confidence/map_agreement.hpp"
+#include "core/backend/loop_closing/return_evidence.hpp"
 #include "core/backend/store/frontend_estimates.hpp"
 #include "tests/support/dead_reckoning_frontend.hpp"
 #include "tests/support/loop_corridor.hpp"
@@ -62,11 +62,12 @@ class FlownLoops {
     double by_dead_reckoning;
   };
   [[nodiscard]] Evidence evidence_since(const LoopCloser::Contact& contact) const {
-    const MapAgreement agreement(config_.tuning.confidence, scans_);
+    const ReturnEvidence returns(config_.tuning.confidence, scans_);
     const ScanRange since{chain_.scan_of(contact.since), scans_.all().end_id()};
     const auto against = [&](const KeyframePoses& T_map_seen_from) {
-      return agreement.evidence_against(since, chain_, T_map_seen_from, loops_.submaps(),
-                                        graph_.T_map_keyframe());
+      return returns.against(since, chain_.T_w_bodies(since, T_map_seen_from),
+                             config_.tuning.confidence.old_after_m, loops_.submaps(),
+                             graph_.T_map_keyframe());
     };
     return {against(graph_.T_map_keyframe()), against(local())};
   }

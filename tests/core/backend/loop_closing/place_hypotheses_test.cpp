@@ -220,6 +220,23 @@ TEST_F(PlaceHypothesesTest, APlaceFoundElsewhereIsAcceptedAfterThreeMatches) {
   expect_true(places_.decided());
 }
 
+TEST_F(PlaceHypothesesTest, BeamsThroughWallsSpeakAgainstAPlace) {
+  const auto queries_until_true_place = [&] {
+    put_travel(Pose2(1.2, 1.2, 0.0));  // behind the walls: what the beams meet there is unknown
+    newest_ = since_;
+    places_.begin(carried_for(seconds(10)));
+    take_query();
+    propose(Pose2());
+    return queries_until_decided();
+  };
+  const int heeded = queries_until_true_place();
+  ConfidenceTuning& shares = config_.tuning.confidence;
+  shares.share_if_off = shares.share_if_right;  // so that returns say nothing
+  const int unheeded = queries_until_true_place();
+  ASSERT_GT(heeded, 0);
+  EXPECT_TRUE(unheeded == 0 || unheeded > heeded) << unheeded << " in place of " << heeded;
+}
+
 TEST_F(PlaceHypothesesTest, AnotherStoreyIsNoEvidence) {
   submaps_ = one_storey_up(submaps_);
   places_.begin(carried_for(seconds(10)));
