@@ -122,10 +122,12 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
 
 /// By the returns since the query before: beams through walls are no hits. Those of scans 0.1 m apart count
 /// for about half. What a map lacks, or a place that is off by a little, refutes no place at once: a query
-/// takes no more than it gives.
+/// takes no more than it gives. Where the estimate ran on nobody knows at which scan it went wrong, and those
+/// before contradict the right place.
 double PlaceHypotheses::against(const Query& query, const Pose2& T_map_query,
                                 std::span<const std::shared_ptr<const Submap>> submaps,
                                 const PoseGraph& graph) const {
+  if (break_.moved_at) return 0.0;
   std::vector<Pose2> T_map_body;
   T_map_body.reserve(query.T_query_body.size());
   for (const Pose2& T_query_body : query.T_query_body) T_map_body.push_back(T_map_query * T_query_body);
