@@ -10,6 +10,7 @@
 #include "core/backend/confidence/map_agreement.hpp"
 #include "core/backend/confidence/pose_covariances.hpp"
 #include "core/backend/loop_closing/loop_closer.hpp"
+#include "core/backend/loop_closing/return_evidence.hpp"
 #include "core/backend/pose_graph/keyframe_graph.hpp"
 #include "core/backend/refinement/run_refinement.hpp"
 

@@ -35,7 +35,6 @@ struct MotionBreak {
 class PlaceHypotheses {
  public:
   PlaceHypotheses(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
-
       : config_(&config), scans_(&scans), chain_(&chain), returns_(config.tuning.confidence, scans) {}
 
   /// Starts anew: the first query begins with one hypothesis, that the travel lies where the graph puts it.
