@@ -14,8 +14,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = {"swiftlet": sys.argv[1], "swiftletd": sys.argv[2]}
 OPTION = r"(?<![\w-])--?[a-z][a-z-]*"
 # Options of other programs that the documents run.
-FOREIGN = set("""--baseline --build --buildings --compare --cpp --cpp-hpath --cpp-std --install --now --offline --only --patrol
-    --plain --prefix --preset --python --screen --seeds --target""".split())
+FOREIGN = set("""--baseline --build --buildings --compare --compare-config --cpp --cpp-hpath --cpp-std --install --now --offline --only
+    --patrol --plain --prefix --preset --python --screen --seeds --target""".split())
 
 
 def output_of(program, *arguments):
