@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sensing/range_sample.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
 #include "swiftlet/map_tile_t.hpp"
