@@ -29,7 +29,7 @@ InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel&
   const auto error = [&](SystematicError which) { return estimate.errors(index_of(which)); };
   InputCalibration calibration{expected, expected, estimate.sigma};
   calibration.found.range_age = std::clamp(
-      expected.range_age + from_seconds(error(SystematicError::kRangeAge)), Duration::zero(), kMaxRangeAge);
+      expected.range_age + from_seconds(error(SystematicError::kRangeAge)), kMinRangeAge, kMaxRangeAge);
   OdometryCalibration& odometry = calibration.found.odometry_calibration;
   odometry.forward_scale = 1.0 + error(SystematicError::kForwardScale);
   odometry.sideways_scale = 1.0 + error(SystematicError::kSidewaysScale);

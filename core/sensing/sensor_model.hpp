@@ -54,15 +54,17 @@ struct OdometryNoise {
   double detour_turn_rate_rad_per_s = 0.5;  ///< ... and turn
 };
 
-/// Ranges that are older than this when their packet is stamped are no sensor's.
+/// Ranges that are older than this when their packet is stamped are no sensor's. They may be newer than the
+/// dead reckoning beside them, which an estimator delays: with 40 scans a second ten wait for it.
 inline constexpr Duration kMaxRangeAge = std::chrono::seconds(1);
+inline constexpr Duration kMinRangeAge = std::chrono::milliseconds(-250);
 
 /// All that depends on the sensor and its vehicle; the algorithm's settings are the same for all of them.
 struct SensorModel {
   double min_range_m = 0.05;    ///< shorter readings are invalid
   double max_range_m = 3.0;     ///< longer readings count as no return
   double range_sigma_m = 0.02;  ///< standard deviation of a reading, along the beam
-  Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp
+  Duration range_age{0};        ///< how much older the ranges of a packet are than its stamp; may be negative
   OdometryNoise odometry;
   OdometryCalibration odometry_calibration;  ///< applied to each measured motion first
   /// Its forward scale where dead reckoning is a map of its own; nothing: the same.

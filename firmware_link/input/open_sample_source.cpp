@@ -29,10 +29,10 @@ Status check_options(const SampleSourceOptions& options) {
   if (options.beam_count && (*options.beam_count < 2 || *options.beam_count > static_cast<int>(kMaxBeams)))
     return Error{ErrorCode::kInvalidInput, "--beams " + std::to_string(*options.beam_count) +
                                                ": must be from 2 to " + std::to_string(kMaxBeams)};
-  if (options.range_age && (*options.range_age < Duration::zero() || *options.range_age > kMaxRangeAge))
+  if (options.range_age && (*options.range_age < kMinRangeAge || *options.range_age > kMaxRangeAge))
     return Error{ErrorCode::kInvalidInput, "range age " + std::to_string(to_seconds(*options.range_age)) +
-                                               " s: must be from 0 to " +
-                                               shortest_text(to_seconds(kMaxRangeAge)) + " s"};
+                                               " s: must be from " + shortest_text(to_seconds(kMinRangeAge)) +
+                                               " to " + shortest_text(to_seconds(kMaxRangeAge)) + " s"};
   if (options.max_range_m && !(*options.max_range_m > 0.0 && std::isfinite(*options.max_range_m)))
     return Error{ErrorCode::kInvalidInput,
                  "maximum range " + std::to_string(*options.max_range_m) + " m: must be positive"};

@@ -57,7 +57,7 @@ Result<SensorModel> parse_sensor(std::string_view line) {
   const Result<double> max_m = named_value(next_field(line, ' '), "max_range_m", *min_m, kMaxCoordinateM);
   if (!max_m) return max_m.error();
   const Result<double> age_s =
-      named_value(next_field(line, ' '), "range_age_s", 0.0, to_seconds(kMaxRangeAge));
+      named_value(next_field(line, ' '), "range_age_s", to_seconds(kMinRangeAge), to_seconds(kMaxRangeAge));
   if (!age_s) return age_s.error();
   sensor.min_range_m = *min_m;
   sensor.max_range_m = *max_m;

@@ -101,7 +101,7 @@ Result<CalibrationReport> Calibration::run() {
   for (int round = 1; round < kMaxRounds && last.estimate; ++round) {
     const double shift_s = last.estimate->errors(index_of(SystematicError::kRangeAge));
     const Duration age =
-        std::clamp(last.sensor.range_age + from_seconds(shift_s), Duration::zero(), kMaxRangeAge);
+        std::clamp(last.sensor.range_age + from_seconds(shift_s), kMinRangeAge, kMaxRangeAge);
     if (std::chrono::abs(age - last.sensor.range_age) < kSettledAge) break;
     const Result<Round> again = run_round(age);
     if (!again) return again.error();

@@ -96,11 +96,14 @@ TEST(SystematicPrior, TheYawThatAGyroMissesIsTakenOut) {
   EXPECT_DOUBLE_EQ(found.odometry.expected_drift_yaw_per_radian, 0.0);
 }
 
-TEST(SystematicPrior, AnAgeIsNotNegative) {
+TEST(SystematicPrior, RangesMayBeNewerThanTheDeadReckoningBesideThemWithinALimit) {
   JointEstimate estimate = measured(0.01);
   estimate.errors(kAge) = -0.2;
+  EXPECT_EQ(calibrated_by(estimate, SensorModel::crazyflie()).found.range_age,
+            std::chrono::milliseconds(-100));
+  estimate.errors(kAge) = -2.0;
   const InputCalibration calibration = calibrated_by(estimate, SensorModel::crazyflie());
-  EXPECT_EQ(calibration.found.range_age, Duration::zero());
+  EXPECT_EQ(calibration.found.range_age, kMinRangeAge);
   EXPECT_EQ(calibration.expected.range_age, SensorModel::crazyflie().range_age);
   EXPECT_DOUBLE_EQ(calibration.found.odometry_calibration.forward_scale, 0.92);
 }

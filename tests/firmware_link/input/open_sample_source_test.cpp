@@ -112,8 +112,10 @@ TEST(OpenSampleSource, RefusesImpossibleOptions) {
                 HasSubstr("--beams " + std::to_string(beams) + ": must be from 2 to 64"));
   }
   SampleSourceOptions age;
-  age.range_age = std::chrono::seconds(2);
-  EXPECT_THAT(refusal("a.clf", age), HasSubstr("range age"));
+  for (const int seconds : {-1, 2}) {
+    age.range_age = std::chrono::seconds(seconds);
+    EXPECT_THAT(refusal("a.clf", age), HasSubstr("s: must be from -0.25 to 1 s"));
+  }
   SampleSourceOptions range;
   range.max_range_m = 0.0;
   EXPECT_THAT(refusal("a.clf", range), HasSubstr("maximum range"));
