@@ -56,12 +56,13 @@ Status convert_to_csv(const ConvertCommand& command) {
   if (!run) return run.error();
   SampleSource& source = *run->source;
   std::size_t samples = 0;
+  StoreyId storey{};
   Status written = write_file(command.output, [&](const FileSink& write) -> Status {
     Result<ReceivedSample> next = source.next();
     std::string text = sample_table_head({.beams = source.beams(), .sensor = source.sensor()});
     for (; next || next.error().code == ErrorCode::kTimeout; next = source.next()) {
       if (!next) continue;
-      append_sample_row(text, next->sample);
+      append_sample_row(text, next->sample, storey);
       write(text);
       text.clear();
       ++samples;

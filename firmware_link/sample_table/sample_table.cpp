@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::string_view kSensorMark = "# sensor ";
 constexpr std::string_view kBearingsMark = "# bearings_rad ";
+constexpr std::string_view kStoreyMark = "# storey ";
 constexpr std::string_view kWheels = "wheels";
 constexpr std::string_view kFlow = "flow";
 constexpr std::string_view kNoReturn = "inf";
@@ -132,7 +133,12 @@ std::string sample_table_head(const SampleTableHead& head) {
   return text + "\n" + sample_table_columns(head.beams.count) + "\n";
 }
 
-void append_sample_row(std::string& text, const RangeSample& sample) {
+void append_sample_row(std::string& text, const RangeSample& sample, StoreyId& storey) {
+  if (sample.storey != storey) {
+    storey = sample.storey;
+    append_number(text.append(kStoreyMark), index_of(storey));
+    text += '\n';
+  }
   append_number(text, std::int64_t{sample.stamp.time_since_epoch().count()});
   append_number(text += ',', std::int64_t{sample.measured_at.time_since_epoch().count()});
   append_number(text += ',', sample.T_odom_body.x_m());
@@ -155,6 +161,14 @@ Result<SampleTableHead> parse_sample_table_head(std::string_view sensor, std::st
   const Result<BeamLayout> beams = parse_bearings(bearings);
   if (!beams) return beams.error();
   return SampleTableHead{.beams = *beams, .sensor = *model};
+}
+
+Result<std::optional<StoreyId>> parse_storey_line(std::string_view line) {
+  if (!line.starts_with(kStoreyMark)) return std::optional<StoreyId>();
+  line.remove_prefix(kStoreyMark.size());
+  const std::optional<std::size_t> storey = parse_number<std::size_t>(line);
+  if (!storey || *storey >= kMaxStoreys) return cannot_be("a storey", line);
+  return std::optional(make_id<StoreyId>(*storey));
 }
 
 Result<RangeSample> parse_sample_row(std::string_view row, const SampleTableHead& head) {

@@ -81,17 +81,34 @@ void SampleTableSource::count(const RangeSample& sample) {
   }
 }
 
+Error SampleTableSource::end_at_line(const std::string& problem) {
+  return end_with(path_ + ", line " + std::to_string(lines_.line_number()) + ": " + problem +
+                  "; the table is used up to there");
+}
+
+/// The next one of a sample.
+Result<std::string_view> SampleTableSource::next_row() {
+  for (;;) {
+    Result<std::string_view> line = lines_.next();
+    if (!line) return end_with(line.error().code == ErrorCode::kEndOfRecording ? "" : line.error().message);
+    const Result<std::optional<StoreyId>> storey = parse_storey_line(*line);
+    if (!storey) return end_at_line(storey.error().message);
+    if (!*storey) return line;
+    storey_ = **storey;
+  }
+}
+
 Result<ReceivedSample> SampleTableSource::next() {
   if (has_ended_) return end_with("");
-  const Result<std::string_view> row = lines_.next();
-  if (!row) return end_with(row.error().code == ErrorCode::kEndOfRecording ? "" : row.error().message);
-  const std::string where = path_ + ", line " + std::to_string(lines_.line_number()) + ": ";
+  const Result<std::string_view> row = next_row();
+  if (!row) return row.error();
   Result<RangeSample> sample = parse_sample_row(*row, head_);
-  if (!sample) return end_with(where + sample.error().message + "; the table is used up to there");
+  if (!sample) return end_at_line(sample.error().message);
   if (!last_measured_at_) sample->starts_segment = true;
   if (!sample->starts_segment && sample->measured_at <= *last_measured_at_)
-    return end_with(where + "measured_at_ns does not increase; the table is used up to there");
+    return end_at_line("measured_at_ns does not increase");
   last_measured_at_ = sample->measured_at;
+  sample->storey = storey_;
   sample->sequence = static_cast<std::uint32_t>(report_.counters.samples);
   count(*sample);
   return ReceivedSample{.sample = *sample};

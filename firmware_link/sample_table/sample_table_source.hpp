@@ -33,6 +33,8 @@ class SampleTableSource final : public SampleSource {
  private:
   SampleTableSource(std::string path, GzipLines lines, const SampleTableHead& head);
   Error end_with(const std::string& problem);
+  Error end_at_line(const std::string& problem);
+  Result<std::string_view> next_row();
   void count(const RangeSample& sample);
 
   std::string path_;
@@ -40,6 +42,7 @@ class SampleTableSource final : public SampleSource {
   SampleTableHead head_;
   InputReport report_;
   std::optional<DeviceTime> last_measured_at_;
+  StoreyId storey_{};  ///< of the rows that follow
   bool has_ended_ = false;
 };
 

@@ -173,10 +173,12 @@ std::string sample_table() {
   sample.status = {RangeStatus::kHit, RangeStatus::kNoReturn, RangeStatus::kInvalid, RangeStatus::kNoReturn};
   std::string text =
       sample_table_head({.beams = BeamLayout::multiranger(), .sensor = SensorModel::crazyflie()});
-  append_sample_row(text, sample);
+  StoreyId storey{};
+  append_sample_row(text, sample, storey);
   sample.starts_segment = false;
   sample.measured_at += std::chrono::milliseconds(100);
-  append_sample_row(text, sample);
+  sample.storey = make_id<StoreyId>(1);
+  append_sample_row(text, sample, storey);
   return text;
 }
 

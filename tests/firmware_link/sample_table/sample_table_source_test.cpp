@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -45,7 +46,8 @@ Read read_all(const std::string& uri, const SampleSourceOptions& options = {}) {
 
 std::string table_of(const Read& read) {
   std::string text = sample_table_head({.beams = read.beams, .sensor = read.sensor});
-  for (const RangeSample& sample : read.samples) append_sample_row(text, sample);
+  StoreyId storey{};
+  for (const RangeSample& sample : read.samples) append_sample_row(text, sample, storey);
   return text;
 }
 
@@ -56,6 +58,7 @@ void expect_equal(const RangeSample& a, const RangeSample& b) {
   EXPECT_EQ(a.T_odom_body.vector(), b.T_odom_body.vector());
   EXPECT_EQ(a.starts_segment, b.starts_segment);
   EXPECT_EQ(a.odometry_ran_on, b.odometry_ran_on);
+  EXPECT_EQ(a.storey, b.storey);
   EXPECT_EQ(a.beam_count, b.beam_count);
   EXPECT_EQ(a.distance_m, b.distance_m);
   EXPECT_EQ(a.status, b.status);
@@ -81,6 +84,20 @@ TEST(SampleTable, ReadsTheSamplesOfAFlightBackAsTheyWere) {
   const Read flight = read_all("sim://office?seed=1");
   ASSERT_GT(flight.samples.size(), 1000U);
   expect_round_trip(flight);
+}
+
+TEST(SampleTable, KeepsTheStoreys) {
+  RangeSample sample;
+  sample.beam_count = 4;
+  Read read{.samples = {5, sample}, .beams = BeamLayout::multiranger(), .sensor = {}, .report = {}};
+  for (std::size_t i = 0; i < read.samples.size(); ++i) {
+    read.samples[i].measured_at += Duration(i);
+    read.samples[i].storey = make_id<StoreyId>(std::array<std::size_t, 5>{0, 1, 1, 0, 31}[i]);
+  }
+  const TemporaryFile file("a.csv", table_of(read));
+  const Read back = read_all(file.path());
+  ASSERT_EQ(back.samples.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(back.samples[i].storey, read.samples[i].storey) << i;
 }
 
 TEST(SampleTable, ReadsTheSamplesOfALaserLogBackAsTheyWere) {
@@ -137,6 +154,8 @@ TEST(SampleTable, EndsAtARowThatCannotBeUsedAndNamesIt) {
            {"20,6,1,2,0.5,0,2.5\n", "line 6: range_1_m cannot be ''"},
            {"20,6,1,2,0.5,0,2.5,inf,1\n", "line 6: what follows the last column cannot be '1'"},
            {"20,6,nan,2,0.5,0,2.5,inf\n", "line 6: odom_x_m cannot be 'nan'"},
+           {"# storey 32\n", "line 6: a storey cannot be '32'"},
+           {"# storeys\n", "line 6: stamp_ns cannot be '# storeys'"},
            {"20,6,1,2,0.5,3,2.5,inf\n", "line 6: segment cannot be '3'"},
            {"20,5,1,2,0.5,0,2.5,inf\n", "line 6: measured_at_ns does not increase"},
            {"99999999999999999999,6,1,2,0.5,0,2.5,inf\n", "line 6: stamp_ns cannot be"},
