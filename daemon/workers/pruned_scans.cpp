@@ -20,6 +20,7 @@ struct StoredPose {
 struct Record {
   std::int64_t stamp_ns;
   KeyframeId anchor;
+  StoreyId storey;
   StoredPose T_anchor_body;
   StoredPose T_odom_body;
   StoredPose T_map_live;
@@ -30,7 +31,7 @@ Pose2 pose(const StoredPose& s) { return {s.x_m, s.y_m, s.yaw_rad}; }
 
 TrajectoryPoint point_of(const Backend& backend, ScanId id) {
   const StoredScan& scan = backend.scans()[id];
-  return {scan.stamp, backend.T_map_body(id), scan.T_odom_body, scan.T_map_live};
+  return {scan.stamp, backend.T_map_body(id), scan.T_odom_body, scan.T_map_live, scan.storey};
 }
 
 }  // namespace
@@ -65,6 +66,7 @@ void PrunedScans::write(const Backend& backend, ScanId scan, const Pose2& T_anch
   const StoredScan& from = backend.scans()[scan];
   const Record record{.stamp_ns = from.stamp.time_since_epoch().count(),
                       .anchor = anchor,
+                      .storey = from.storey,
                       .T_anchor_body = stored(T_anchor_map * backend.T_map_body(scan)),
                       .T_odom_body = stored(from.T_odom_body),
                       .T_map_live = stored(from.T_map_live)};
@@ -82,7 +84,7 @@ bool PrunedScans::visit_block(const Backend& backend, const Block& block,
     if (std::fread(&record, sizeof record, 1, file_.get()) != 1) return false;
     visit({HostTime(HostTime::duration(record.stamp_ns)),
            backend.T_map_keyframe(record.anchor) * pose(record.T_anchor_body), pose(record.T_odom_body),
-           pose(record.T_map_live)});
+           pose(record.T_map_live), record.storey});
   }
   return true;
 }

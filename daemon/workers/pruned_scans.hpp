@@ -20,6 +20,7 @@ struct TrajectoryPoint {
   Pose2 T_map_body;
   Pose2 T_odom_body;
   Pose2 T_map_live;
+  StoreyId storey{};
 };
 
 /// Keeps on disk what the trajectories need of scans that the backend prunes, so that no sample is missing

@@ -65,6 +65,11 @@ py::array_t<double> rows_of(std::vector<double> numbers, std::size_t columns) {
   return array_of(std::move(numbers), {rows, static_cast<py::ssize_t>(columns)});
 }
 
+py::array_t<std::int8_t> column_of(std::vector<std::int8_t> numbers) {
+  const auto rows = static_cast<py::ssize_t>(numbers.size());
+  return array_of(std::move(numbers), {rows});
+}
+
 py::array_t<double> matrices_of(std::vector<double> numbers) {
   constexpr auto kSide = static_cast<py::ssize_t>(kCovarianceSide);
   const auto count = static_cast<py::ssize_t>(numbers.size()) / (kSide * kSide);
@@ -90,9 +95,13 @@ py::dict dict_of(MappedInput run) {
   out["truth"] = rows_of(std::move(arrays.truth), kPoseColumns);
   out["covariances"] = matrices_of(std::move(arrays.covariances));
   out["covariances_map"] = matrices_of(std::move(arrays.covariances_map));
-  out["walls"] = rows_of(std::move(arrays.walls), kSegmentColumns);
-  out["closures"] = rows_of(std::move(arrays.closures), kSegmentColumns);
-  out["dropped_closures"] = rows_of(std::move(arrays.dropped_closures), kSegmentColumns);
+  out["trajectory_storeys"] = column_of(std::move(arrays.storeys));
+  out["walls"] = rows_of(std::move(arrays.walls.rows), kSegmentColumns);
+  out["wall_storeys"] = column_of(std::move(arrays.walls.storeys));
+  out["closures"] = rows_of(std::move(arrays.closures.rows), kSegmentColumns);
+  out["closure_storeys"] = column_of(std::move(arrays.closures.storeys));
+  out["dropped_closures"] = rows_of(std::move(arrays.dropped_closures.rows), kSegmentColumns);
+  out["dropped_closure_storeys"] = column_of(std::move(arrays.dropped_closures.storeys));
   py::dict grids;
   for (auto& [storey, grid] : arrays.grids) grids[py::int_(index_of(storey))] = grid_of(std::move(grid));
   out["grids"] = grids;

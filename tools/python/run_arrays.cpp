@@ -20,12 +20,11 @@ void append_covariance(std::vector<double>& rows, const Covariance3& P) {
   rows.insert(rows.end(), {P.xx, P.xy, P.x_yaw, P.xy, P.yy, P.y_yaw, P.x_yaw, P.y_yaw, P.yaw_yaw});
 }
 
-std::vector<double> rows_of(std::span<const MapSegment> segments) {
-  std::vector<double> rows;
+void append(SegmentArrays& arrays, std::span<const MapSegment> segments, std::int8_t storey) {
   for (const MapSegment& segment : segments)
-    rows.insert(rows.end(),
-                {segment.start_map.x_m, segment.start_map.y_m, segment.end_map.x_m, segment.end_map.y_m});
-  return rows;
+    arrays.rows.insert(arrays.rows.end(), {segment.start_map.x_m, segment.start_map.y_m, segment.end_map.x_m,
+                                           segment.end_map.y_m});
+  arrays.storeys.insert(arrays.storeys.end(), segments.size(), storey);
 }
 
 OccupancyGrid grid_of(const MapScene& scene) {
@@ -59,6 +58,7 @@ Result<RunArrays> arrays_of(const MappedRun& run) {
   const std::span<const DoubtedPose> published = run.poses_with_doubt();
   auto doubt = published.begin();
   const Status visited = for_each_scan(run.view(), [&](const TrajectoryPoint& at) {
+    arrays.storeys.push_back(static_cast<std::int8_t>(index_of(at.storey)));
     append_pose(arrays.trajectory, at.stamp, at.T_map_body);
     append_pose(arrays.live, at.stamp, at.T_map_live);
     append_pose(arrays.odometry, at.stamp, at.T_odom_body);
@@ -69,14 +69,14 @@ Result<RunArrays> arrays_of(const MappedRun& run) {
   });
   if (!visited) return visited.error();
   for (const StampedPose& at : run.view().truth) append_pose(arrays.truth, at.stamp, at.pose);
-  const MapScene scene = make_map_scene(run.backend(), run.view().map);
-  arrays.walls = rows_of(scene.walls);
-  arrays.closures = rows_of(scene.closures);
-  arrays.dropped_closures = rows_of(scene.dropped_closures);
-  for (const StoreyId storey : run.view().map.storeys())
-    arrays.grids.emplace(storey, storey == StoreyId{}
-                                     ? grid_of(scene)
-                                     : grid_of(make_map_scene(run.backend(), run.view().map, storey)));
+  for (const StoreyId storey : run.view().map.storeys()) {
+    const MapScene scene = make_map_scene(run.backend(), run.view().map, storey);
+    const auto number = static_cast<std::int8_t>(index_of(storey));
+    append(arrays.walls, scene.walls, number);
+    append(arrays.closures, scene.closures, number);
+    append(arrays.dropped_closures, scene.dropped_closures, number);
+    arrays.grids.emplace(storey, grid_of(scene));
+  }
   return arrays;
 }
 

@@ -28,18 +28,25 @@ inline constexpr std::size_t kSegmentColumns =
     4;  ///< x and y of its start, x and y of its end, in m, frame map
 inline constexpr std::size_t kCovarianceSide = 3;  ///< x, y, yaw
 
-/// What a run comes to, as rows of numbers. The first five have a row for each scan, in the same order.
+/// Lines on the map of a building.
+struct SegmentArrays {
+  std::vector<double> rows;
+  std::vector<std::int8_t> storeys;  ///< one for each row
+};
+
+/// What a run comes to, as rows of numbers. The first six have a row for each scan, in the same order.
 struct RunArrays {
-  std::vector<double> trajectory;        ///< corrected poses in frame map
-  std::vector<double> live;              ///< poses in frame map as they were published
-  std::vector<double> odometry;          ///< dead reckoning as reported, in frame odom
-  std::vector<double> covariances;       ///< of `live` relative to the start of the run; NaN where not known
-  std::vector<double> covariances_map;   ///< likewise, relative to the part of the map around the vehicle
-  std::vector<double> truth;             ///< poses in frame world, where they are known
-  std::vector<double> walls;             ///< segments, as map.png has them
-  std::vector<double> closures;          ///< segments from keyframe to keyframe
-  std::vector<double> dropped_closures;  ///< likewise: refused in the final pass
-  std::map<StoreyId, OccupancyGrid> grids;  ///< with the first; walls and closures are that one's
+  std::vector<std::int8_t> storeys;     ///< where each scan was taken
+  std::vector<double> trajectory;       ///< corrected poses in frame map
+  std::vector<double> live;             ///< poses in frame map as they were published
+  std::vector<double> odometry;         ///< dead reckoning as reported, in frame odom
+  std::vector<double> covariances;      ///< of `live` relative to the start of the run; NaN where not known
+  std::vector<double> covariances_map;  ///< likewise, relative to the part of the map around the vehicle
+  std::vector<double> truth;            ///< poses in frame world, where they are known
+  SegmentArrays walls;                  ///< storey by storey, as the pictures have them
+  SegmentArrays closures;               ///< likewise, from keyframe to keyframe
+  SegmentArrays dropped_closures;       ///< likewise: refused in the final pass
+  std::map<StoreyId, OccupancyGrid> grids;  ///< with the first
 };
 
 /// Errors: as PrunedScans::for_each_scan(). Allocates.

@@ -98,6 +98,13 @@ class MappedFlight(unittest.TestCase):
     def test_the_first_storey_is_the_grid(self):
         self.assertIs(self.run_.storeys[0], self.run_.grid)
 
+    def test_rows_say_on_which_storey_they_are(self):
+        run = self.run_
+        for storeys, rows in ((run.trajectory_storeys, run.trajectory), (run.wall_storeys, run.walls),
+                              (run.closure_storeys, run.closures),
+                              (run.dropped_closure_storeys, run.dropped_closures)):
+            np.testing.assert_array_equal(storeys, np.zeros(len(rows), dtype=np.int8))
+
     def test_the_grid_says_where_its_cells_are(self):
         grid = self.run_.grid
         row, column = grid.cell(grid.origin_m[0] + 2.5 * grid.resolution_m, grid.origin_m[1] + 7.5 * grid.resolution_m)
@@ -110,6 +117,36 @@ class MappedFlight(unittest.TestCase):
     def test_progress_goes_up_to_one(self):
         self.assertEqual(self.progress, sorted(self.progress))
         self.assertEqual(self.progress[-1], 1.0)
+
+
+class House(unittest.TestCase):
+    """Of two storeys."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.run_ = swiftlet.map("sim://storeys?seed=1")
+
+    def test_rows_say_on_which_storey_they_are(self):
+        run = self.run_
+        self.assertEqual(sorted(run.storeys), [0, 1])
+        self.assertEqual(run.trajectory_storeys.shape, (len(run.trajectory),))
+        self.assertEqual(run.trajectory_storeys.dtype, np.int8)
+        closures = run.report["backend"]["closures"]
+        self.assertEqual(len(run.closures), closures["accepted"] - closures["dropped"], "on all storeys")
+        for storeys, rows in ((run.wall_storeys, run.walls), (run.closure_storeys, run.closures)):
+            for storey, grid in run.storeys.items():
+                left, right, low, high = grid.extent_m
+                here = rows[storeys == storey]
+                self.assertGreater(len(here), 2)
+                self.assertTrue(((here[:, ::2] >= left) & (here[:, ::2] <= right)).all())
+                self.assertTrue(((here[:, 1::2] >= low) & (here[:, 1::2] <= high)).all())
+
+    def test_a_table_of_its_samples_keeps_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = Path(folder, "house.csv")
+            subprocess.run([SWIFTLET, "convert", "sim://storeys?seed=1", table], check=True, capture_output=True)
+            again = swiftlet.map(table)
+        np.testing.assert_array_equal(again.trajectory_storeys, self.run_.trajectory_storeys)
 
 
 class Options(unittest.TestCase):

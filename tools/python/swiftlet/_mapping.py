@@ -90,14 +90,22 @@ class Run:
     `trajectory` know all that came later, and are better."""
     covariances_map: npt.NDArray[np.float64]
     """N x 3 x 3: the same, relative to the part of the map around the vehicle."""
+    trajectory_storeys: npt.NDArray[np.int8]
+    """N: the storey of the building where each sample was taken, a number as in `storeys`."""
     walls: npt.NDArray[np.float64]
-    """K x 4: x and y of the start, x and y of the end of each wall, in frame map."""
+    """K x 4: x and y of the start, x and y of the end of each wall, in frame map; storey by storey."""
+    wall_storeys: npt.NDArray[np.int8]
+    """K: of each wall."""
     closures: npt.NDArray[np.float64]
-    """K x 4: loop closures, from where to where in frame map."""
+    """K x 4: loop closures, from where to where in frame map; storey by storey."""
+    closure_storeys: npt.NDArray[np.int8]
+    """K: of each closure."""
     dropped_closures: npt.NDArray[np.float64]
-    """K x 4: those that the final pass refused."""
+    """K x 4: those that the final pass refused; storey by storey."""
+    dropped_closure_storeys: npt.NDArray[np.int8]
+    """K: of each of these."""
     grid: Grid
-    """The map, of a building with several storeys the first one's, as are walls and closures."""
+    """The map, of a building with several storeys the first one's."""
     storeys: Mapping[int, Grid]
     """The map of each storey, by its number: 0 is `grid`."""
     report: Mapping[str, Any]
