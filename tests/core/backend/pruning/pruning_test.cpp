@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -80,6 +81,39 @@ TEST(Pruning, LeavesALookIntoARoomThatNoOtherPassSaw) {
   for (const PrunedTraversal& traversal : all.traversals)
     EXPECT_TRUE(traversal.scans.end <= first || traversal.scans.first >= end)
         << index_of(traversal.scans.first);
+}
+
+/// Ten laps, each on the storey that `storey_of` gives.
+template <typename StoreyOf>
+std::vector<RangeSample> laps_in_a_house(StoreyOf storey_of) {
+  std::vector<RangeSample> samples = laps(10);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i].storey = make_id<StoreyId>(storey_of(10 * i / samples.size()));
+  return samples;
+}
+
+TEST(Pruning, VisitsOfAnotherStoreyAreNone) {
+  const StoredRun run(laps_in_a_house([](std::size_t lap) { return lap == 4 || lap == 5 ? 1U : 0U; }));
+  const Pruning all = plan(run, 1'000'000);
+  ASSERT_FALSE(all.empty());
+  for (const PrunedTraversal& traversal : all.traversals)
+    EXPECT_EQ(run.scans()[traversal.scans.first].storey, StoreyId{}) << "the two laps above stay";
+}
+
+TEST(Pruning, AnchorsAreOnTheSameStorey) {
+  const StoredRun run(laps_in_a_house([](std::size_t lap) { return lap % 2; }));
+  BackendConfig config;
+  config.tuning.pruning.kept_per_tile = 1;
+  const Pruning all =
+      Pruner(config, run.scans(), run.chain()).plan(run.T_local_keyframe(), run.newest(), 1'000'000);
+  std::array<int, 2> of_storey{};
+  for (const PrunedTraversal& traversal : all.traversals) {
+    const StoreyId storey = run.chain().storey(traversal.keyframes.first + 1);
+    EXPECT_EQ(run.chain().storey(traversal.anchor), storey);
+    ++of_storey[index_of(storey)];
+  }
+  EXPECT_GT(of_storey[0], 5);
+  EXPECT_GT(of_storey[1], 5);
 }
 
 TEST(Pruning, TakesWholeTraversalsAndNoMoreThanAskedFor) {

@@ -30,6 +30,8 @@ struct Flaws {
   double forward_scale = 1.0;
   double sideways_scale = 1.0;
   double seen_in_the_east = 1.0;  ///< of a motion over that half of the room
+  double upstairs_m = 0.0;  ///< the second half is flown on another storey, its walls so far to the east
+  bool tells_storeys = true;
   SensorModel sensor = SensorModel::crazyflie();
 };
 
@@ -58,10 +60,16 @@ struct Flight {
   std::vector<Pose2> T_map_body;
 };
 
+TextRoom room_at(double x_m) {
+  return {{"############", "#..........#", "#..........#", "#..........#", "#.......####", "#..........#",
+           "#..........#", "#..........#", "############"},
+          0.5,
+          {x_m, 0.0}};
+}
+
 Flight fly(const Flaws& flaws, const std::function<Pose2(double)>& true_at) {
-  const TextRoom room({"############", "#..........#", "#..........#", "#..........#", "#.......####",
-                       "#..........#", "#..........#", "#..........#", "############"},
-                      0.5);
+  const TextRoom room = room_at(0.0);
+  const TextRoom upstairs = room_at(flaws.upstairs_m);
   BeamLayout beams;
   beams.count = 4;
   for (std::size_t k = 0; k < 4; ++k) beams.bearing_rad[k] = radians(90.0) * static_cast<double>(k);
@@ -83,10 +91,13 @@ Flight fly(const Flaws& flaws, const std::function<Pose2(double)>& true_at) {
     made.sample.T_odom_body = made.T_dead_body = T_odom_body;
     made.sample.starts_segment = i == 0;
     made.sample.beam_count = 4;
+    const bool is_upstairs = flaws.upstairs_m != 0.0 && i >= kScans / 2;
+    if (is_upstairs && flaws.tells_storeys) made.sample.storey = make_id<StoreyId>(1);
     made.keyframe = make_id<KeyframeId>(static_cast<std::size_t>(i) / 5);
     for (std::size_t k = 0; k < 4; ++k) {
       const auto range_m =
-          room.range_m(T_room_body.position(), T_room_body.yaw_rad() + beams.bearing_rad[k], 8.0);
+          (is_upstairs ? upstairs : room)
+              .range_m(T_room_body.position(), T_room_body.yaw_rad() + beams.bearing_rad[k], 8.0);
       if (!range_m) continue;
       made.sample.distance_m[k] = static_cast<float>(*range_m + noise(0.01));
       made.sample.status[k] = RangeStatus::kHit;
@@ -94,7 +105,7 @@ Flight fly(const Flaws& flaws, const std::function<Pose2(double)>& true_at) {
     const ScanId scan = flight.scans.add(made);
     for (const ScanReturn& beam : flight.scans.returns(scan))
       flight.returns.push_back({make_id<PoseIndex>(static_cast<std::size_t>(i)),
-                                index_of(traversal_of(flight.scans[scan])), StoreyId{}, false,
+                                index_of(traversal_of(flight.scans[scan])), made.sample.storey, false,
                                 flight.scans.point_body(beam)});
     flight.T_true.push_back(true_at(-flaws.age_s).inverse() * T_room_body);
     flight.T_map_body.push_back(T_odom_body);
@@ -248,6 +259,20 @@ TEST(JointRefinement, AnEvenFloorCostsNothing) {
     ASSERT_TRUE(floor);
     EXPECT_LT(floor->cost, 0.5 * FloorFieldTuning().min_cost) << scale;
   }
+}
+
+TEST(JointRefinement, WallsOfAnotherStoreyAreOtherWalls) {
+  const auto error_m = [](bool tells_storeys) {
+    Flaws house;
+    house.upstairs_m = 0.1;
+    house.tells_storeys = tells_storeys;
+    Flight flight = fly(house, true_pose);
+    flight.T_map_body = flight.T_true;
+    EXPECT_TRUE(refine(flight));
+    return rms_m(flight);
+  };
+  EXPECT_LT(error_m(true), 0.015);
+  EXPECT_GT(error_m(false), 0.03);
 }
 
 }  // namespace
