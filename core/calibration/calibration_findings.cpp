@@ -100,8 +100,10 @@ CalibrationFinding judged(SystematicError error, const JointEstimate& estimate, 
   CalibrationFinding finding = blank_finding(error, sensor);
   finding.reason = what_lacks(error, motion, sensor, tuning);
   if (!finding.reason.empty()) return finding;
-  const double offset = error == SystematicError::kRangeAge ? to_seconds(sensor.range_age) : kind.offset;
-  finding.value = offset + estimate.errors(index_of(error));
+  finding.value = kind.offset + estimate.errors(index_of(error));
+  if (error == SystematicError::kRangeAge)
+    finding.value = to_seconds(
+        within_limits_of_range_age(sensor.range_age + from_seconds(estimate.errors(index_of(error)))));
   finding.sigma = estimate.sigma(index_of(error));
   const double max_sigma = tuning.max_sigma[static_cast<std::size_t>(error)];
   if (!(finding.sigma <= max_sigma)) {

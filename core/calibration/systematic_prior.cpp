@@ -3,7 +3,6 @@
 #include "core/calibration/systematic_prior.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 namespace swiftlet {
@@ -28,8 +27,8 @@ JointEstimate weighed(JointEstimate measured, const SensorModel& sensor, const S
 InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel& expected) {
   const auto error = [&](SystematicError which) { return estimate.errors(index_of(which)); };
   InputCalibration calibration{expected, expected, estimate.sigma};
-  calibration.found.range_age = std::clamp(
-      expected.range_age + from_seconds(error(SystematicError::kRangeAge)), kMinRangeAge, kMaxRangeAge);
+  calibration.found.range_age =
+      within_limits_of_range_age(expected.range_age + from_seconds(error(SystematicError::kRangeAge)));
   OdometryCalibration& odometry = calibration.found.odometry_calibration;
   odometry.forward_scale = 1.0 + error(SystematicError::kForwardScale);
   odometry.sideways_scale = 1.0 + error(SystematicError::kSidewaysScale);

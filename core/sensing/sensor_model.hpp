@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -55,9 +56,12 @@ struct OdometryNoise {
 };
 
 /// Ranges that are older than this when their packet is stamped are no sensor's. They may be newer than the
-/// dead reckoning beside them, which an estimator delays: with 40 scans a second ten wait for it.
+/// dead reckoning beside them, which an estimator delays.
 inline constexpr Duration kMaxRangeAge = std::chrono::seconds(1);
 inline constexpr Duration kMinRangeAge = std::chrono::milliseconds(-250);
+constexpr Duration within_limits_of_range_age(Duration age) {
+  return std::clamp(age, kMinRangeAge, kMaxRangeAge);
+}
 
 /// All that depends on the sensor and its vehicle; the algorithm's settings are the same for all of them.
 struct SensorModel {

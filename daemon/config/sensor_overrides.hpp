@@ -40,7 +40,7 @@ struct SensorOverrides {
       {"range_sigma_m", &SensorOverrides::range_sigma_m, "m",
        "standard deviation of a reading, along the beam", 0.0001, 1},
       {"range_age_s", &SensorOverrides::range_age_s, "s",
-       "how much older the ranges of a packet are than its stamp", to_seconds(kMinRangeAge),
+       "how much older the ranges of a packet are than its stamp; negative: newer", to_seconds(kMinRangeAge),
        to_seconds(kMaxRangeAge)},
       {"odometry_xy_after_metre_m", &SensorOverrides::odometry_xy_after_metre_m, "m",
        "standard deviation of the position after a metre travelled; it grows with the root of the way", 0, 1},

@@ -106,7 +106,7 @@ class SampleAssembler {
   };
   std::optional<MeasuredHeight> last_height_;  ///< nothing where it could not be measured
   StoreyTracker storeys_;
-  FixedVector<PendingRanges, 16> pending_;
+  FixedVector<PendingRanges, 32> pending_;  ///< 100 scans a second that are newer by kMinRangeAge
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
   std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart
   std::optional<HostTime> last_ranges_received_;

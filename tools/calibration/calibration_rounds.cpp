@@ -100,8 +100,7 @@ Result<CalibrationReport> Calibration::run() {
   Round last = first;
   for (int round = 1; round < kMaxRounds && last.estimate; ++round) {
     const double shift_s = last.estimate->errors(index_of(SystematicError::kRangeAge));
-    const Duration age =
-        std::clamp(last.sensor.range_age + from_seconds(shift_s), kMinRangeAge, kMaxRangeAge);
+    const Duration age = within_limits_of_range_age(last.sensor.range_age + from_seconds(shift_s));
     if (std::chrono::abs(age - last.sensor.range_age) < kSettledAge) break;
     const Result<Round> again = run_round(age);
     if (!again) return again.error();

@@ -49,6 +49,13 @@ TEST(CalibrationFindings, TellWhatMattersFromWhatIsTooLittle) {
   EXPECT_EQ(sensor.odometry_calibration.forward_scale, 1.0);
 }
 
+TEST(CalibrationFindings, AnAgeIsOneThatCanBeSet) {
+  JointEstimate estimate = sharp_estimate();
+  estimate.errors(index_of(SystematicError::kRangeAge)) = -0.5;
+  const CalibrationFindings findings = judge_estimate(estimate, long_flight(), SensorModel::crazyflie());
+  EXPECT_EQ(calibrated(findings, SensorModel::crazyflie()).range_age, kMinRangeAge);
+}
+
 TEST(CalibrationFindings, AnUncertainFigureIsNone) {
   JointEstimate estimate = sharp_estimate();
   estimate.sigma(index_of(SystematicError::kSidewaysScale)) = 0.2;

@@ -26,6 +26,7 @@ TEST(PrunedScans, EverySampleOfTheRunIsVisitedOnceInOrder) {
   Result<PrunedScans> pruned = PrunedScans::open(directory.path());
   ASSERT_TRUE(pruned.ok());
   ForgetfulRun run;
+  for (RangeSample& sample : run.samples) sample.storey = make_id<StoreyId>(1);
   run.fly([&](const Pruning& pruning) { pruned->take(run.backend, pruning); });
   run.backend.finish();
   ASSERT_GT(run.pruned_scans, 1000U);
@@ -33,6 +34,7 @@ TEST(PrunedScans, EverySampleOfTheRunIsVisitedOnceInOrder) {
   ASSERT_EQ(points.size(), run.samples.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     ASSERT_EQ(points[i].stamp, run.samples[i].stamp);
+    ASSERT_EQ(points[i].storey, run.samples[i].storey);
     EXPECT_EQ(points[i].T_odom_body.x_m(), run.samples[i].T_odom_body.x_m());
     // The odometry of this flight is exact, and the map begins where it does.
     const Pose2 T_map_truth = between(run.samples[0].T_odom_body, run.samples[i].T_odom_body);

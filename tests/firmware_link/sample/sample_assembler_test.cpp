@@ -204,6 +204,25 @@ TEST_F(SampleAssemblerTest, WaitsForLaterDeadReckoningAndKeepsTheOrder) {
   }
 }
 
+TEST_F(SampleAssemblerTest, AHundredScansASecondMayWaitForDeadReckoningThatIsDelayed) {
+  AssemblyConfig delayed = config();
+  delayed.sensor.range_age = kMinRangeAge;
+  SampleAssembler assembler(delayed, counters_);
+  std::size_t samples = 0;
+  for (std::int64_t ms = 0; ms <= 2000; ms += 10) {
+    Reading reading;
+    reading.stream = 1;
+    reading.at = device_ms(ms);
+    if (ms % 50 == 0) reading.position_odom = Point2();
+    reading.yaw_odom_rad = 0.0;
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    while (assembler.take()) ++samples;
+  }
+  EXPECT_EQ(counters_.unpaired, 0U);
+  EXPECT_GT(samples, 170U);
+}
+
 TEST_F(SampleAssemblerTest, WaitsForALimitedTime) {
   position(0, 0.0);
   for (int i = 1; i <= 20; ++i) ranges(100L * i);

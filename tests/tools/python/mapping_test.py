@@ -131,6 +131,7 @@ class House(unittest.TestCase):
         self.assertEqual(sorted(run.storeys), [0, 1])
         self.assertEqual(run.trajectory_storeys.shape, (len(run.trajectory),))
         self.assertEqual(run.trajectory_storeys.dtype, np.int8)
+        self.assertEqual((run.trajectory_storeys[0], set(run.trajectory_storeys)), (0, {0, 1}))
         closures = run.report["backend"]["closures"]
         self.assertEqual(len(run.closures), closures["accepted"] - closures["dropped"], "on all storeys")
         for storeys, rows in ((run.wall_storeys, run.walls), (run.closure_storeys, run.closures)):
@@ -140,6 +141,17 @@ class House(unittest.TestCase):
                 self.assertGreater(len(here), 2)
                 self.assertTrue(((here[:, ::2] >= left) & (here[:, ::2] <= right)).all())
                 self.assertTrue(((here[:, 1::2] >= low) & (here[:, 1::2] <= high)).all())
+
+    def test_walls_are_on_the_grid_of_their_storey(self):
+        run = self.run_
+
+        def share_on(grid, walls):
+            cells = [grid.cell(x_m, y_m) for x_m, y_m in (walls[:, :2] + walls[:, 2:]) / 2]
+            return np.mean([grid.occupied[row - 1:row + 2, column - 1:column + 2].any() for row, column in cells])
+
+        for storey, other in ((0, 1), (1, 0)):
+            walls = run.walls[run.wall_storeys == storey]
+            self.assertGreater(share_on(run.storeys[storey], walls), share_on(run.storeys[other], walls) + 0.2)
 
     def test_a_table_of_its_samples_keeps_them(self):
         with tempfile.TemporaryDirectory() as folder:
