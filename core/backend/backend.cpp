@@ -23,6 +23,7 @@ struct Backend::State {
   [[nodiscard]] const KeyframePoses& T_local_keyframe() const { return estimates.T_local_keyframe(); }
   [[nodiscard]] const KeyframePoses& T_map_keyframe() const { return graph.T_map_keyframe(); }
   bool follow_graph(bool has_moved);
+  bool refine_stretch(const BackendUpdate& update);
   ScanRange refine_window(const BackendUpdate& update);
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
@@ -55,11 +56,14 @@ bool Backend::State::follow_graph(bool has_moved) {
   return true;
 }
 
-/// Around the newest keyframe or elsewhere.
+bool Backend::State::refine_stretch(const BackendUpdate& update) {
+  if (!refinement.refine_stretch(graph.graph(), update.new_closures > 0)) return false;
+  ++version;
+  return true;
+}
+
 ScanRange Backend::State::refine_window(const BackendUpdate& update) {
   if (update.poses_changed) refinement.follow(T_map_keyframe());
-  for (const LoopClosure& closure : loops.closures().values().last(update.new_closures))
-    refinement.queue_around(closure.from);
   const ScanRange refined = refinement.refine_window(T_map_keyframe(), T_local_keyframe());
   if (!refined.empty()) ++version;
   return refined;
@@ -147,6 +151,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   State& s = *state_;
   const ScanId scan = s.scans.add(step);
   s.refinement.add_scan();
+  s.refinement.continue_stretch();
   BackendUpdate update;
   if (!step.has_keyframe) {
     s.loops.search_elsewhere(s.T_local_keyframe(), s.graph.graph());
@@ -161,6 +166,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   const bool was_unplaced = s.loops.unplaced_since().has_value();
   update.new_closures = s.loops.close_loops(s.T_local_keyframe(), s.graph);
   update.poses_changed = s.follow_graph(s.graph.settle());
+  if (s.refine_stretch(update)) update.poses_changed = true;
   update.refined = s.refine_window(update);
   if (was_unplaced && !s.loops.unplaced_since()) s.agreement.begin_again();
   s.correct_newest(step.T_local_body);
@@ -281,6 +287,8 @@ BackendCounters Backend::counters() const {
           .solver_failures = s.graph.counters().solver_failures + refinement.solver_failures,
           .windows_refined = refinement.windows_refined,
           .windows_refused = refinement.windows_refused,
+          .stretches_refined = refinement.stretches_refined,
+          .stretches_refused = refinement.stretches_refused,
           .refined = refinement.refined,
           .held_out_before_m = refinement.held_out_before_m,
           .held_out_after_m = refinement.held_out_after_m,

@@ -93,6 +93,7 @@ Json backend_json(const Backend& backend) {
             {"dropped", counters.closures_dropped}}},
           {"optimizations", counters.optimizations},
           {"windows", {{"refined", counters.windows_refined}, {"refused", counters.windows_refused}}},
+          {"stretches", {{"refined", counters.stretches_refined}, {"refused", counters.stretches_refused}}},
           {"map_source", name_of(counters.map_source)},
           {"yaw_noise_factor", counters.yaw_noise_factor},
           {"floor_cost", counters.floor_cost},

@@ -48,7 +48,7 @@ TEST(TrackingState, IsLostBehindARestartAndGoodAgainOnceThePlaceIsKnown) {
   const auto lost = std::ranges::find(run.tracking, Tracking::kLost);
   ASSERT_NE(lost, run.tracking.end());
   EXPECT_TRUE(run.samples[static_cast<std::size_t>(lost - run.tracking.begin())].starts_segment);
-  EXPECT_EQ(samples_in(run, Tracking::kUncertain), 0U);
+  EXPECT_EQ(std::ranges::count(run.tracking.begin(), lost, Tracking::kTracking), lost - run.tracking.begin());
   EXPECT_EQ(run.tracking.back(), Tracking::kTracking);
 }
 

@@ -341,17 +341,15 @@ struct FloorFieldTuning {
 
 /// What a step of the online refinement may cost, and where it takes place.
 struct OnlineRefinementTuning {
-  std::size_t max_window_scans = 300;       ///< scans refined at once
-  std::size_t max_places_waiting = 32;      ///< around closures; the oldest gives way
-  std::size_t same_place_traversals = 3;    ///< one window serves closures this close
-  std::size_t max_traversal_scans = 100;    ///< that draw its walls; of more every n-th
-  std::size_t returns_per_place = 5;        ///< of a window, looked up once: neighbours lie in the same tile
+  std::size_t max_window_scans = 300;     ///< scans refined at once
+  std::size_t max_stretch_scans = 4096;   ///< ... with all that they have in common: seven minutes of flight
+  std::size_t max_traversal_scans = 100;  ///< that draw its walls; of more every n-th
+  std::size_t returns_per_place = 5;      ///< of a window, looked up once: neighbours lie in the same tile
   std::size_t keyframes_of_correction = 4;  ///< whose mean the correction leads to: about 2 m
 
   static constexpr TuningValue<OnlineRefinementTuning> kValues[] = {
       {"max_window_scans", &OnlineRefinementTuning::max_window_scans},
-      {"max_places_waiting", &OnlineRefinementTuning::max_places_waiting},
-      {"same_place_traversals", &OnlineRefinementTuning::same_place_traversals},
+      {"max_stretch_scans", &OnlineRefinementTuning::max_stretch_scans},
       {"max_traversal_scans", &OnlineRefinementTuning::max_traversal_scans},
       {"returns_per_place", &OnlineRefinementTuning::returns_per_place},
       {"keyframes_of_correction", &OnlineRefinementTuning::keyframes_of_correction}};

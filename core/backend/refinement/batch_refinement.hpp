@@ -2,17 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include "core/backend/config/backend_config.hpp"
-#include "core/backend/pose_graph/pose_graph.hpp"
+#include "core/backend/refinement/batch_problem.hpp"
 #include "core/backend/refinement/floor_field.hpp"
 #include "core/backend/refinement/refinement_problem.hpp"
-#include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
-#include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
 
@@ -24,23 +19,6 @@ struct RefinementReport : HeldOutVerdict {
   /// that one slip does not outweigh the rest). Comparable between starts of one run.
   std::vector<double> misfit;
   std::vector<double> misfit_at_start;
-};
-
-/// The dead reckoning that joins neighbouring scans.
-enum class DeadReckoning : std::uint8_t {
-  kLessDrift,   ///< StoredScan::T_dead_body
-  kAsReported,  ///< StoredScan::T_odom_body with SensorModel::calibration_as_reported()
-};
-
-/// What the poses of a run's scans are refined by. Views all of it.
-struct BatchRefinement {
-  const ScanStore& scans;
-  const SensorModel& sensor;
-  std::span<const RelativePoseFactor<ScanId>> closures{};  ///< information scaled by DCS already
-  std::span<const HeadingFactor<ScanId>> headings{};       ///< likewise
-  const BackendConfig& config;
-  DeadReckoning dead_reckoning = DeadReckoning::kLessDrift;
-  std::span<const double> step_scale{};  ///< FloorFindings'; empty: steps are as long as that says
 };
 
 /// Refinement of every scan's pose: a sparse Gauss-Newton problem of point-to-line factors to the walls of

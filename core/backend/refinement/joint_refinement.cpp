@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/backend/refinement/poses_and_walls.hpp"
 #include "core/backend/refinement/rigid_nodes.hpp"
 #include "core/sensing/systematic_motion.hpp"
 #include "core/sensing/systematic_prior.hpp"
@@ -19,11 +18,11 @@ constexpr double kWallSigmasOfReading = 1.7;  // at least: a wall is no plane, a
                                               // is in all of its returns
 
 /// By dead reckoning from each scan to the next.
-RigidNodes nodes_of(const ScanStore& scans, std::span<const Factor> motions, const RigidNodesTuning& tuning) {
+RigidNodes nodes_of(std::span<const StoredScan> stored, std::span<const Factor> motions,
+                    const RigidNodesTuning& tuning) {
   std::vector<TimedOdometry> odometry;
   std::vector<StepVariance> variance_to;
   Pose2 T_first_body;
-  const std::span<const StoredScan> stored = scans.all().values();
   odometry.reserve(stored.size());
   variance_to.reserve(stored.size());
   for (std::size_t i = 0; i < stored.size(); ++i) {
@@ -56,22 +55,6 @@ std::vector<ScanHit> hits_of(std::span<const PlacedReturn> returns) {
   return hits;
 }
 
-PosesAndWalls problem_of(const ScanStore& scans, const SensorModel& sensor,
-                         std::span<const PlacedReturn> returns,
-                         std::span<const HeadingFactor<PoseIndex>> headings, const BackendTuning& tuning,
-                         const std::vector<Factor>& factors, std::span<const Pose2> T_map_body) {
-  const auto closures = factors.begin() + static_cast<std::ptrdiff_t>(scans.size() - 1);
-  RigidNodes nodes = nodes_of(scans, {factors.begin(), closures}, tuning.nodes);
-  const SystematicCovariance prior = prior_of(sensor, nodes.shows_time_offset(), tuning.joint);
-  return {std::move(nodes),
-          hits_of(returns),
-          {{closures, factors.end()}, {headings.begin(), headings.end()}, tuning.joint.closure_weight},
-          T_map_body,
-          prior,
-          kWallSigmasOfReading * sensor.range_sigma_m,
-          {tuning.poses_and_walls, tuning.refinement.walls, tuning.patches}};
-}
-
 Status solve(PosesAndWalls& problem, int associations, int steps_per_association) {
   for (int round = 0; round < associations; ++round) {
     problem.associate();
@@ -82,9 +65,7 @@ Status solve(PosesAndWalls& problem, int associations, int steps_per_association
 }
 
 void take(const PosesAndWalls& problem, std::vector<Factor>& factors, std::vector<Pose2>& T_map_body) {
-  const Pose2 T_map_first = T_map_body.front();
-  T_map_body = problem.nodes().blended(problem.T_map_node());
-  T_map_body.front() = T_map_first;  // but for rounding it has not moved
+  T_map_body = path_of(problem, T_map_body.front());
   for (std::size_t i = 1; i < T_map_body.size(); ++i) factors[i - 1].T_from_to = problem.nodes().step_to(i);
 }
 
@@ -100,28 +81,51 @@ FloorFindings floor_of(const PosesAndWalls& problem, std::span<const StoredScan>
 
 }  // namespace
 
-Status refine_jointly(const ScanStore& scans, const SensorModel& sensor,
+std::unique_ptr<PosesAndWalls> joint_problem(std::span<const StoredScan> scans, const SensorModel& sensor,
+                                             std::span<const PlacedReturn> returns,
+                                             std::span<const HeadingFactor<PoseIndex>> headings,
+                                             const BackendTuning& tuning, std::span<const Factor> factors,
+                                             std::span<const Pose2> T_map_body) {
+  const std::span<const Factor> motions = factors.first(scans.size() - 1);
+  const std::span<const Factor> closures = factors.subspan(scans.size() - 1);
+  RigidNodes nodes = nodes_of(scans, motions, tuning.nodes);
+  const SystematicCovariance prior = prior_of(sensor, nodes.shows_time_offset(), tuning.joint);
+  PoseKnowledge known{
+      {closures.begin(), closures.end()}, {headings.begin(), headings.end()}, tuning.joint.closure_weight};
+  return std::make_unique<PosesAndWalls>(
+      std::move(nodes), hits_of(returns), std::move(known), T_map_body, prior,
+      kWallSigmasOfReading * sensor.range_sigma_m,
+      PosesAndWalls::Tuning{tuning.poses_and_walls, tuning.refinement.walls, tuning.patches});
+}
+
+std::vector<Pose2> path_of(const PosesAndWalls& problem, const Pose2& T_map_first) {
+  std::vector<Pose2> T_map_body = problem.nodes().blended(problem.T_map_node());
+  T_map_body.front() = T_map_first;  // but for rounding it has not moved
+  return T_map_body;
+}
+
+Status refine_jointly(std::span<const StoredScan> scans, const SensorModel& sensor,
                       std::span<const PlacedReturn> returns,
                       std::span<const HeadingFactor<PoseIndex>> headings, const BackendTuning& tuning,
                       std::vector<Factor>& factors, std::vector<Pose2>& T_map_body) {
-  PosesAndWalls problem = problem_of(scans, sensor, returns, headings, tuning, factors, T_map_body);
-  Status status = solve(problem, tuning.joint.associations, tuning.joint.steps_per_association);
-  if (status) take(problem, factors, T_map_body);
+  const auto problem = joint_problem(scans, sensor, returns, headings, tuning, factors, T_map_body);
+  Status status = solve(*problem, tuning.joint.associations, tuning.joint.steps_per_association);
+  if (status) take(*problem, factors, T_map_body);
   return status;
 }
 
-Result<FloorFindings> refine_jointly_with_floor(const ScanStore& scans, const SensorModel& sensor,
+Result<FloorFindings> refine_jointly_with_floor(std::span<const StoredScan> scans, const SensorModel& sensor,
                                                 std::span<const PlacedReturn> returns,
                                                 std::span<const HeadingFactor<PoseIndex>> headings,
                                                 const BackendTuning& tuning, std::vector<Factor>& factors,
                                                 std::vector<Pose2>& T_map_body) {
-  PosesAndWalls problem = problem_of(scans, sensor, returns, headings, tuning, factors, T_map_body);
-  problem.let_floor_vary(tuning.floor);
-  Status status = solve(problem, tuning.floor.associations, tuning.joint.steps_per_association);
+  const auto problem = joint_problem(scans, sensor, returns, headings, tuning, factors, T_map_body);
+  problem->let_floor_vary(tuning.floor);
+  Status status = solve(*problem, tuning.floor.associations, tuning.joint.steps_per_association);
   if (!status) return status.error();
-  take(problem, factors, T_map_body);
+  take(*problem, factors, T_map_body);
   FloorFindings found;
-  if (problem.nodes().size() > 1) found = floor_of(problem, scans.all().values());
+  if (problem->nodes().size() > 1) found = floor_of(*problem, scans);
   for (std::size_t i = 1; i < found.step_scale.size(); ++i)
     factors[i - 1].T_from_to = stretched(factors[i - 1].T_from_to, found.step_scale[i]);
   return found;

@@ -17,20 +17,9 @@ void OnlineRefinement::add_scan() {
   T_graph_refined_.push_back(is_carried_on ? T_graph_refined_.values().back() : Pose2());
 }
 
-void OnlineRefinement::queue_around(KeyframeId place) {
-  const TraversalId traversal = traversal_of(place);
-  const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](TraversalId w) {
-    return traversals_between(w, traversal) < tuning_.same_place_traversals;
-  });
-  if (waits) return;
-  if (waiting_.size() == tuning_.max_places_waiting) waiting_.pop_front();
-  waiting_.push_back(traversal);
-}
-
 void OnlineRefinement::erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals) {
   T_graph_refined_.erase(scans);
   if (traversals_.size() > 0) traversals_.erase(traversals);  // none is filed without refinement
-  std::erase_if(waiting_, [&](TraversalId traversal) { return traversals.contains(traversal); });
 }
 
 void OnlineRefinement::follow(const KeyframePoses& T_map_keyframe) {
@@ -48,57 +37,20 @@ TraversalId OnlineRefinement::before(TraversalId traversal) const {
   return traversal_of(chain_->all().previous(keyframes_of(traversal).first));
 }
 
-TraversalId OnlineRefinement::after(TraversalId traversal) const {
-  return traversal_of(chain_->all().at_or_after(keyframes_of(traversal).end));
-}
-
-/// How far apart two traversals are, counting those that were not pruned.
-std::size_t OnlineRefinement::traversals_between(TraversalId a, TraversalId b) const {
-  return chain_->all().count({keyframes_of(std::min(a, b)).first, keyframes_of(std::max(a, b)).first}) /
-         kKeyframesPerTraversal;
-}
-
-/// Whole traversals of one storey, as many as fit on both sides of the middle one; of a traversal that is too
-/// long its end.
-ScanRange OnlineRefinement::window_around(TraversalId traversal) const {
+/// Whole traversals of one storey, as many as fit; of a newest one that is too long its end.
+ScanRange OnlineRefinement::newest_window() const {
   const IdMap<ScanId, StoredScan>& scans = scans_->all();
-  ScanRange window = scans_of(traversal);
+  const TraversalId newest = newest_traversal();
+  ScanRange window = scans_of(newest);
   if (scans.count(window) > tuning_.max_window_scans)
     return {scans.id_at(scans.position(window.end) - tuning_.max_window_scans), window.end};
   const TraversalId oldest = traversal_of(chain_->all().first_id());
-  TraversalId lowest = traversal;
-  TraversalId highest = traversal;
-  for (bool grows = true; grows;) {
-    grows = false;
-    if (lowest > oldest && storey(before(lowest)) == storey(traversal) &&
-        scans.count({scans_of(before(lowest)).first, window.end}) <= tuning_.max_window_scans) {
-      lowest = before(lowest);
-      window.first = scans_of(lowest).first;
-      grows = true;
-    }
-    if (highest < newest_traversal() && storey(after(highest)) == storey(traversal) &&
-        scans.count({window.first, scans_of(after(highest)).end}) <= tuning_.max_window_scans) {
-      highest = after(highest);
-      window.end = scans_of(highest).end;
-      grows = true;
-    }
+  for (TraversalId lowest = newest; lowest > oldest && storey(before(lowest)) == storey(newest);) {
+    lowest = before(lowest);
+    const ScanRange wider{scans_of(lowest).first, window.end};
+    if (scans.count(wider) > tuning_.max_window_scans) break;
+    window = wider;
   }
-  return window;
-}
-
-/// Every other turn is the newest scans'; the rest is shared by places that wait and the sweep.
-ScanRange OnlineRefinement::next_window() {
-  const std::uint32_t turn = turn_++ % 4;
-  if (turn % 2 == 0) return window_around(newest_traversal());
-  if (turn == 1 && !waiting_.empty()) {
-    const TraversalId place = waiting_.front();
-    waiting_.pop_front();
-    return window_around(place);
-  }
-  if (swept_ >= scans_of(newest_traversal()).first) swept_ = scans_->all().first_id();
-  swept_ = scans_->all().at_or_after(swept_);
-  const ScanRange window = window_around(traversal_of((*scans_)[swept_]));
-  swept_ = std::max(window.end, swept_ + 1);
   return window;
 }
 
@@ -107,8 +59,7 @@ WindowPoses OnlineRefinement::poses_of(const ScanRange& window, const KeyframePo
   const IdMap<ScanId, StoredScan>& scans = scans_->all();
   const std::size_t first = scans.position(window.first);
   WindowPoses poses;
-  poses.scans.first = scans.id_at(first > 0 ? first - 1 : 0);
-  poses.scans.end = std::min(scans.at_or_after(window.end) + 1, scans.end_id());
+  poses.scans = {scans.id_at(first > 0 ? first - 1 : 0), window.end};
   poses.T_map_graph = chain_->T_w_bodies(poses.scans, T_map_keyframe);
   poses.T_local_body = chain_->T_w_bodies(poses.scans, T_local_keyframe);
   const std::span<const Pose2> T_graph_refined = T_graph_refined_.values(poses.scans);
@@ -143,7 +94,7 @@ std::vector<TraversalPoint> OnlineRefinement::walls_around(const ScanRange& wind
 Result<ScanRange> OnlineRefinement::step(const KeyframePoses& T_map_keyframe,
                                          const KeyframePoses& T_local_keyframe) {
   while (traversals_.end_id() < newest_traversal()) file_traversal(traversals_.end_id(), T_map_keyframe);
-  const ScanRange window = next_window();
+  const ScanRange window = newest_window();
   WindowPoses poses = poses_of(window, T_map_keyframe, T_local_keyframe);
   const Result<WindowReport> report =
       window_refinement_.refine(window, walls_around(window, poses, T_map_keyframe), poses);
@@ -161,10 +112,22 @@ Result<ScanRange> OnlineRefinement::step(const KeyframePoses& T_map_keyframe,
 void OnlineRefinement::take(const ScanRange& window, const WindowPoses& poses,
                             const KeyframePoses& T_map_keyframe) {
   const std::size_t first = scans_->all().position(poses.scans.first);
-  const std::size_t moved = scans_->all().count({poses.scans.first, window.end});
-  for (std::size_t i = 1; i < moved; ++i)
+  for (std::size_t i = 1; i < poses.T_map_body.size(); ++i)
     T_graph_refined_.values()[first + i] = between(poses.T_map_graph[i], poses.T_map_body[i]);
-  const std::span<const StoredScan> scans = scans_->all().values(window);
+  file_anew(window, T_map_keyframe);
+}
+
+void OnlineRefinement::take_offsets(const ScanRange& scans, std::span<const Pose2> T_graph_refined,
+                                    const KeyframePoses& T_map_keyframe) {
+  const std::span<Pose2> behind = T_graph_refined_.values().subspan(scans_->all().position(scans.first));
+  const auto [taken, next] = std::ranges::copy(T_graph_refined, behind.begin());
+  std::fill(next, behind.end(), T_graph_refined.back());
+  file_anew({scans.first, scans_->all().end_id()}, T_map_keyframe);
+}
+
+/// The walls of all traversals that have these scans.
+void OnlineRefinement::file_anew(const ScanRange& range, const KeyframePoses& T_map_keyframe) {
+  const std::span<const StoredScan> scans = scans_->all().values(range);
   for (const TraversalId traversal :
        traversals_.filed({traversal_of(scans.front()), traversal_of(scans.back()) + 1}))
     file_traversal(traversal, T_map_keyframe);

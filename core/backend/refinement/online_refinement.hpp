@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -15,9 +14,9 @@
 namespace swiftlet {
 
 /// Joint refinement while the run goes on, a layer upon the pose graph: each scan has an offset from where
-/// the graph puts it, and keeps it when the graph moves. Each step refines one window of bounded size against
-/// the walls of a bounded number of traversals nearby. Views scans and chain, which must outlive it.
-/// Allocates. One thread at a time. Repeatable.
+/// the graph puts it, and keeps it when the graph moves. Each step refines the newest window, of bounded
+/// size, against the walls of a bounded number of traversals nearby. Views scans and chain, which must
+/// outlive it. Allocates. One thread at a time. Repeatable.
 class OnlineRefinement {
  public:
   OnlineRefinement(const ScanStore& scans, const KeyframeChain& chain, const SensorModel& sensor,
@@ -31,18 +30,20 @@ class OnlineRefinement {
 
   /// The store has a new scan, which starts with its predecessor's offset.
   void add_scan();
-  /// A loop has closed there: scans around it are refined in due course. With the most places waiting, the
-  /// one that waits longest is given up.
-  void queue_around(KeyframeId place);
   /// Follows the store and the chain, from which the same whole traversals were erased.
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
   /// The graph was optimised.
   void follow(const KeyframePoses& T_map_keyframe);
-  /// After each keyframe: refines the newest scans or, every other time, elsewhere: around a place that
-  /// waits, or the next scans of the whole run in turn. Takes the poses of all keyframes by the graph and by
-  /// the frontend. Returns what moved. Errors: kSolver; nothing has moved then.
+  /// After each keyframe: refines the newest scans. Takes the poses of all keyframes by the graph and by the
+  /// frontend. Returns what moved. Errors: kSolver; nothing has moved then.
   Result<ScanRange> step(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
 
+  /// Takes offsets of consecutive scans. Those behind them get that of the last one.
+  void take_offsets(const ScanRange& scans, std::span<const Pose2> T_graph_refined,
+                    const KeyframePoses& T_map_keyframe);
+  [[nodiscard]] std::span<const Pose2> T_graph_refined(const ScanRange& scans) const {
+    return T_graph_refined_.values(scans);
+  }
   /// The refined pose of a scan that the graph puts there.
   [[nodiscard]] Pose2 refined(ScanId scan, const Pose2& T_map_graph) const {
     return T_map_graph * T_graph_refined_[scan];
@@ -56,8 +57,6 @@ class OnlineRefinement {
   [[nodiscard]] Pose2 T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const;
   [[nodiscard]] TraversalId newest_traversal() const;
   [[nodiscard]] TraversalId before(TraversalId traversal) const;
-  [[nodiscard]] TraversalId after(TraversalId traversal) const;
-  [[nodiscard]] std::size_t traversals_between(TraversalId a, TraversalId b) const;
   [[nodiscard]] ScanRange scans_of(TraversalId traversal) const {
     return chain_->scans_of(keyframes_of(traversal));
   }
@@ -65,13 +64,13 @@ class OnlineRefinement {
   [[nodiscard]] StoreyId storey(TraversalId traversal) const {
     return chain_->storey(keyframes_of(traversal).first);
   }
-  [[nodiscard]] ScanRange window_around(TraversalId traversal) const;
-  [[nodiscard]] ScanRange next_window();
+  [[nodiscard]] ScanRange newest_window() const;
   [[nodiscard]] WindowPoses poses_of(const ScanRange& window, const KeyframePoses& T_map_keyframe,
                                      const KeyframePoses& T_local_keyframe) const;
   [[nodiscard]] std::vector<TraversalPoint> walls_around(const ScanRange& window, const WindowPoses& poses,
                                                          const KeyframePoses& T_map_keyframe) const;
   void take(const ScanRange& window, const WindowPoses& poses, const KeyframePoses& T_map_keyframe);
+  void file_anew(const ScanRange& range, const KeyframePoses& T_map_keyframe);
   void file_traversal(TraversalId traversal, const KeyframePoses& T_map_keyframe);
 
   const ScanStore* scans_;
@@ -81,9 +80,6 @@ class OnlineRefinement {
   WindowRefinement window_refinement_;
   TraversalIndex traversals_;  // all but the newest, which is not complete
   IdMap<ScanId, Pose2> T_graph_refined_;
-  std::deque<TraversalId> waiting_;
-  ScanId swept_{};  // scans before this one had their turn
-  std::uint32_t turn_ = 0;
   WindowReport last_window_;
   std::uint64_t windows_refined_ = 0;
   std::uint64_t windows_refused_ = 0;

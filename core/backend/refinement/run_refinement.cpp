@@ -24,20 +24,27 @@ void scale_information(Factor& factor) {
   factor.information *= factor.dcs_scale * factor.dcs_scale;
 }
 
+/// Of those with both ends in the range.
 std::vector<RelativePoseFactor<ScanId>> closures_between_scans(const PoseGraph& graph,
-                                                               const KeyframeChain& chain) {
+                                                               const KeyframeChain& chain,
+                                                               const ScanRange& range) {
   std::vector<RelativePoseFactor<ScanId>> closures;
   for (const RelativePoseFactor<KeyframeId>& f : graph.factors.values()) {
     if (!f.is_closure || f.information.isZero(0.0)) continue;
-    closures.push_back(f.joining(chain.scan_of(f.from), chain.scan_of(f.to)));
+    const ScanId from = chain.scan_of(f.from);
+    const ScanId to = chain.scan_of(f.to);
+    if (!range.contains(from) || !range.contains(to)) continue;
+    closures.push_back(f.joining(from, to));
     scale_information(closures.back());
   }
   return closures;
 }
 
-std::vector<HeadingFactor<ScanId>> headings_of_scans(const PoseGraph& graph, const KeyframeChain& chain) {
+std::vector<HeadingFactor<ScanId>> headings_of_scans(const PoseGraph& graph, const KeyframeChain& chain,
+                                                     const ScanRange& range) {
   std::vector<HeadingFactor<ScanId>> headings;
   for (const HeadingFactor<KeyframeId>& f : graph.headings) {
+    if (!range.contains(chain.scan_of(f.pose))) continue;
     headings.push_back(f.of(chain.scan_of(f.pose)));
     scale_information(headings.back());
   }
@@ -104,6 +111,52 @@ ScanRange RunRefinement::refine_window(const KeyframePoses& T_map_keyframe,
   return {};
 }
 
+ScanRange RunRefinement::newest_stretch() const {
+  const IdMap<ScanId, StoredScan>& scans = scans_->all();
+  const std::size_t count = std::min(scans.size(), config_->tuning.online.max_stretch_scans);
+  return {scans.id_at(scans.size() - count), scans.end_id()};
+}
+
+/// Closures of less travel than a query's are made of the same returns.
+bool RunRefinement::refine_stretch(const PoseGraph& graph, bool has_closed) {
+  if (!is_wanted() || !config_->refine_online) return false;
+  const bool moved = take_stretch(graph.T_map_keyframe);
+  has_closed_ |= has_closed;
+  const double here_m = chain_->path_m(chain_->all().last_id());
+  const bool is_soon =
+      stretch_begun_m_ && here_m - *stretch_begun_m_ < config_->tuning.detector.newer_query_m;
+  if (!has_closed_ || is_soon || stretch_.is_busy()) return moved;
+  has_closed_ = false;
+  stretch_begun_m_ = here_m;
+  const ScanRange stretch = newest_stretch();
+  const Known known = known_of(graph, stretch);
+  stretch_.begin({.scans = *scans_,
+                  .sensor = sensor_,
+                  .closures = known.closures,
+                  .headings = known.headings,
+                  .config = *config_,
+                  .range = stretch,
+                  .max_returns = 4 * config_->tuning.online.max_stretch_scans},
+                 chain_->T_w_bodies(stretch, graph.T_map_keyframe), online_.T_graph_refined(stretch).front());
+  return moved;
+}
+
+void RunRefinement::continue_stretch() {
+  if (const Status status = stretch_.step(); !status) ++counters_.solver_failures;
+}
+
+bool RunRefinement::take_stretch(const KeyframePoses& T_map_keyframe) {
+  if (!stretch_.is_solved()) return false;
+  const std::optional<StretchRefinement::Found> found = stretch_.finish();
+  if (!found) {
+    ++counters_.stretches_refused;
+    return false;
+  }
+  ++counters_.stretches_refined;
+  online_.take_offsets(found->scans, found->T_graph_refined, T_map_keyframe);
+  return true;
+}
+
 RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const PoseGraph& graph,
                                                     const KeyframePoses& T_local_keyframe) const {
   const ScanRange all{scans_->all().first_id(), scans_->all().end_id()};
@@ -116,9 +169,14 @@ RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const Pose
   return {.source = source, .T_map_body = std::move(T_map_body)};
 }
 
+RunRefinement::Known RunRefinement::known_of(const PoseGraph& graph, const ScanRange& range) const {
+  return {closures_between_scans(graph, *chain_, range), headings_of_scans(graph, *chain_, range)};
+}
+
+/// Nothing, unless it is the graph's path.
 RunRefinement::Known RunRefinement::known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const {
   if (hypothesis.source != MapSource::kPoseGraph) return {};
-  return {closures_between_scans(graph, *chain_), headings_of_scans(graph, *chain_)};
+  return known_of(graph, {scans_->all().first_id(), scans_->all().end_id()});
 }
 
 BatchRefinement RunRefinement::batch(const Hypothesis& hypothesis, const Known& known) const {
@@ -254,6 +312,7 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
 
 void RunRefinement::erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals) {
   online_.erase(scans, traversals);
+  stretch_.abandon();
 }
 
 Pose2 RunRefinement::T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const {

@@ -14,6 +14,7 @@
 #include "core/backend/refinement/map_source.hpp"
 #include "core/backend/refinement/online_refinement.hpp"
 #include "core/backend/refinement/other_path.hpp"
+#include "core/backend/refinement/stretch_refinement.hpp"
 #include "core/backend/store/keyframe_chain.hpp"
 #include "core/sensing/sensor_model.hpp"
 
@@ -22,6 +23,8 @@ namespace swiftlet {
 struct RefinementCounters {
   std::uint64_t windows_refined = 0;
   std::uint64_t windows_refused = 0;
+  std::uint64_t stretches_refined = 0;
+  std::uint64_t stretches_refused = 0;
   std::uint64_t solver_failures = 0;
   bool refined = false;  ///< the batch refinement was accepted
   double held_out_before_m = 0.0;
@@ -42,14 +45,15 @@ class RunRefinement {
 
   [[nodiscard]] bool is_wanted() const { return config_->refine && config_->close_loops; }
   void add_scan() { online_.add_scan(); }
-  /// A loop has closed there.
-  void queue_around(KeyframeId place) {
-    if (is_wanted()) online_.queue_around(place);
-  }
   /// The graph was optimised.
   void follow(const KeyframePoses& T_map_keyframe);
   /// After each keyframe: refines one window. Returns what has moved.
   ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
+  /// After each keyframe: takes what refining the newest stretch has found, and begins that where a loop has
+  /// closed since it last began. True: poses have moved.
+  bool refine_stretch(const PoseGraph& graph, bool has_closed);
+  /// After each scan: a slice of refining the newest stretch, if that was begun.
+  void continue_stretch();
   /// Gives every scan a pose of its own, for good. True: poses have moved. The graph's path is held against
   /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way, walls and
   /// poses in turn; the one chosen then together. Dead reckoning is the map unless the ranges pay for how far
@@ -84,7 +88,10 @@ class RunRefinement {
     std::vector<RelativePoseFactor<ScanId>> closures;
     std::vector<HeadingFactor<ScanId>> headings;
   };
+  [[nodiscard]] Known known_of(const PoseGraph& graph, const ScanRange& range) const;
   [[nodiscard]] Known known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const;
+  [[nodiscard]] ScanRange newest_stretch() const;
+  bool take_stretch(const KeyframePoses& T_map_keyframe);
   [[nodiscard]] BatchRefinement batch(const Hypothesis& hypothesis, const Known& known) const;
   bool try_refine(Hypothesis& hypothesis, const PoseGraph& graph);
   void complete(Hypothesis& hypothesis, const PoseGraph& graph);
@@ -101,7 +108,10 @@ class RunRefinement {
   const ScanStore* scans_;
   const KeyframeChain* chain_;
   OnlineRefinement online_;
-  IdMap<ScanId, Pose2> T_map_refined_;  // by refine_all()
+  StretchRefinement stretch_;
+  bool has_closed_ = false;                // since the newest stretch was begun ...
+  std::optional<double> stretch_begun_m_;  // ... at this travel
+  IdMap<ScanId, Pose2> T_map_refined_;     // by refine_all()
   RefinementCounters counters_;
 };
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/refinement/window_refinement.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/backend/store/traversal.hpp"
@@ -41,28 +40,14 @@ void WindowRefinement::take_steps(const WindowPoses& poses) {
   }
 }
 
-void WindowRefinement::add_steps(const std::vector<Pose2>& T_map_body, std::size_t moving) {
-  for (const RelativePoseFactor<PoseIndex>& step : steps_) {
-    if (index_of(step.to) < moving) {
-      chain_.add(step, T_map_body);
-      continue;
-    }
-    // To the scan after the window, which is held.
-    const PoseResidual r =
-        pose_residual(step.T_from_to, T_map_body[index_of(step.from)], T_map_body[index_of(step.to)]);
-    const Eigen::Matrix3d A = r.J_from.transpose() * step.information;
-    chain_.add(step.from, A * r.J_from, -A * r.error);
-  }
-}
-
-void WindowRefinement::add_ties(const WindowPoses& poses, std::size_t moving) {
+void WindowRefinement::add_ties(const WindowPoses& poses) {
   const Eigen::Matrix3d information =
       Eigen::Vector3d(tuning_.tie_sigma_m, tuning_.tie_sigma_m, tuning_.tie_sigma_rad)
           .cwiseAbs2()
           .cwiseInverse()
           .asDiagonal();
   const std::span<const StoredScan> scans = scans_->all().values(poses.scans);
-  for (std::size_t i = 1; i < moving; ++i) {
+  for (std::size_t i = 1; i < scans.size(); ++i) {
     if (scans[i].keyframe == scans[i - 1].keyframe) continue;
     const PoseResidual r = pose_residual(Pose2(), poses.T_map_graph[i], poses.T_map_body[i]);
     const Eigen::Matrix3d A = r.J_to.transpose() * information;
@@ -73,9 +58,7 @@ void WindowRefinement::add_ties(const WindowPoses& poses, std::size_t moving) {
 Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span<const TraversalPoint> others,
                                               WindowPoses& poses) {
   WindowReport report;
-  const std::size_t moving =
-      scans_->all().count({poses.scans.first, window.end});  // the first of which is held
-  if (moving < 2) return report;
+  if (poses.T_map_body.size() < 2) return report;
   take_returns(window, scans_->all().count({poses.scans.first, window.first}));
   take_steps(poses);
   std::vector<TraversalPoint> others_thinned;
@@ -87,16 +70,15 @@ Result<WindowReport> WindowRefinement::refine(const ScanRange& window, std::span
   const WallsByStorey before = walls_at(poses.T_map_body);
   report.returns = problem_.size();
   report.points = before.size();
-  chain_.reset(moving);
+  chain_.reset(poses.T_map_body.size());
   problem_.add_factors(before, poses.T_map_body, chain_);
-  add_steps(poses.T_map_body, moving);
-  add_ties(poses, moving);
+  for (const RelativePoseFactor<PoseIndex>& step : steps_) chain_.add(step, poses.T_map_body);
+  add_ties(poses);
   std::vector<Pose2> T = poses.T_map_body;
-  T.resize(moving);
   if (const Status moved = chain_.step(T); !moved) return moved.error();
   report.judge(problem_.held_out_error_m(before, poses.T_map_body),
                problem_.held_out_error_m(walls_at(T), T));
-  if (report.accepted) std::copy(T.begin(), T.end(), poses.T_map_body.begin());
+  if (report.accepted) poses.T_map_body = std::move(T);
   return report;
 }
 

@@ -19,9 +19,9 @@ struct WindowReport : HeldOutVerdict {
   std::size_t points = 0;   ///< that walls were fitted to
 };
 
-/// Poses of a window's scans and of its neighbours, which are held.
+/// Poses of a window's scans and of the one before it, which is held.
 struct WindowPoses {
-  ScanRange scans;  ///< the window with the scan before it, if there is one, and the one after it
+  ScanRange scans;                  ///< the window with the scan before it, if there is one
   std::vector<Pose2> T_map_body;    ///< as refined so far: in and out; the first is held
   std::vector<Pose2> T_map_graph;   ///< where the pose graph puts them
   std::vector<Pose2> T_local_body;  ///< along the frontend's path, which gives the steps between them
@@ -44,8 +44,7 @@ class WindowRefinement {
  private:
   void take_returns(const ScanRange& window, std::size_t first_pose);
   void take_steps(const WindowPoses& poses);
-  void add_steps(const std::vector<Pose2>& T_map_body, std::size_t moving);
-  void add_ties(const WindowPoses& poses, std::size_t moving);
+  void add_ties(const WindowPoses& poses);
 
   const ScanStore* scans_;
   OdometryNoise noise_;

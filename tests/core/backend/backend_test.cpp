@@ -204,6 +204,7 @@ TEST(Backend, NoOldPoseMovesUnannounced) {
   EXPECT_EQ(backend->counters().windows_refined, windows);
   EXPECT_EQ(backend->counters().windows_refined + backend->counters().windows_refused,
             backend->keyframes().size());
+  EXPECT_GT(backend->counters().stretches_refined, 0U);
 }
 
 /// How far scans of the second half lie from where the nearest one of the first half should see them.

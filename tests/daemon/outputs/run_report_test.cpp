@@ -28,6 +28,8 @@ TEST(RunReport, TellsWhatCameInAndWhatWasMadeOfIt) {
   EXPECT_EQ(report["backend"]["closures"]["accepted"], 0);
   EXPECT_EQ(report["backend"]["windows"]["refined"], 0);
   EXPECT_EQ(report["backend"]["windows"]["refused"], 0);
+  EXPECT_EQ(report["backend"]["stretches"]["refined"], 0);
+  EXPECT_EQ(report["backend"]["stretches"]["refused"], 0);
   EXPECT_EQ(report["backend"]["map_source"], "pose graph");
   EXPECT_EQ(report["backend"]["yaw_noise_factor"], 1.0);
   EXPECT_EQ(report["backend"]["floor_cost"], 0.0);

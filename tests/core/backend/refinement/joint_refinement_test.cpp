@@ -120,8 +120,8 @@ Flight fly(const Flaws& flaws, const std::function<Pose2(double)>& true_at) {
 }
 
 Status refine(Flight& flight) {
-  return refine_jointly(flight.scans, flight.sensor, flight.returns, {}, BackendTuning(), flight.factors,
-                        flight.T_map_body);
+  return refine_jointly(flight.scans.all().values(), flight.sensor, flight.returns, {}, BackendTuning(),
+                        flight.factors, flight.T_map_body);
 }
 
 /// From the true path, as loop closing leaves it.
@@ -129,8 +129,8 @@ Result<FloorFindings> refine_with_floor(Flight& flight) {
   flight.T_map_body.clear();
   for (const Pose2& T_room_body : flight.T_true)
     flight.T_map_body.push_back(flight.T_true.front().inverse() * T_room_body);
-  return refine_jointly_with_floor(flight.scans, flight.sensor, flight.returns, {}, BackendTuning(),
-                                   flight.factors, flight.T_map_body);
+  return refine_jointly_with_floor(flight.scans.all().values(), flight.sensor, flight.returns, {},
+                                   BackendTuning(), flight.factors, flight.T_map_body);
 }
 
 double rms_m(const Flight& flight) { return aligned_rms_error_m(flight.T_map_body, flight.T_true); }

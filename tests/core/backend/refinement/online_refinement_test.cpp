@@ -163,38 +163,36 @@ TEST(OnlineRefinement, ALongHoverIsBoundedToo) {
   EXPECT_LE(run->windows.back().returns, RefinementTuning{}.max_window_returns);
 }
 
-TEST(OnlineRefinement, ScansAroundAClosureHaveTheirTurnSoon) {
-  const TestVehicle vehicle = flown("babababa");
-  const auto count_of_turns = [&](bool closes) {
-    const auto run = refined(vehicle, off_from(60, Pose2(0.05, 0.1, 0.0)));
-    const KeyframeId place{70};
-    if (closes) run->live.queue_around(place);
-    // By hand a little off, so that there is something to gain.
-    for (std::uint32_t k = 65; k < 75; ++k)
-      run->T_graph.values()[k] = Pose2(0.0, -0.1, 0.0) * run->T_graph.values()[k];
-    int turns = 0;
-    const ScanId scan = run->chain.scan_of(place);
-    for (int i = 0; i < 4; ++i) {
-      run->refine();
-      turns += run->moved.back().contains(scan) ? 1 : 0;
-    }
-    return turns;
-  };
-  EXPECT_EQ(count_of_turns(false), 0);
-  EXPECT_EQ(count_of_turns(true), 1);
+TEST(OnlineRefinement, OffsetsThatAreTakenReachToTheNewestScan) {
+  const auto run = refined(flown("baba"));
+  const ScanRange taken{make_id<ScanId>(100), make_id<ScanId>(200)};
+  std::vector<Pose2> before;
+  for (ScanId i{}; i < run->scans.all().end_id(); ++i) before.push_back(run->live.refined(i, Pose2()));
+  std::vector<Pose2> offsets;
+  offsets.reserve(100);
+  for (int i = 0; i < 100; ++i) offsets.emplace_back(0.001 * i, 0.1, 0.02);
+  run->live.take_offsets(taken, offsets, run->T_graph);
+  for (ScanId i{}; i < run->scans.all().end_id(); ++i) {
+    const Pose2 expected =
+        i < taken.first ? before[index_of(i)] : offsets[std::min<std::size_t>(index_of(i) - 100, 99)];
+    ASSERT_TRUE(poses_near(run->live.refined(i, Pose2()), expected, 0.0, 0.0)) << index_of(i);
+  }
 }
 
-TEST(OnlineRefinement, EveryPartOfTheRunHasItsTurn) {
-  TestVehicleModel drifting;
-  drifting.odometry_sigma_m = 0.003;
-  const auto run = refined(flown("babababa", drifting));
-  for (int i = 0; i < 60; ++i) run->refine();
-  std::vector<bool> has_moved(run->scans.size(), false);
-  for (std::size_t k = run->moved.size() - 60; k < run->moved.size(); ++k)
-    std::fill_n(has_moved.begin() + static_cast<std::ptrdiff_t>(index_of(run->moved[k].first)),
-                run->scans.all().count(run->moved[k]), true);
-  EXPECT_GT(std::count(has_moved.begin(), has_moved.end(), true),
-            static_cast<std::ptrdiff_t>(run->scans.size() / 2));
+TEST(OnlineRefinement, WallsAreFoundWhereOffsetsThatWereTakenPutThem) {
+  // All walls but those of the first scans move away, and with the graph back to where they are seen.
+  const auto run = refined(flown("baba"));
+  run->refine();
+  const std::size_t before = run->windows.back().points;
+  const Pose2 T_moved(37.0, -3.0, 1.0);
+  std::vector<Pose2> offsets;
+  for (ScanId i{}; i < run->scans.all().end_id(); ++i) {
+    const Pose2 T_graph = run->chain.T_w_body(i, run->T_graph);
+    offsets.push_back(between(T_graph, T_moved * T_graph));
+  }
+  run->live.take_offsets({ScanId{}, run->scans.all().end_id()}, offsets, run->T_graph);
+  run->refine();
+  EXPECT_GT(run->windows.back().points, before - before / 10);
 }
 
 TEST(OnlineRefinement, NewScansStartWithTheNewestOffsetUnlessTheyAreElsewhere) {
