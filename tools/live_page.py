@@ -66,32 +66,42 @@ def flights_table(rows):
     return page.table(["flight", *HEADINGS], [[f"`{row['input']}`", *cells(row["live"])] for row in rows])
 
 
-def batch_table(rows):
-    def texts(row):
-        batch = row["batch"]
-        return [row["world"], str(batch["moments"]), number(batch["live_rms_m"], ".3f"),
-                percent(batch["live_share_off"]), number(batch["rms_m"], ".3f"), percent(batch["share_off"])]
+def batch_of(rows):
+    """The figures of several flights as those of one."""
+    batches = [row["batch"] for row in rows if row["batch"]["moments"]]
+    moments = [batch["moments"] for batch in batches]
+    shares = {key: sum(batch[key] * count for batch, count in zip(batches, moments)) / max(sum(moments), 1)
+              for key in ("share_off", "live_share_off")}
+    return {"moments": sum(moments), **shares,
+            **{key: _pooled(batches, key, moments) for key in ("rms_m", "live_rms_m")}}
 
-    return page.table(["flight", "moments:", "live, rms, m:", "over 0.3 m:", "batch, rms, m:", "over 0.3 m:"],
-                      [texts(row) for row in rows if row.get("batch")])
+
+def batch_table(rows):
+    def texts(world):
+        batch = batch_of([row for row in rows if row["world"] == world])
+        return [world, str(batch["moments"]), number(batch["live_rms_m"], ".3f"), percent(batch["live_share_off"]),
+                number(batch["rms_m"], ".3f"), percent(batch["share_off"])]
+
+    return page.table(["flights", "moments:", "live, rms, m:", "over 0.3 m:", "batch, rms, m:", "over 0.3 m:"],
+                      [texts(world) for world in dict.fromkeys(row["world"] for row in rows)])
 
 
 def tables(report):
     """All tables, for stdout and for the page."""
-    batch = f"""
-## The batch at the same moment
-
-Runs that end at some of these moments, each with its final pass: what the same data can give there.
-
-{batch_table(report['rows'])}
-""" if any(row.get("batch") for row in report["rows"]) else ""
     return f"""## Flights together
 
 {worlds_table(report['rows'])}
-{batch}
+
+## The batch at the same moment
+
+Runs that end at some of these moments, each with its final pass: what the same data can give there. It takes dead
+reckoning for the map where the ranges do not tell that a correction is right.
+
+{batch_table(report['rows'])}
+
 ## Each simulated flight
 
-{flights_table([row for row in report['rows'] if not row.get('batch')])}
+{flights_table([row for row in report['rows'] if not row['is_recorded']])}
 """
 
 

@@ -12,7 +12,8 @@ import mapped_runs
 WORLDS = ["office", "loop", "corridors", "maze", "wings", "patrol"]
 SEEDS = range(1, 6)
 OPTIONS = {"patrol": "&laps=5"}  # a single lap meets no old ground
-BATCH_EVERY_S = 8
+BATCH_EVERY_S = 20
+BATCH_EVERY_S_RECORDED = 8  # there are two
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,8 +24,8 @@ class Flight:
 
     def arguments(self):
         if self.is_recorded:
-            return [str(mapped_runs.DATASETS / self.source), "--batch", str(BATCH_EVERY_S)]
-        return [self.source]
+            return [str(mapped_runs.DATASETS / self.source), "--batch", str(BATCH_EVERY_S_RECORDED)]
+        return [self.source, "--batch", str(BATCH_EVERY_S)]
 
     def is_missing(self):
         return self.is_recorded and not (mapped_runs.DATASETS / self.source).exists()
@@ -41,4 +42,4 @@ def evaluate(flight, swiftlet, config=None):
     figures = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     figures["live"].pop("errors_m", None)
     figures.pop("poses", None)
-    return {"world": flight.world, **figures}
+    return {"world": flight.world, "is_recorded": flight.is_recorded, **figures}

@@ -29,7 +29,7 @@ def live(moments=100, rms_m=0.3, **figures):
 
 
 class LivePage(unittest.TestCase):
-    def test_a_flight_is_asked_for_its_figures_and_a_recorded_one_for_those_of_its_batches(self):
+    def test_a_flight_is_asked_for_its_figures_and_those_of_its_batches(self):
         with tempfile.TemporaryDirectory() as name:
             program = Path(name, "swiftlet")
             program.write_text(PRETENDS)
@@ -38,9 +38,9 @@ class LivePage(unittest.TestCase):
                 row = runs.evaluate(runs.SIMULATED[1], program)
                 runs.evaluate(runs.RECORDED[0], program, "my.toml")
             self.assertEqual(Path(f"{program}.calls").read_text().splitlines(),
-                             ["eval --live sim://office?seed=2 --json -",
+                             ["eval --live sim://office?seed=2 --batch 20 --json -",
                               "eval --live /data/flights/olsson.pcap --batch 8 --config my.toml --json -"])
-        self.assertEqual(row, {"world": "office", "input": "a flight", "live": {"moments": 7}})
+        self.assertEqual(row, {"world": "office", "is_recorded": False, "input": "a flight", "live": {"moments": 7}})
 
     def test_a_row_has_all_figures_and_marks_what_is_unknown(self):
         self.assertEqual(page.cells(live()), ["0.300", "0.60", "1.00", "50.0 %", "0.40", "–", "3", "2", "12.5", "1",
@@ -57,14 +57,19 @@ class LivePage(unittest.TestCase):
 
     def test_the_page_tells_its_circumstances_and_shows_batches_beside_the_live_pose(self):
         batch = {"moments": 20, "rms_m": 0.2, "share_off": 0.1, "live_rms_m": 0.4, "live_share_off": 0.3}
-        rows = [{"world": "Hall", "input": "hall.pcap", "live": live(), "batch": batch},
-                {"world": "maze", "input": "sim://maze?seed=1", "live": live()}]
+        worse = {"moments": 60, "rms_m": 0.6, "share_off": 0.5, "live_rms_m": 0.4, "live_share_off": 0.3}
+        none = {"moments": 0, "rms_m": 0.0, "share_off": 0.0, "live_rms_m": 0.0, "live_share_off": 0.0}
+        rows = [{"world": "Hall", "is_recorded": True, "input": "hall.pcap", "live": live(), "batch": batch},
+                *({"world": "maze", "is_recorded": False, "input": f"sim://maze?seed={seed}", "live": live(),
+                   "batch": of} for seed, of in enumerate((batch, worse, none), 1))]
         text = page.document({"date": "2026-01-02", "commit": "abc", "machine": "a machine", "missing": ["b.pcap"],
                               "rows": rows})
         self.assertIn("`tools/benchmark-live --record` on 2026-01-02, commit abc", text)
         self.assertIn("for lack of data: b.pcap.", text)
         self.assertIn("| Hall | 20 | 0.400 | 30.0 % | 0.200 | 10.0 % |", text)
+        self.assertIn("| maze | 80 | 0.400 | 30.0 % | 0.529 | 40.0 % |", text)
         self.assertIn("| `sim://maze?seed=1` | 0.300 |", text)
+        self.assertNotIn("| `hall.pcap` |", text)
 
 
 if __name__ == "__main__":
