@@ -341,10 +341,10 @@ struct FloorFieldTuning {
 
 /// What a step of the online refinement may cost, and where it takes place.
 struct OnlineRefinementTuning {
-  std::size_t max_window_scans = 300;     ///< scans refined at once
-  std::size_t max_stretch_scans = 4096;   ///< ... with all that they have in common: seven minutes of flight
-  std::size_t max_traversal_scans = 100;  ///< that draw its walls; of more every n-th
-  std::size_t returns_per_place = 5;      ///< of a window, looked up once: neighbours lie in the same tile
+  std::size_t max_window_scans = 300;       ///< of the newest window
+  std::size_t max_stretch_scans = 4096;     ///< of the newest stretch: seven minutes of flight at 10 Hz
+  std::size_t max_traversal_scans = 100;    ///< that draw its walls; of more every n-th
+  std::size_t returns_per_place = 5;        ///< of a window, looked up once: neighbours lie in the same tile
   std::size_t keyframes_of_correction = 4;  ///< whose mean the correction leads to: about 2 m
 
   static constexpr TuningValue<OnlineRefinementTuning> kValues[] = {

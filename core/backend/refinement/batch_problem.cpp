@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/refinement/batch_problem.hpp"
 
-#include <algorithm>
-
 #include "core/backend/store/traversal.hpp"
 #include "core/sensing/systematic_motion.hpp"
 

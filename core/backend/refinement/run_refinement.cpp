@@ -117,7 +117,7 @@ ScanRange RunRefinement::newest_stretch() const {
   return {scans.id_at(scans.size() - count), scans.end_id()};
 }
 
-/// Closures of less travel than a query's are made of the same returns.
+/// Closures of less travel than a query's are made of the same returns. As many of these as four beams have.
 bool RunRefinement::refine_stretch(const PoseGraph& graph, bool has_closed) {
   if (!is_wanted() || !config_->refine_online) return false;
   const bool moved = take_stretch(graph.T_map_keyframe);

@@ -180,7 +180,7 @@ TEST(OnlineRefinement, OffsetsThatAreTakenReachToTheNewestScan) {
 }
 
 TEST(OnlineRefinement, WallsAreFoundWhereOffsetsThatWereTakenPutThem) {
-  // All walls but those of the first scans move away, and with the graph back to where they are seen.
+  // All scans move, by their offsets alone; the walls that they see move with them.
   const auto run = refined(flown("baba"));
   run->refine();
   const std::size_t before = run->windows.back().points;
