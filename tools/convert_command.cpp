@@ -132,7 +132,7 @@ Status write_mcap(const ConvertCommand& command, const FileSink& write, InputRep
 
 Status convert_to_mcap(const ConvertCommand& command) {
   InputReport report;
-  const Status written =
+  Status written =
       write_file(command.output, [&](const FileSink& write) { return write_mcap(command, write, report); });
   if (!written) return written;
   return damage_of(report);

@@ -22,7 +22,7 @@ std::uint32_t pack(const std::array<double, 4>& q) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (i == largest) continue;
     const bool negative = (q[i] < 0.0) != negate;
-    const auto magnitude = static_cast<std::uint32_t>(511.0 * std::abs(q[i]) * std::sqrt(2.0) + 0.5);
+    const auto magnitude = static_cast<std::uint32_t>(std::lround(511.0 * std::abs(q[i]) * std::sqrt(2.0)));
     packed = (packed << 10) | (negative ? 0x200U : 0U) | magnitude;
   }
   return packed;
