@@ -101,7 +101,7 @@ class Run:
     closure_storeys: npt.NDArray[np.int8]
     """K: of each closure."""
     dropped_closures: npt.NDArray[np.float64]
-    """K x 4: those that the final pass refused; storey by storey."""
+    """K x 4: those that were dropped, on the way or in the final pass; storey by storey."""
     dropped_closure_storeys: npt.NDArray[np.int8]
     """K: of each of these."""
     grid: Grid

@@ -56,7 +56,7 @@ class Pose:
 @dataclass(frozen=True, eq=False)
 class Ranges:
     """The beams of a sample, in the body frame; they begin at its origin. The Pose of the same sequence is where they
-    were measured, and comes before them."""
+    were measured. In frames map and local it comes before them, in frame odom after them."""
 
     HIT: ClassVar[int] = 0
     NO_RETURN: ClassVar[int] = 1
@@ -129,7 +129,7 @@ class Walls:
 
 @dataclass(frozen=True)
 class Closure:
-    """A loop closure, when it is found and again if the final pass drops it."""
+    """A loop closure, when it is found and again if it is dropped, while flying or in the final pass."""
 
     time_s: float
     map_id: int
