@@ -164,7 +164,6 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
   visit("backend_detector", backend.detector);
   visit("backend_matcher", backend.matcher);
   visit("backend_cross_check", backend.cross_check);
-  visit("backend_groups", backend.groups);
   visit("backend_places", backend.places);
   visit("backend_covariance", backend.covariance);
   visit("backend_confidence", backend.confidence);

@@ -28,8 +28,7 @@ struct BackendConfig {
   double search_radius_m = 8.0;
   double search_angle_rad = radians(30);
   int max_candidates = 8;
-  double min_score = 0.5;
-  double min_group_score = 0.4;
+  double min_score = 0.4;
   int min_match_points = 30;
 
   // Pose graph
@@ -73,9 +72,10 @@ struct BackendConfig {
       {"max_candidates", &BackendConfig::max_candidates, "",
        "submaps searched per keyframe at most, the most overlapping first", 1, 1000},
       {"min_score", &BackendConfig::min_score, "",
-       "mean probability under the scan's points that makes a closure", 0.01, 0.99},
-      {"min_group_score", &BackendConfig::min_group_score, "",
-       "... that makes one together with others that agree", 0.01, 0.99},
+       "mean probability under the scan's points that makes a closure in the narrowest window; wider ones "
+       "ask "
+       "for more",
+       0.01, 0.99},
       {"min_match_points", &BackendConfig::min_match_points, "", "fewer points decide nothing", 3, 100000},
       {"align_to_walls", &BackendConfig::align_to_walls, "",
        "hold the heading by the axis that a building's walls share"},

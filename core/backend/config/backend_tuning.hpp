@@ -75,26 +75,6 @@ struct CrossCheckTuning {
       {"kernel_cells", &CrossCheckTuning::kernel_cells}};
 };
 
-struct ClosureGroupTuning {
-  double reach_m = 30.0;          ///< travel over which a tentative match waits ...
-  std::size_t max_waiting = 100;  ///< ... while there are no more than this
-  double max_chi_square = 7.81;   ///< of two that agree: three degrees of freedom, 95 %
-  std::size_t min_members = 6;    ///< of a group that is accepted
-  double max_sigma_m = 1.0;  ///< of its position in the worst direction, without any one and those near it:
-                             ///< along a corridor many agree with whatever one alone states
-  double near_m = 2.0;       ///< travel between queries whose matches count as one
-  double max_rival_share = 0.5;  ///< size of a second group against its own: more is ambiguous
-
-  static constexpr TuningValue<ClosureGroupTuning> kValues[] = {
-      {"reach_m", &ClosureGroupTuning::reach_m},
-      {"max_waiting", &ClosureGroupTuning::max_waiting},
-      {"max_chi_square", &ClosureGroupTuning::max_chi_square},
-      {"min_members", &ClosureGroupTuning::min_members},
-      {"max_sigma_m", &ClosureGroupTuning::max_sigma_m},
-      {"near_m", &ClosureGroupTuning::near_m},
-      {"max_rival_share", &ClosureGroupTuning::max_rival_share}};
-};
-
 struct PlaceHypothesesTuning {
   double way_between_m = 2.0;           ///< travel between queries
   std::size_t max_queries = 20;         ///< older ones are forgotten: 40 m
@@ -190,7 +170,7 @@ struct KeyframeGraphTuning {
   double live_step = 1e-3;                ///< metres or radians, converged; the next keyframe goes on
   int live_iterations = 4;                ///< a keyframe
   double final_step = 1e-5;               ///< metres or radians, converged at the end of the run
-  double max_misfit = 1.5;  ///< chi-square a closure of a group: half of the three that its degrees of
+  double max_misfit = 1.5;  ///< chi-square a closure of a place: half of the three that its degrees of
                             ///< freedom would allow, for the covariances of matches are wide
   double lost_heading_rad = radians(15);  ///< standard deviation from which on motion alone does not give it
   double axis_every_share =
@@ -398,7 +378,6 @@ struct BackendTuning {
   LoopDetectorTuning detector;
   CorrelativeMatcherTuning matcher;
   CrossCheckTuning cross_check;
-  ClosureGroupTuning groups;
   PlaceHypothesesTuning places;
   RelativeCovarianceTuning covariance;
   ConfidenceTuning confidence;

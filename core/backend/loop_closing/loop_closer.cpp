@@ -25,8 +25,7 @@ LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, cons
       chain_(&chain),
       detector_(config, scans, chain),
       elsewhere_(config, scans, chain),
-      places_(config, scans, chain),
-      groups_(chain, config) {}
+      places_(config, scans, chain) {}
 
 /// Each submap is one stretch of known motion on one storey.
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
@@ -115,11 +114,7 @@ std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, Key
   const FoundLoops found = detector_.find(chain_->all().last_id(), watched_since(), submaps_, graph.graph(),
                                           T_local_keyframe, counters_.candidates_matched);
   for (const LoopClosure& closure : found.confirmed) accept(closure, graph);
-  if (unplaced_since_) {
-    place_travel(found.tentative, T_local_keyframe, graph);
-  } else if (!found.tentative.empty()) {
-    accept_group(groups_.add(found.tentative, graph.graph()), graph);
-  }
+  if (unplaced_since_) place_travel(found.tentative, T_local_keyframe, graph);
   return static_cast<std::uint32_t>(closures_.size() - before);
 }
 
@@ -164,7 +159,8 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
     for (const LoopClosure& match : elsewhere_.take_found()) proposed_.push_back(match);
     if (is_new) elsewhere_.begin(newest, recent, earlier, T_local_keyframe);
   }
-  accept_group(places_.decided(), graph);
+  if (is_new) place_is_refused_ = false;
+  if (!place_is_refused_) place_is_refused_ = !accept_place(places_.decided(), graph);
 }
 
 void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
@@ -211,16 +207,21 @@ void LoopCloser::accept(LoopClosure closure, KeyframeGraph& graph) {
   closures_.push_back(closure);
 }
 
-void LoopCloser::accept_group(std::span<const LoopClosure> group, KeyframeGraph& graph) {
-  if (group.empty()) return;
+/// False: it does not fit into the graph, which is as it was. The contact is with the map before it moved.
+bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
+  if (decided.empty()) return true;
   std::vector<RelativePoseFactor<KeyframeId>> factors;
-  for (const LoopClosure& closure : group) factors.push_back(factor_of(closure));
-  if (!graph.accommodate(factors)) return;
-  if (unplaced_since_ && group.front().from < *unplaced_since_) {
-    unplaced_since_.reset();
-    forget_places();
+  for (const LoopClosure& closure : decided) factors.push_back(factor_of(closure));
+  const std::optional<Contact> contact_before = contact_;
+  note_contact(decided.front().to, graph.graph());
+  if (!graph.accommodate(factors)) {
+    contact_ = contact_before;
+    return false;
   }
-  for (const LoopClosure& closure : group) accept(closure, graph);
+  unplaced_since_.reset();
+  forget_places();
+  for (const LoopClosure& closure : decided) accept(closure, graph);
+  return true;
 }
 
 void LoopCloser::take_scales(const PoseGraph& graph) {
@@ -244,7 +245,6 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
   closures_.erase_if([&](const LoopClosure& closure) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
-  groups_.clear();
   if (contact_ && pruned.contains(contact_->since)) contact_.reset();
   forget_places(pruned);
 }

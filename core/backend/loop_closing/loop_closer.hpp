@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "core/backend/loop_closing/closure_groups.hpp"
 #include "core/backend/loop_closing/loop_closure.hpp"
 #include "core/backend/loop_closing/loop_detector.hpp"
 #include "core/backend/loop_closing/place_hypotheses.hpp"
@@ -31,8 +30,8 @@ struct LoopCloserCounters {
   std::uint64_t closures_dropped = 0;
 };
 
-/// Builds submaps, looks for loops, and adds closures to the graph: confirmed matches at once, tentative ones
-/// once a group of them agrees. One thread at a time; allocates.
+/// Builds submaps, looks for loops, and adds closures to the graph: confirmed matches at once, those with
+/// what lies before a break once the place is decided. One thread at a time; allocates.
 class LoopCloser {
  public:
   /// The travel since older ground was met again, which closures tell.
@@ -66,7 +65,7 @@ class LoopCloser {
   void take_scales(const PoseGraph& graph);
   /// Drops the closure that DCS scales down most, if any lies below config.drop_scale. False: none does.
   bool drop_worst(KeyframeGraph& graph);
-  /// Submaps go with the keyframe that is their frame, closures with either end; tentative matches are
+  /// Submaps go with the keyframe that is their frame, closures with either end; places that are weighed are
   /// forgotten.
   void erase(const IdRanges<KeyframeId>& pruned);
 
@@ -98,7 +97,7 @@ class LoopCloser {
   void note_contact(KeyframeId query, const PoseGraph& graph);
   void drop(LoopClosure& closure, KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);
-  void accept_group(std::span<const LoopClosure> group, KeyframeGraph& graph);
+  bool accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph);
 
   const BackendConfig* config_;
   const ScanStore* scans_;
@@ -106,14 +105,14 @@ class LoopCloser {
   LoopDetector detector_;
   PlaceSearch elsewhere_;
   PlaceHypotheses places_;
-  std::vector<LoopClosure> proposed_;  // to places_
-  ClosureGroups groups_;
+  std::vector<LoopClosure> proposed_;     // to places_
   std::vector<KeyframeId> open_submaps_;  // where those being travelled begin
   std::vector<std::shared_ptr<const Submap>> submaps_;
   IdMap<ClosureId, LoopClosure> closures_;
   std::optional<Contact> contact_;            // the newest
-  std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no group has placed it
+  std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no place is decided
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
+  bool place_is_refused_ = false;              // by the graph, since the newest query
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...
   double suspended_at_m_ = 0.0;                // ... and the travel at its end
   LoopCloserCounters counters_;

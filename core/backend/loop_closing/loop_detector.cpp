@@ -14,10 +14,6 @@
 namespace swiftlet {
 namespace {
 
-double lowest_score(const BackendConfig& config) {
-  return std::min(config.min_group_score, config.min_score);
-}
-
 double newer_length_m(const BackendConfig& config) {
   return std::min(config.tuning.detector.newer_query_m, config.multiscan_length_m);
 }
@@ -67,6 +63,15 @@ double share_within(std::span<const Point2> points, const SearchWindow& window, 
               q.y_m < submap.high_m.y_m + r;
   }
   return static_cast<double>(inside) / static_cast<double>(points.size());
+}
+
+/// Each place and heading of a wide window may be the best by chance: odds of as many to one, at
+/// likelihood_per_score, are asked for beyond those in the narrowest window.
+double score_needed(const SearchWindow& window, const BackendConfig& config) {
+  const LoopDetectorTuning& narrowest = config.tuning.detector;
+  const double width = window.radius_m / narrowest.min_search_radius_m;
+  const double volume = width * width * window.angle_rad / narrowest.min_search_angle_rad;
+  return config.min_score + std::log(volume) / config.tuning.matcher.likelihood_per_score;
 }
 
 }  // namespace
@@ -147,7 +152,7 @@ std::vector<LoopDetector::Candidate> LoopDetector::candidates(
                  config_->search_angle_rad);
     c.travel = c.window.radius_m <= tuning.newer_query_m ? &newer : &whole;
     c.overlap = share_within(c.travel->points, c.window, *submap);
-    if (c.overlap >= lowest_score(*config_)) found.push_back(c);
+    if (c.overlap >= config_->min_score) found.push_back(c);
   }
   const auto most = static_cast<std::size_t>(config_->max_candidates);
   std::stable_sort(found.begin(), found.end(),
@@ -167,9 +172,9 @@ FoundLoops LoopDetector::find(KeyframeId query, KeyframeId since,
     ++tried;
     const std::optional<MatchResult> match =
         CorrelativeMatcher(*c.submap, c.travel->points, c.window, config_->tuning.matcher)
-            .match(lowest_score(*config_));
+            .match(config_->min_score);
     if (!match || !c.travel->cross_check.holds(*c.submap, match->T_submap_scan_best)) continue;
-    const bool is_sure = match->score >= config_->min_score && c.submap->reference >= since;
+    const bool is_sure = match->score >= score_needed(c.window, *config_) && c.submap->reference >= since;
     (is_sure ? loops.confirmed : loops.tentative)
         .push_back({.from = c.submap->reference,
                     .to = query,

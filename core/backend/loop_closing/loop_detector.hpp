@@ -16,8 +16,9 @@ namespace swiftlet {
 
 /// What one query found.
 struct FoundLoops {
-  std::vector<LoopClosure> confirmed;  ///< scores of at least config.min_score
-  std::vector<LoopClosure> tentative;  ///< ... of at least config.min_group_score: each alone proves nothing
+  std::vector<LoopClosure> confirmed;
+  std::vector<LoopClosure> tentative;  ///< too low a score for so wide a window, or with what lies before a
+                                       ///< break: each alone proves nothing
 };
 
 /// Finds where the recent travel overlaps earlier submaps (Algorithm 3, lines 1-2).

@@ -106,7 +106,7 @@ PlaceHypotheses::Evidence PlaceHypotheses::evidence(Query& query, const Pose2& T
       CorrelativeMatcher(*best, query.points,
                          {T_submap_query, window.min_search_radius_m, window.min_search_angle_rad},
                          config_->tuning.matcher)
-          .match(config_->min_group_score);
+          .match(config_->min_score);
   if (match) {
     T_submap_query = match->T_submap_scan_best;
     found.match = LoopClosure{.from = best->reference,
@@ -261,8 +261,7 @@ std::vector<LoopClosure> PlaceHypotheses::turned(std::span<const std::shared_ptr
     if (i == 0) continue;
     const Pose2 T_map_query = graph.T_map_keyframe[*break_.moved_at] * Pose2(0.0, 0.0, i * step_rad) * way;
     const Evidence found = evidence(queries_.back(), T_map_query, submaps, graph);
-    if (found.match && found.log_likelihood > 0.0 && found.match->score >= config_->min_score)
-      matches.push_back(*found.match);
+    if (found.match && found.log_likelihood > 0.0) matches.push_back(*found.match);
   }
   return matches;
 }

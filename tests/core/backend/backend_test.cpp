@@ -337,21 +337,6 @@ TEST(Backend, ALongWayIsGoneOverTheNextKeyframes) {
     ASSERT_TRUE(poses_near(live[i], backend->T_map_body(make_id<ScanId>(i)), 0.01, 0.01)) << "scan " << i;
 }
 
-TEST(Backend, MatchesTooWeakAloneCloseLoopsTogether) {
-  BackendConfig config;
-  config.min_score = 0.99;
-  const auto together = make_backend(config);
-  feed(*together, two_laps().samples());
-  together->finish();
-  EXPECT_GE(together->closures().size(), 6U);
-  EXPECT_LT(aligned_rms_error_m(corrected(*together), two_laps().T_world_body()), 0.15);
-  config.min_group_score = 0.99;
-  const auto alone = make_backend(config);
-  feed(*alone, two_laps().samples());
-  alone->finish();
-  EXPECT_TRUE(alone->closures().empty());
-}
-
 TEST(Backend, WallsAreKeptOnceEachWithTheirLastAnchor) {
   const auto backend = make_backend();
   DeadReckoningFrontend frontend;
@@ -428,26 +413,6 @@ TEST(Backend, WallsFromBeforeAnUnknownMotionTellNoHeading) {
   samples[restart].starts_segment = true;
   EXPECT_LT(3.0 * yaw_error_at_the_end_rad(samples, restart, true),
             yaw_error_at_the_end_rad(samples, restart, false));
-}
-
-TEST(Backend, AGroupThatDoesNotHoldTogetherAgainstTheRestIsRefused) {
-  // On the third lap the whole building stands elsewhere: its closures agree with each other, but neither
-  // with the motion, which is known well, nor with the other laps.
-  TestVehicle vehicle = vehicle_at_start({}, 5);
-  fly_along(vehicle, loop_corridor(), "bcdabcda");
-  const std::size_t moved_at = vehicle.samples().size();
-  fly_along(vehicle, loop_corridor({0.35, 0.35}), "bcda");
-  BackendConfig config;
-  config.min_score = 0.99;  // groups only
-  config.refine = false;
-  const auto backend = make_backend(config);
-  feed(*backend, vehicle.samples(),
-       {.floor_m = 1e-4, .per_metre_m = 1e-4, .floor_rad = 1e-5, .per_metre_rad = 1e-5});
-  EXPECT_GE(backend->closures().size(), 6U) << "of the second lap";
-  for (const LoopClosure& c : backend->closures().values()) {
-    EXPECT_LT(index_of(backend->keyframes().scan_of(c.to)), moved_at);
-  }
-  EXPECT_LT(aligned_rms_error_m(corrected(*backend), vehicle.T_world_body()), 0.05);
 }
 
 TEST(Backend, AnEmptyRunFinishesQuietly) {

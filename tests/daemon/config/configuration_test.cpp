@@ -311,11 +311,11 @@ TEST(LoadConfiguration, RefusesImpossibleTuningWithFileAndLine) {
   for (const char* number : {"0", "nan", "inf", "1e9", "1e-9"})
     EXPECT_THAT(refusal(std::string("backend_matcher.floor_sigma_m = ") + number),
                 HasSubstr("must lie between"));
-  EXPECT_THAT(refusal("backend_groups.min_members = 0"), HasSubstr("must lie between 1 and 600"));
+  EXPECT_THAT(refusal("backend_patches.min_returns = 0"), HasSubstr("must lie between 1 and 800"));
   EXPECT_THAT(refusal("frontend_axis.other_axis_keyframes = -1"), HasSubstr("must lie between 1 and 2400"));
-  EXPECT_THAT(refusal("backend_groups.max_rival_share = 1.1"), HasSubstr("between 0.005 and 1"));
+  EXPECT_THAT(refusal("backend_refinement.step_weight = 30"), HasSubstr("between 0.0025 and 25"));
   EXPECT_THAT(refusal("map_walls.occupied_percent = 130"), HasSubstr("between 1 and 100"));
-  EXPECT_EQ(refusal("backend_groups.max_rival_share = 1.0"), "accepted");
+  EXPECT_EQ(refusal("backend_walls.rival_share = 1.0"), "accepted");
   EXPECT_EQ(refusal("backend_matcher.floor_sigma_m = 0.1"), "accepted");
 }
 

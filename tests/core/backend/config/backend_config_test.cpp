@@ -36,7 +36,6 @@ TEST(BackendConfig, AllProblemsAreListedAtOnce) {
   config.search_angle_rad = 4.0;
   config.max_candidates = 0;
   config.min_score = 1.0;
-  config.min_group_score = 0.0;
   config.min_match_points = 2;
   config.dcs_phi = 0.0;
   config.drop_scale = 1.0;
@@ -48,8 +47,8 @@ TEST(BackendConfig, AllProblemsAreListedAtOnce) {
   for (const char* key :
        {"submap_length_m", "grid_resolution_m", "hit_probability", "miss_probability", "max_kernel_cells",
         "multiscan_length_m", "match_every_keyframes", "min_travel_between_m", "search_radius_m",
-        "search_angle_rad", "max_candidates", "min_score", "min_group_score", "min_match_points", "dcs_phi",
-        "drop_scale", "optimizer_iterations", "refinement_iterations", "max_scans"}) {
+        "search_angle_rad", "max_candidates", "min_score", "min_match_points", "dcs_phi", "drop_scale",
+        "optimizer_iterations", "refinement_iterations", "max_scans"}) {
     EXPECT_THAT(problems, Contains(StartsWith(std::string("backend.") + key + " = "))) << key;
   }
 }

@@ -146,6 +146,19 @@ TEST_F(DriftedLoops, TheTravelSinceATrueContactContradictsTheMapWithoutIt) {
   EXPECT_GT(by_dead_reckoning, by_graph + 9.8) << "the evidence that an alarm takes";
 }
 
+TEST(LoopCloser, APlaceBehindABreakIsAContactThatMovedTheMap) {
+  TestVehicle vehicle = vehicle_at_start({}, 3);
+  fly_along(vehicle, loop_corridor(), "bcda");
+  const Point2 start = loop_corridor().place('a');
+  vehicle.carry_to(loop_corridor(), Pose2(start.x_m + 0.7, start.y_m + 0.5, 0.2));
+  fly_along(vehicle, loop_corridor(), "bcda");
+  FlownLoops flown(vehicle);
+  while (!flown.loops().unplaced_since()) flown.feed_one();
+  for (int metre = 0; flown.loops().unplaced_since() && metre < 30; ++metre) flown.feed_metres(1.0);
+  ASSERT_FALSE(flown.loops().unplaced_since());
+  EXPECT_TRUE(flown.contact_that_moved());
+}
+
 TEST(LoopCloser, AContactThatMovedNothingIsNotAtFault) {
   const TestVehicle vehicle = two_laps(0.0);
   FlownLoops flown(vehicle);

@@ -261,7 +261,7 @@ TEST_F(PlaceHypothesesTest, UnknownGroundIsNoEvidence) {
 
 TEST_F(PlaceHypothesesTest, AMatchOfWhatIsLikelierFreeIsNoneOfItsMatches) {
   change_cells([](std::uint8_t occupied) { return static_cast<std::uint8_t>((occupied + 1) / 2); });
-  config_.min_group_score = 0.05;
+  config_.min_score = 0.05;
   config_.tuning.places.max_sigma_m = kAny;
   config_.tuning.places.not_moved_odds = 1e300;
   places_.begin(carried_for(seconds(10)));
