@@ -3,6 +3,7 @@
 #include "core/backend/loop_closing/place_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/angle.hpp"
 
@@ -11,6 +12,20 @@ namespace {
 
 constexpr int kCoarseness = 3;         // cells a side of a coarse cell: as wide as the max kernel
 constexpr double kHeadingReach = 2.0;  // coarse angular steps around what the coarse search has found
+
+/// Those that the one before and the one behind draw again, half by half.
+void leave_out_covered(std::vector<std::shared_ptr<const Submap>>& submaps) {
+  const auto meet = [](const Submap& earlier, const Submap& later) {
+    return later.scans.first < earlier.scans.end;
+  };
+  std::vector<std::shared_ptr<const Submap>> kept;
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    const bool is_covered = i > 0 && i + 1 < submaps.size() && kept.back() == submaps[i - 1] &&
+                            meet(*submaps[i - 1], *submaps[i]) && meet(*submaps[i], *submaps[i + 1]);
+    if (!is_covered) kept.push_back(submaps[i]);
+  }
+  submaps = std::move(kept);
+}
 
 /// Anywhere on the submap, with any heading.
 SearchWindow window_over(const Submap& submap) {
@@ -58,8 +73,9 @@ void PlaceSearch::begin(KeyframeId query, const ScanRange& recent,
       thinned_hits(*scans_, *chain_, recent, T_local_keyframe, T_query_local, kCoarseness * thinning_cell_m);
   if (points_query_.size() < static_cast<std::size_t>(config_->min_match_points)) return;
   cross_check_.emplace(*config_, *scans_, *chain_, recent, query, T_local_keyframe);
-  for (std::size_t i = 0; i < submaps.size(); i += 2)
-    if (submaps[i]->storey == chain_->storey(query)) left_.push_back(submaps[i]);
+  for (const auto& submap : submaps)
+    if (submap->storey == chain_->storey(query)) left_.push_back(submap);
+  leave_out_covered(left_);
 }
 
 /// The best of all places in coarse cells, and then the best around it.

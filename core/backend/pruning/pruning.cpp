@@ -54,6 +54,9 @@ class Coverage {
   [[nodiscard]] std::optional<KeyframeId> anchor_of(const Traversal& traversal, double other_time_m) const;
 
  private:
+  [[nodiscard]] Tile tile_of(StoreyId storey, const Point2& p_map) const {
+    return {storey, floor_to_int(p_map.x_m / tuning_.tile_m), floor_to_int(p_map.y_m / tuning_.tile_m)};
+  }
   [[nodiscard]] Traversal make_traversal(TraversalId id);
   void judge();
   static void keep(Traversal& traversal) {
@@ -80,17 +83,17 @@ Traversal Coverage::make_traversal(TraversalId id) {
   traversal.path_m = chain_.path_m(middle);
   std::map<Tile, std::size_t> returns_in;
   const std::size_t every = 1 + scans_.return_count(traversal.scans) / tuning_.returns_per_traversal;
-  std::size_t number_of_return = 0;
   const std::vector<Pose2> T_map_body = chain_.T_w_bodies(traversal.scans, T_map_keyframe_);
   const std::span<const StoredScan> scans = scans_.all().values(traversal.scans);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     for (const ScanReturn& beam : scans_.returns(scans[i])) {
-      if (number_of_return++ % every != 0 || !beam.is_hit) continue;
+      if ((i + beam.beam) % every != 0 || !beam.is_hit) continue;  // each beam in its turn
       const Point2 p = T_map_body[i] * scans_.point_body(beam);
-      ++returns_in[{scans[i].storey, floor_to_int(p.x_m / tuning_.tile_m),
-                    floor_to_int(p.y_m / tuning_.tile_m)}];
+      ++returns_in[tile_of(scans[i].storey, p)];
     }
   }
+  if (returns_in.empty())  // all walls are out of reach
+    ++returns_in[tile_of(traversal.storey, traversal.middle_map)];
   std::size_t all = 0;
   for (const auto& [tile, count] : returns_in) all += count;
   for (const auto& [tile, count] : returns_in) {

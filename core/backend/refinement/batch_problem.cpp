@@ -13,13 +13,12 @@ RefinementProblem hits_of(const BatchRefinement& batch) {
   RefinementProblem hits(tuning);
   const ScanRange range = batch.scan_range();
   const std::size_t first = batch.scans.all().position(range.first);
-  const std::size_t every = 1 + batch.scans.return_count(range) / batch.max_returns;
+  const std::size_t every = 1 + (batch.scans.return_count(range) - 1) / batch.max_returns;
   const std::span<const StoredScan> stored = batch.stored();
-  std::size_t number = 0;
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const ScanId id = batch.scans.all().id_at(first + i);
     for (const ScanReturn& beam : batch.scans.returns(stored[i])) {
-      if (!beam.is_hit || number++ % every != 0) continue;
+      if (!beam.is_hit || (i + beam.beam) % every != 0) continue;  // each beam in its turn
       hits.add({make_id<PoseIndex>(i), index_of(traversal_of(stored[i])), stored[i].storey,
                 is_held_out(id, beam.beam, tuning), batch.scans.point_body(beam)});
     }

@@ -11,9 +11,16 @@
 #include "core/geometry/cell_numbers.hpp"
 
 namespace swiftlet {
+namespace {
+
+/// What is known of the scan before says nothing of one that begins elsewhere.
+bool begins_elsewhere(const StoredScan& scan) { return scan.starts_segment && !scan.odometry_ran_on; }
+
+}  // namespace
+
 void OnlineRefinement::add_scan() {
-  const StoredScan& scan = (*scans_)[T_graph_refined_.end_id()];
-  const bool is_carried_on = !T_graph_refined_.empty() && (!scan.starts_segment || scan.odometry_ran_on);
+  const bool is_carried_on =
+      !T_graph_refined_.empty() && !begins_elsewhere((*scans_)[T_graph_refined_.end_id()]);
   T_graph_refined_.push_back(is_carried_on ? T_graph_refined_.values().back() : Pose2());
 }
 
@@ -119,9 +126,12 @@ void OnlineRefinement::take(const ScanRange& window, const WindowPoses& poses,
 
 void OnlineRefinement::take_offsets(const ScanRange& scans, std::span<const Pose2> T_graph_refined,
                                     const KeyframePoses& T_map_keyframe) {
-  const std::span<Pose2> behind = T_graph_refined_.values().subspan(scans_->all().position(scans.first));
-  const auto [taken, next] = std::ranges::copy(T_graph_refined, behind.begin());
-  std::fill(next, behind.end(), T_graph_refined.back());
+  const std::size_t first = scans_->all().position(scans.first);
+  const auto [taken, next] =
+      std::ranges::copy(T_graph_refined, T_graph_refined_.values().subspan(first).begin());
+  const std::span<const StoredScan> newer = scans_->all().values().subspan(first + T_graph_refined.size());
+  const auto carried_on = std::ranges::find_if(newer, begins_elsewhere) - newer.begin();
+  std::fill_n(next, carried_on, T_graph_refined.back());
   file_anew({scans.first, scans_->all().end_id()}, T_map_keyframe);
 }
 

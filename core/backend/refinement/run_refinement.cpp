@@ -24,16 +24,17 @@ void scale_information(Factor& factor) {
   factor.information *= factor.dcs_scale * factor.dcs_scale;
 }
 
-/// Of those with both ends in the range.
+/// Of those that lead from one range to the other.
 std::vector<RelativePoseFactor<ScanId>> closures_between_scans(const PoseGraph& graph,
                                                                const KeyframeChain& chain,
-                                                               const ScanRange& range) {
+                                                               const ScanRange& range_from,
+                                                               const ScanRange& range_to) {
   std::vector<RelativePoseFactor<ScanId>> closures;
   for (const RelativePoseFactor<KeyframeId>& f : graph.factors.values()) {
     if (!f.is_closure || f.information.isZero(0.0)) continue;
     const ScanId from = chain.scan_of(f.from);
     const ScanId to = chain.scan_of(f.to);
-    if (!range.contains(from) || !range.contains(to)) continue;
+    if (!range_from.contains(from) || !range_to.contains(to)) continue;
     closures.push_back(f.joining(from, to));
     scale_information(closures.back());
   }
@@ -129,7 +130,7 @@ bool RunRefinement::refine_stretch(const PoseGraph& graph, bool has_closed) {
   has_closed_ = false;
   stretch_begun_m_ = here_m;
   const ScanRange stretch = newest_stretch();
-  const Known known = known_of(graph, stretch);
+  const Known known = known_of_stretch(graph, stretch);
   stretch_.begin({.scans = *scans_,
                   .sensor = sensor_,
                   .closures = known.closures,
@@ -170,7 +171,22 @@ RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const Pose
 }
 
 RunRefinement::Known RunRefinement::known_of(const PoseGraph& graph, const ScanRange& range) const {
-  return {closures_between_scans(graph, *chain_, range), headings_of_scans(graph, *chain_, range)};
+  return {closures_between_scans(graph, *chain_, range, range), headings_of_scans(graph, *chain_, range)};
+}
+
+/// Where a closure begins before the stretch, the first scan of that, which is held, stands for its
+/// beginning.
+RunRefinement::Known RunRefinement::known_of_stretch(const PoseGraph& graph, const ScanRange& stretch) const {
+  Known known = known_of(graph, stretch);
+  const Pose2 T_first_map = T_map_body(stretch.first, graph.T_map_keyframe).inverse();
+  const ScanRange before{scans_->all().first_id(), stretch.first};
+  const ScanRange behind_first{scans_->all().at_or_after(stretch.first + 1), stretch.end};
+  for (RelativePoseFactor<ScanId> closure : closures_between_scans(graph, *chain_, before, behind_first)) {
+    closure.T_from_to = T_first_map * T_map_body(closure.from, graph.T_map_keyframe) * closure.T_from_to;
+    closure.from = stretch.first;
+    known.closures.push_back(closure);
+  }
+  return known;
 }
 
 /// Nothing, unless it is the graph's path.
@@ -292,8 +308,7 @@ void RunRefinement::take(Hypothesis best) {
   counters_.yaw_noise_factor = best.yaw_noise_factor;
   counters_.floor_cost = best.floor.cost;
   counters_.misfit = sum(best.report.misfit);
-  if (best.report.accepted || best.source != MapSource::kPoseGraph)
-    T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
+  T_map_refined_ = scans_->all().with(std::move(best.T_map_body));
 }
 
 /// Where dead reckoning is the map it stays: each other path would be one more chance to beat it by luck.
@@ -312,7 +327,10 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
 
 void RunRefinement::erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals) {
   online_.erase(scans, traversals);
+  if (!stretch_.is_busy()) return;
   stretch_.abandon();
+  has_closed_ = true;
+  stretch_begun_m_.reset();
 }
 
 Pose2 RunRefinement::T_map_body(ScanId scan, const KeyframePoses& T_map_keyframe) const {

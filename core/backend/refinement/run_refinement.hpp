@@ -90,6 +90,7 @@ class RunRefinement {
   };
   [[nodiscard]] Known known_of(const PoseGraph& graph, const ScanRange& range) const;
   [[nodiscard]] Known known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const;
+  [[nodiscard]] Known known_of_stretch(const PoseGraph& graph, const ScanRange& stretch) const;
   [[nodiscard]] ScanRange newest_stretch() const;
   bool take_stretch(const KeyframePoses& T_map_keyframe);
   [[nodiscard]] BatchRefinement batch(const Hypothesis& hypothesis, const Known& known) const;
@@ -109,7 +110,7 @@ class RunRefinement {
   const KeyframeChain* chain_;
   OnlineRefinement online_;
   StretchRefinement stretch_;
-  bool has_closed_ = false;                // since the newest stretch was begun ...
+  bool has_closed_ = false;                // since a stretch was begun that was not given up ...
   std::optional<double> stretch_begun_m_;  // ... at this travel
   IdMap<ScanId, Pose2> T_map_refined_;     // by refine_all()
   RefinementCounters counters_;

@@ -99,6 +99,17 @@ TEST_F(PlaceSearchTest, AnotherStoreyIsNotSearched) {
   EXPECT_TRUE(found(kLapM + 8.0, kLapM + 14.0, one_storey_up(submaps())).empty());
 }
 
+TEST_F(PlaceSearchTest, ASubmapThatNoNeighbourCoversIsSearched) {
+  const std::vector<std::shared_ptr<const Submap>> all = submaps();
+  const std::vector<LoopClosure> closures = found(kLapM + 8.0, kLapM + 14.0, all);
+  ASSERT_FALSE(closures.empty());
+  const auto has_found = [&](const auto& submap) { return submap->reference == closures.front().from; };
+  const auto right = std::ranges::find_if(all, has_found);
+  const auto unrelated = right - all.begin() < 5 ? all.back() : all.front();
+  EXPECT_FALSE(found(kLapM + 8.0, kLapM + 14.0, {unrelated, *right}).empty());
+  EXPECT_FALSE(found(kLapM + 8.0, kLapM + 14.0, {unrelated, *right, unrelated}).empty());
+}
+
 TEST_F(PlaceSearchTest, TooFewHitsAreNotSearchedFor) { EXPECT_TRUE(found(kLapM + 8.0, kLapM + 8.2).empty()); }
 
 TEST_F(PlaceSearchTest, AStoppedSearchHasFoundNothing) {

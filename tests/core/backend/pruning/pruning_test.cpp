@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "core/backend/refinement/point_to_line_factor.hpp"
@@ -81,6 +82,21 @@ TEST(Pruning, LeavesALookIntoARoomThatNoOtherPassSaw) {
   for (const PrunedTraversal& traversal : all.traversals)
     EXPECT_TRUE(traversal.scans.end <= first || traversal.scans.first >= end)
         << index_of(traversal.scans.first);
+}
+
+TEST(Pruning, TakesTravelThatMetNoWall) {
+  std::vector<RangeSample> samples = laps(10);
+  for (RangeSample& sample : samples)
+    if (sample.T_odom_body.x_m() > 3.0 && sample.T_odom_body.x_m() < 7.0)
+      for (RangeStatus& status : sample.status) status = RangeStatus::kNoReturn;
+  const StoredRun run(samples);
+  const auto has_met_a_wall = [&](const PrunedTraversal& traversal) {
+    return std::ranges::any_of(run.scans().all().values(traversal.scans), [&](const StoredScan& scan) {
+      return std::ranges::any_of(run.scans().returns(scan), &ScanReturn::is_hit);
+    });
+  };
+  const Pruning all = plan(run, 1'000'000);
+  EXPECT_GT(std::ranges::count_if(all.traversals, std::not_fn(has_met_a_wall)), 6);
 }
 
 /// Ten laps, each on the storey that `storey_of` gives.

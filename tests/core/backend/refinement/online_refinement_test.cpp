@@ -179,6 +179,24 @@ TEST(OnlineRefinement, OffsetsThatAreTakenReachToTheNewestScan) {
   }
 }
 
+TEST(OnlineRefinement, OffsetsThatAreTakenReachNoScanThatBeginsElsewhere) {
+  for (const bool ran_on : {false, true}) {
+    const auto run = refined(flown("ba"));
+    const ScanId begins = run->scans.all().end_id();
+    FrontendStep step;
+    step.sample.starts_segment = true;
+    step.sample.odometry_ran_on = ran_on;
+    run->scans.add(step);
+    run->live.add_scan();
+    const Pose2 before = run->live.refined(begins, Pose2());
+    const std::vector<Pose2> offsets(50, Pose2(0.3, 0.1, 0.02));
+    run->live.take_offsets({ScanId{}, make_id<ScanId>(50)}, offsets, run->T_graph);
+    EXPECT_TRUE(poses_near(run->live.refined(make_id<ScanId>(index_of(begins) - 1), Pose2()), offsets.back(),
+                           0.0, 0.0));
+    EXPECT_TRUE(poses_near(run->live.refined(begins, Pose2()), ran_on ? offsets.back() : before, 0.0, 0.0));
+  }
+}
+
 TEST(OnlineRefinement, WallsAreFoundWhereOffsetsThatWereTakenPutThem) {
   // All scans move, by their offsets alone; the walls that they see move with them.
   const auto run = refined(flown("baba"));
