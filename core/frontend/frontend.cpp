@@ -150,6 +150,9 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
   } else {
     ++newest;
     keyframe_motion = since_keyframe;
+    // The storey may change on the spot; a motion without any error has no information matrix.
+    if (keyframe_motion.covariance.isZero(0.0))
+      keyframe_motion.covariance = odometry_sigma(odometry_noise, Pose2(), Duration::zero()).covariance();
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
     axis.turn(since_keyframe.covariance(2, 2));
     viewpoint_covariance = J * since_keyframe.covariance * J.transpose();

@@ -268,6 +268,30 @@ TEST(Frontend, TakesNoWallsAlongToAnotherStoreyButTheMotion) {
   expect_other_walls_from(kStairs, out);
 }
 
+TEST(Frontend, StaysFiniteWhileTheStoreyChangesOnTheSpot) {
+  RoomDrive drive = usual_drive(11);
+  constexpr std::size_t kStairs = 120;
+  constexpr std::size_t kStays = 5;
+  const RangeSample there = drive.samples[kStairs];
+  const Pose2 T_room_body = drive.T_room_body[kStairs];
+  drive.samples.insert(drive.samples.begin() + kStairs, kStays, there);
+  drive.T_room_body.insert(drive.T_room_body.begin() + kStairs, kStays, T_room_body);
+  for (std::size_t i = 1; i <= kStays; ++i)
+    drive.samples[kStairs + i].storey = StoreyId{static_cast<std::uint8_t>(i % 2)};
+  const RunOutcome out = run(drive);
+  for (const FrontendStep& step : out.steps) ASSERT_TRUE(step.T_local_body.vector().allFinite());
+  for (std::size_t at = kStairs + 1; at <= kStairs + kStays + 1; ++at) {
+    const Keyframe& made = out.steps[at].made;
+    ASSERT_TRUE(out.steps[at].has_keyframe);
+    EXPECT_GT(made.motion_covariance.xx, 0.0);
+    EXPECT_GT(made.motion_covariance.yaw_yaw, 0.0);
+    const Pose2 step = between(made.T_local_keyframe.end()[-2], made.T_local_keyframe.back());
+    EXPECT_LT(std::hypot(step.x_m(), step.y_m()), at > kStairs + 1 && at <= kStairs + kStays ? 0.001 : 0.6);
+  }
+  EXPECT_LT(relative_error(drive, out.steps, 200).position_m,
+            1.2 * relative_error(usual_drive(11), run(usual_drive(11)).steps, 200).position_m);
+}
+
 TEST(Frontend, RollsBackABatchThatContradictsTheRest) {
   RoomDrive drive = usual_drive(12, {0.2, 0.0});
   // For a metre and a half the left beam reads steadily longer: the wall seems to lean away.
