@@ -10,14 +10,24 @@
 #include "firmware_link/session/vehicle_monitor.hpp"
 
 namespace swiftlet {
+namespace {
+
+bool is_finite(const std::optional<Point2>& position) {
+  return position && std::isfinite(position->x_m) && std::isfinite(position->y_m);
+}
+
+}  // namespace
 
 Reading LandedOdometryFreeze::hold(const Reading& reading) {
   if (reading.boot != boot_) {
     *this = LandedOdometryFreeze();
     boot_ = reading.boot;
   }
-  if (reading.position_odom) position_vehicle_ = reading.position_odom;
-  if (reading.yaw_odom_rad) yaw_vehicle_rad_ = reading.yaw_odom_rad;
+  // Numbers that are not finite pass as they are: the assembler leaves them out.
+  const bool has_position = is_finite(reading.position_odom);
+  const bool has_yaw = reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad);
+  if (has_position) position_vehicle_ = reading.position_odom;
+  if (has_yaw) yaw_vehicle_rad_ = reading.yaw_odom_rad;
   const std::optional<bool> is_flying = flies(reading);
   Reading held = reading;
   if (position_vehicle_ && yaw_vehicle_rad_) {
@@ -25,8 +35,8 @@ Reading LandedOdometryFreeze::hold(const Reading& reading) {
     if (is_flying) follow(*is_flying);
     if (state_ == State::kStanding) hold_still();
     const Pose2 T_odom_body = T_odom_vehicle_ * T_vehicle_body_;
-    if (held.position_odom) held.position_odom = T_odom_body.position();
-    if (held.yaw_odom_rad) held.yaw_odom_rad = T_odom_body.yaw_rad();
+    if (has_position) held.position_odom = T_odom_body.position();
+    if (has_yaw) held.yaw_odom_rad = T_odom_body.yaw_rad();
     held.odometry_restarted = std::exchange(restart_pending_, false);
   }
   if (state_ == State::kStanding)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/angle.hpp"
 
@@ -130,6 +131,21 @@ TEST(LandedOdometryFreeze, FreezesPositionAndYawOfDifferentReadings) {
   // It takes off again and flies along its nose; the estimate is turned by -0.4 by now.
   const Point2 flown = *position(2.0 + std::cos(0.1), true).position_odom;
   EXPECT_NEAR(flown.x_m, 2.0 + std::cos(0.1) * std::cos(0.4), 1e-9);
+}
+
+TEST(LandedOdometryFreeze, DamagedNumbersAtTheLandingDoNotOutliveTheirPacket) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  LandedOdometryFreeze ground;
+  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 2.0}, true)));
+  Reading damaged = reading_of({3.0, 1.0, 2.0}, false);
+  damaged.position_odom = Point2{kNaN, 1.0};
+  damaged.yaw_odom_rad = kInfinity;
+  const Reading held = ground.hold(damaged);
+  EXPECT_FALSE(std::isfinite(held.position_odom->x_m));  // for the assembler to leave out
+  EXPECT_FALSE(std::isfinite(*held.yaw_odom_rad));
+  expect_pose(ground.hold(reading_of({3.0, 1.0, 1.5}, false)), {3.0, 1.0, 2.0});
+  expect_pose(ground.hold(reading_of({3.0, 1.0, 1.5}, true)), {3.0, 1.0, 2.0});
 }
 
 TEST(LandedOdometryFreeze, ARebootDiscardsTheLanding) {
