@@ -38,6 +38,7 @@ Result<std::unique_ptr<FollowedLink>> FollowedLink::open(const std::string& path
     if (link->kept_ == nullptr)
       return Error{ErrorCode::kInvalidInput, path + ": no temporary file can be made in " P_tmpdir ": " +
                                                  std::strerror(errno) + "; make room there"};
+    link->name_ = path;
     link->path_ = "/proc/self/fd/" + std::to_string(::fileno(link->kept_));
     return link;
   }
@@ -56,10 +57,11 @@ FollowedLink::~FollowedLink() {
 Result<LinkFrame> FollowedLink::receive(Duration timeout) {
   const auto deadline = std::chrono::steady_clock::now() + timeout;
   for (;;) {
-    if (file_ >= 0) take_from_fifo();
+    if (file_ >= 0 && !failure_) take_from_fifo();
     const bool has_ended = fifo_has_ended_;
     Result<LinkFrame> frame = read_frame();
     if (frame || frame.error().code != ErrorCode::kTimeout) return frame;
+    if (failure_) return *failure_;
     if (has_ended) return Error{ErrorCode::kEndOfRecording, "the writer has closed the FIFO"};
     const auto left = std::chrono::duration_cast<Duration>(deadline - std::chrono::steady_clock::now());
     if (left <= Duration::zero()) return frame;
@@ -99,9 +101,16 @@ void FollowedLink::take_from_fifo() {
       break;
     }
     fifo_has_begun_ = true;
-    std::fwrite(bytes.data(), 1, static_cast<std::size_t>(size), kept_);
+    const auto taken = static_cast<std::size_t>(size);
+    if (std::fwrite(bytes.data(), 1, taken, kept_) != taken) return fail();
   }
-  std::fflush(kept_);
+  if (std::fflush(kept_) != 0) fail();
+}
+
+void FollowedLink::fail() {
+  failure_ =
+      Error{ErrorCode::kOutOfSpace, name_ + ": what came out of it could not be kept in " P_tmpdir ": " +
+                                        std::strerror(errno) + "; make room there"};
 }
 
 void FollowedLink::wait(Duration duration) const {

@@ -24,7 +24,8 @@ class FollowedLink final : public Link {
   ~FollowedLink() override;
 
   /// Errors: kTimeout: nothing was written meanwhile. kEndOfRecording: the writer of the FIFO has closed it.
-  /// kInvalidInput: no capture. kDamaged: as CaptureReader's.
+  /// kInvalidInput: no capture. kDamaged: as CaptureReader's. kOutOfSpace: the disk of temporary files is
+  /// full, which keeps what comes out of a FIFO; the packets kept before come first.
   [[nodiscard]] Result<LinkFrame> receive(Duration timeout) override;
   /// Does nothing: a recording does not answer.
   [[nodiscard]] Status send(std::span<const std::uint8_t> /*packet*/) override { return {}; }
@@ -33,13 +34,16 @@ class FollowedLink final : public Link {
   FollowedLink(std::string path, int file) : path_(std::move(path)), file_(file) {}
   [[nodiscard]] Result<LinkFrame> read_frame();
   void take_from_fifo();
+  void fail();
   void wait(Duration duration) const;
 
+  std::string name_;           // of the FIFO, for messages
   std::string path_;           // of what is read: the file, or what came out of the FIFO
   int file_ = -1;              // of the FIFO; -1: not one
   std::FILE* kept_ = nullptr;  // what came out of it
   bool fifo_has_begun_ = false;
   bool fifo_has_ended_ = false;
+  std::optional<Error> failure_;  // of kept_
   std::optional<CaptureReader> reader_;
   std::optional<CaptureVehicle> followed_;
   std::optional<MinuteStamps> stamps_;  // if its first stamp may be of that kind

@@ -4,10 +4,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -73,6 +75,46 @@ TEST_F(FollowedLinkTest, AFifoIsReadUntilItsWriterClosesIt) {
   EXPECT_EQ(next(), (Bytes{0x52, 1, 0, 0, 0}));
   ::close(writer);
   EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kEndOfRecording);
+}
+
+/// No file of this process may grow beyond a size while this lives: as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    static_cast<void>(std::signal(SIGXFSZ, handler_before_));
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*handler_before_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before_{};
+};
+
+TEST_F(FollowedLinkTest, SaysThatTheDiskIsFullAfterThePacketsThatItKept) {
+  const std::string bytes = capture_of({received({0x52, 1, 0, 0, 0}), received({0x52, 2, 0, 0, 0})});
+  std::filesystem::remove(path_);
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  link_ = FollowedLink::open(path_).value();
+  const int writer = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_EQ(::write(writer, bytes.data(), bytes.size()), std::ssize(bytes));
+  {
+    const FileSizeLimit limit(bytes.size() - 1);
+    EXPECT_EQ(next(), (Bytes{0x52, 1, 0, 0, 0}));
+    for (int i = 0; i < 2; ++i) {
+      const Result<LinkFrame> frame = link_->receive(milliseconds(50));
+      ASSERT_FALSE(frame.ok());
+      EXPECT_EQ(frame.error().code, ErrorCode::kOutOfSpace) << frame.error().message;
+      EXPECT_TRUE(frame.error().message.starts_with(path_)) << frame.error().message;
+    }
+  }
+  ::close(writer);
 }
 
 TEST_F(FollowedLinkTest, SaysWhatIsNoCapture) {
