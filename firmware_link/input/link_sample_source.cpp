@@ -15,8 +15,8 @@ namespace {
 
 constexpr Duration kReceiveTimeout = std::chrono::milliseconds(200);
 constexpr Duration kTimeoutWhileAsking = RepeatTimer::kShortest;
-// A vehicle that sends without end, but nothing that samples need, must not block the caller; who rests for a
-// millisecond after each call still reads 100 000 useless packets a second.
+// Frames that come without end, but hold nothing that samples need, must not block the caller, which looks
+// whether it is to stop; who rests for a millisecond after each call still reads 100 000 of them a second.
 constexpr int kMaxFramesAtOnce = 256;
 
 }  // namespace
@@ -57,7 +57,7 @@ Result<ReceivedSample> LinkSampleSource::next() {
 }
 
 Result<ReceivedSample> LinkSampleSource::read_sample() {
-  for (int frames = 0; !is_live() || frames < kMaxFramesAtOnce; ++frames) {
+  for (int frames = 0; frames < kMaxFramesAtOnce; ++frames) {
     if (const std::optional<RangeSample> sample = assembler_.take())
       return ReceivedSample{.sample = *sample, .arrived_at = arrived_at()};
     if (end_) return *end_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware_link/capture/followed_link.hpp"
 #include "tests/firmware_link/distant_link.hpp"
 #include "tests/firmware_link/frames.hpp"
 #include "tests/firmware_link/manual_link_clock.hpp"
@@ -126,6 +127,24 @@ TEST(LinkSampleSource, ALiveLinkThatNeverYieldsASampleDoesNotBlockItsCaller) {
   ASSERT_FALSE(received.ok());
   EXPECT_EQ(received.error().code, ErrorCode::kTimeout);
   EXPECT_LT(source.report().counters.frames, 500U);
+}
+
+TEST(LinkSampleSource, AFollowedCaptureThatYieldsNoSampleDoesNotBlockItsCaller) {
+  SyntheticCapture capture;
+  capture.packets = 1000;
+  capture.with_toc = false;
+  const TemporaryFile file("followed.pcap");
+  write_capture(file.path(), capture.frames());
+  LinkInput input;
+  input.name = file.path();
+  input.link = FollowedLink::open(file.path()).value();
+  LinkSampleSource source(std::move(input));
+  for (const std::uint64_t at_most : {256U, 512U}) {
+    const Result<ReceivedSample> received = source.next();
+    ASSERT_FALSE(received.ok());
+    EXPECT_EQ(received.error().code, ErrorCode::kTimeout);
+    EXPECT_LE(source.report().counters.frames, at_most);
+  }
 }
 
 /// Frames that hold nothing, without end.
