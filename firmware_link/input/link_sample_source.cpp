@@ -139,7 +139,9 @@ void LinkSampleSource::follow_periods() {
   assembler_.set_periods(range_period, odometry_period);
 }
 
+/// What the log packets lacked, once: where the link ends by itself, or at the end of the run.
 void LinkSampleSource::finish_report() {
+  if (std::exchange(report_is_finished_, true)) return;
   if (session_.used_description())
     report_.notes.push_back("block layouts taken from " + input_.description->source +
                             ": the recording has no table of contents for them");
@@ -225,6 +227,7 @@ void LinkSampleSource::end() {
   if (input_.shared != nullptr) input_.shared->end_sharing();
   for (const VehicleEvent& event : noted_) report_.notes.push_back(describe(event));
   noted_.clear();
+  finish_report();
   note_breaks();
 }
 

@@ -72,7 +72,8 @@ class LinkSampleSource final : public SampleSource {
   [[nodiscard]] bool is_live() const override { return input_.clock != nullptr; }
   [[nodiscard]] std::optional<LiveStatus> live_status() const override;
   [[nodiscard]] std::optional<VehicleEvent> take_event() override;
-  /// Events that are warnings become notes, the first of each kind; what the dead reckoning lacks, too.
+  /// Events that are warnings become notes, the first of each kind; what log packets and dead reckoning lack,
+  /// too.
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
@@ -105,6 +106,7 @@ class LinkSampleSource final : public SampleSource {
   HostTime now_{};
   HostTime received_at_{};  // the last frame from the vehicle
   std::optional<Error> end_;
+  bool report_is_finished_ = false;
   std::optional<ReceivedSample> first_sample_;
 };
 

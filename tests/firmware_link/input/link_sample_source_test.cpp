@@ -239,6 +239,21 @@ TEST(LinkSampleSource, TellsOfDamageInTheDeadReckoning) {
   EXPECT_THAT(source.report().problems, ElementsAre(HasSubstr("1 log packets have a time that")));
 }
 
+TEST(LinkSampleSource, TellsWhatLogPacketsLackedOnceAlsoWhereTheRunIsStopped) {
+  SyntheticCapture capture;
+  std::vector<LinkFrame> frames = capture.frames();
+  const Bytes too_short = LogPacket(1, 1250).f32(0.F).bytes();
+  frames.push_back(received(too_short, host_ms(1'700'000'002'000)));
+  for (const ErrorCode at_the_end : {ErrorCode::kTimeout, ErrorCode::kEndOfRecording}) {
+    LinkInput input = input_of(frames, {at_the_end, "nothing more"});
+    input.clock = std::make_shared<ManualLinkClock>();
+    LinkSampleSource source(std::move(input));
+    for (int i = 0; i < 20; ++i) static_cast<void>(source.next());
+    source.end();
+    EXPECT_THAT(source.report().problems, ElementsAre(HasSubstr("1 log packets have another size")));
+  }
+}
+
 TEST(LinkSampleSource, LeavesOutARunawayOfTheDeadReckoningAndTellsOfIt) {
   std::vector<LinkFrame> frames = SyntheticCapture{}.handshake();
   for (int i = 0; i < 4000; ++i) {
