@@ -9,7 +9,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
@@ -24,7 +28,8 @@ constexpr const char* kDefaultGroup = "239.255.76.67";
 constexpr const char* kDefaultHost = "127.0.0.1";
 constexpr const char* kDefaultPort = "7700";
 constexpr std::chrono::seconds kLookEvery{5};
-constexpr int kLookMs = 200;
+constexpr int kConnectMs = 200;
+constexpr int kAnswerMs = 500;
 
 class Socket {
  public:
@@ -48,6 +53,21 @@ std::optional<std::pair<std::string, std::string>> place_in(const std::string& u
   const std::size_t colon = place.find(':');
   if (colon == std::string::npos) return std::pair(place, std::string());
   return std::pair(place.substr(0, colon), place.substr(colon + 1));
+}
+
+/// As LCM greets, which would wait for the answer for ever: with a word of its own, then the version.
+bool is_greeted(int socket) {
+  constexpr std::array<std::uint8_t, 8> kGreeting{0x28, 0x76, 0x17, 0xFB, 0, 0, 1, 0};
+  constexpr std::array<std::uint8_t, 4> kExpected{0x28, 0x76, 0x17, 0xFA};
+  constexpr int kWholeAnswer = kGreeting.size();
+  if (::setsockopt(socket, SOL_SOCKET, SO_RCVLOWAT, &kWholeAnswer, sizeof kWholeAnswer) != 0 ||
+      ::send(socket, kGreeting.data(), kGreeting.size(), MSG_NOSIGNAL) != std::ssize(kGreeting))
+    return false;
+  pollfd answer{.fd = socket, .events = POLLIN, .revents = 0};
+  std::array<std::uint8_t, kWholeAnswer> bytes{};
+  return ::poll(&answer, 1, kAnswerMs) == 1 &&
+         ::recv(socket, bytes.data(), bytes.size(), 0) == std::ssize(bytes) &&
+         std::equal(kExpected.begin(), kExpected.end(), bytes.begin());
 }
 
 }  // namespace
@@ -96,13 +116,14 @@ bool LcmServer::accepts() const {
   if (::getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found) != 0) return false;
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, ::freeaddrinfo);
   const Socket socket(SOCK_STREAM | SOCK_NONBLOCK);
-  if (::connect(socket.file(), address->ai_addr, address->ai_addrlen) == 0) return true;
+  if (::connect(socket.file(), address->ai_addr, address->ai_addrlen) == 0) return is_greeted(socket.file());
   if (errno != EINPROGRESS) return false;
   pollfd answer{.fd = socket.file(), .events = POLLOUT, .revents = 0};
   int failure = ETIMEDOUT;
   socklen_t size = sizeof failure;
-  return ::poll(&answer, 1, kLookMs) == 1 &&
-         ::getsockopt(socket.file(), SOL_SOCKET, SO_ERROR, &failure, &size) == 0 && failure == 0;
+  return ::poll(&answer, 1, kConnectMs) == 1 &&
+         ::getsockopt(socket.file(), SOL_SOCKET, SO_ERROR, &failure, &size) == 0 && failure == 0 &&
+         is_greeted(socket.file());
 }
 
 }  // namespace swiftlet

@@ -23,7 +23,8 @@ class LcmServer {
   /// nullopt for other URLs.
   [[nodiscard]] static std::optional<LcmServer> of_url(const std::string& url);
 
-  /// Whether it listened at the last look. Looks again every 5 s while it did not, which takes 0.2 s at most.
+  /// Whether it answered as LCM's server at the last look. Looks again every 5 s while it did not, which
+  /// takes 0.7 s at most, beside the time in which a name is resolved.
   [[nodiscard]] bool is_there();
   /// It has gone: the next look is due.
   void mark_lost() { is_there_ = false; }

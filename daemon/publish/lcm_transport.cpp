@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/publish/lcm_transport.hpp"
 
+#include <sys/socket.h>
+#include <sys/time.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -19,6 +22,16 @@ namespace swiftlet {
 namespace {
 
 constexpr int kWaitingMessages = 1000;  // of a channel; LCM's own 30 are fewer than tiles come at once
+
+/// How long a server of tcpq:// may take or give not a byte. LCM waits again after some bytes: a stalled
+/// server holds a thread up for some times as long; the service's watchdog waits for 10 s.
+constexpr timeval kServerWait{.tv_sec = 0, .tv_usec = 500'000};
+
+/// LCM closes a socket that waited for longer. False: there is none.
+bool limit_waits(int socket) {
+  return ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &kServerWait, sizeof kServerWait) == 0 &&
+         ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &kServerWait, sizeof kServerWait) == 0;
+}
 
 /// LCM itself answers an unknown provider with two lines on stderr and no reason.
 bool has_known_provider(std::string_view url) {
@@ -44,14 +57,19 @@ struct LcmTransport::State {
 
   /// nullptr while the server of tcpq:// is absent, or LCM cannot use the URL.
   lcm::LCM* connected() {
+    if (lcm && has_lost_server()) disconnect();
     if (lcm) return &*lcm;
     if (server && !server->is_there()) return nullptr;
     lcm.emplace(url);
+    if (!lcm->good() || (server && !limit_waits(lcm->getFileno()))) disconnect();
+    if (!lcm) return nullptr;
     for (Channel& channel : channels) subscribe(channel);
-    if (!lcm->good()) disconnect();
-    return lcm ? &*lcm : nullptr;
+    return &*lcm;
   }
+  /// LCM has closed its socket, after part of a message too, and would connect anew by itself, without limit.
+  bool has_lost_server() { return server && lcm->getFileno() < 0; }
   void subscribe(Channel& channel) {
+    if (has_lost_server()) return;  // the next connection subscribes all
     lcm::Subscription* const subscription = lcm->subscribeFunction(channel.name, &Channel::take, &channel);
     if (subscription != nullptr) subscription->setQueueCapacity(kWaitingMessages);
   }

@@ -21,7 +21,8 @@ inline constexpr const char* kRouteOverLoopback =
     "sudo ip link set lo up multicast on && sudo ip route add 224.0.0.0/4 dev lo";
 
 /// Bytes to and from LCM. A server of tcpq:// may be absent: it is looked for now and then, in silence, and
-/// meanwhile nothing is published or received. One thread at a time.
+/// meanwhile nothing is published or received. One that takes or gives nothing for half a second in the
+/// middle of a message counts as absent. One thread at a time.
 class LcmTransport {
  public:
   using Listener = std::function<void(std::span<const std::uint8_t>)>;

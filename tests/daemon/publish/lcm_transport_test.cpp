@@ -4,17 +4,25 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <array>
+#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace swiftlet {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -61,6 +69,70 @@ TEST(LcmTransport, SaysNothingOfAnAbsentServerHoweverMuchIsPublished) {
   EXPECT_EQ(errno, ENOTCONN);
   EXPECT_FALSE((*lcm)->receive(milliseconds(1)));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// A server of tcpq:// that accepts every connection, greets or not, and never reads.
+class StalledServer {
+ public:
+  explicit StalledServer(bool greets) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in bound{};
+    bound.sin_family = AF_INET;
+    bound.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::bind(socket_, std::bit_cast<const sockaddr*>(&bound), sizeof bound), 0);
+    EXPECT_EQ(::listen(socket_, 16), 0);
+    socklen_t size = sizeof bound;
+    EXPECT_EQ(::getsockname(socket_, std::bit_cast<sockaddr*>(&bound), &size), 0);
+    url_ = "tcpq://127.0.0.1:" + std::to_string(ntohs(bound.sin_port));
+    thread_ = std::jthread([this, greets](const std::stop_token& stop) { accept(stop, greets); });
+  }
+  ~StalledServer() {
+    thread_ = {};
+    for (const int connection : connections_) ::close(connection);
+    ::close(socket_);
+  }
+  StalledServer(const StalledServer&) = delete;
+  StalledServer& operator=(const StalledServer&) = delete;
+  [[nodiscard]] const std::string& url() const { return url_; }
+
+ private:
+  void accept(const std::stop_token& stop, bool greets) {
+    constexpr std::array<std::uint8_t, 8> kGreeting{0x28, 0x76, 0x17, 0xFA, 0, 0, 1, 0};
+    while (!stop.stop_requested()) {
+      pollfd wait{.fd = socket_, .events = POLLIN, .revents = 0};
+      if (::poll(&wait, 1, 20) != 1) continue;
+      connections_.push_back(::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC));
+      if (greets) ::send(connections_.back(), kGreeting.data(), kGreeting.size(), MSG_NOSIGNAL);
+    }
+  }
+
+  int socket_;
+  std::string url_;
+  std::vector<int> connections_;
+  std::jthread thread_;
+};
+
+TEST(LcmTransport, AServerThatNeverReadsIsLeftWithinSeconds) {
+  const StalledServer server(true);
+  const auto lcm = LcmTransport::open(server.url());
+  ASSERT_TRUE(lcm.ok());
+  const std::vector<std::uint8_t> message(60'000);
+  const auto before = steady_clock::now();
+  int taken = 0;
+  while (taken < 10'000 && (*lcm)->publish("HERE", message)) ++taken;
+  EXPECT_EQ(errno, ENOTCONN);
+  EXPECT_GT(taken, 0);
+  EXPECT_LT(taken, 10'000);
+  EXPECT_LT(steady_clock::now() - before, milliseconds(5000));
+}
+
+TEST(LcmTransport, AServerThatNeverAnswersIsAbsent) {
+  const StalledServer server(false);
+  const auto before = steady_clock::now();
+  const auto lcm = LcmTransport::open(server.url());
+  ASSERT_TRUE(lcm.ok());
+  EXPECT_FALSE((*lcm)->publish("HERE", std::vector<std::uint8_t>{1}));
+  EXPECT_EQ(errno, ENOTCONN);
+  EXPECT_LT(steady_clock::now() - before, milliseconds(3000));
 }
 
 TEST(LcmTransport, RefusesAUrlThatLcmDoesNotKnow) {
