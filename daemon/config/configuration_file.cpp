@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <system_error>
 
 #include "daemon/config/configuration.hpp"
 #include "daemon/config/tuning_range.hpp"
@@ -22,9 +23,14 @@ bool assign_exactly(const toml::node& node, T& value) {
 }
 template <typename Real>
 bool assign_number(const toml::node& node, Real& value) {
-  if (!node.is_number()) return false;
-  value = *node.value<double>();
-  return true;
+  // value<double>() is empty for whole numbers beyond 2^53; their last digits do not matter here.
+  if (const std::optional<std::int64_t> whole = node.value_exact<std::int64_t>()) {
+    value = static_cast<double>(*whole);
+    return true;
+  }
+  const std::optional<double> real = node.value_exact<double>();
+  if (real) value = *real;
+  return real.has_value();
 }
 
 // Put a TOML value into a setting; false when it is of another type. Whole numbers may stand for real ones.
@@ -70,9 +76,14 @@ std::string tuning_problem(std::string_view part, std::string_view key, const Va
 class Loader {
  public:
   Status read_file(const std::string& path) {
-    if (std::filesystem::is_directory(path))
+    std::error_code failure;
+    const std::filesystem::file_status status = std::filesystem::status(path, failure);
+    if (std::filesystem::is_directory(status))
       return Error{ErrorCode::kInvalidInput, path + ": is a directory; name the TOML file in it"};
-    if (!std::filesystem::is_regular_file(path))
+    if (status.type() == std::filesystem::file_type::none)
+      return Error{ErrorCode::kInvalidInput, path + ": cannot be looked up: " + failure.message() +
+                                                 "; correct its path or the permissions of its folders"};
+    if (!std::filesystem::is_regular_file(status))
       return Error{ErrorCode::kNotFound, path + ": no such configuration file"};
     source_ = path;
     has_lines_ = true;

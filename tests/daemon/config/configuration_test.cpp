@@ -264,6 +264,20 @@ TEST(LoadConfiguration, SaysWhenThereIsNoSuchFile) {
   EXPECT_THAT(config.error().message, HasSubstr("/nowhere/to/be/found.toml"));
 }
 
+TEST(LoadConfiguration, SaysWhyAPathCannotBeLookedUp) {
+  const std::filesystem::path circle = std::filesystem::path(testing::TempDir()) / "circle.toml";
+  std::filesystem::remove(circle);
+  std::filesystem::create_symlink(circle, circle);
+  for (const std::string& path : {circle.string(), std::string(5000, 'x')}) {
+    const Result<Configuration> config = load_configuration(path);
+    ASSERT_FALSE(config);
+    EXPECT_EQ(config.error().code, ErrorCode::kInvalidInput);
+    EXPECT_THAT(config.error().message,
+                AllOf(StartsWith(path + ": cannot be looked up: "), HasSubstr("; correct its path")));
+  }
+  std::filesystem::remove(circle);
+}
+
 TEST(LoadConfiguration, TakesSettingsAboveThoseOfTheFile) {
   const TemporaryFile file("[map]\nresolution_m = 0.1\nclear_range_m = 2\n");
   const Result<Configuration> both = load_configuration(file.path(), "map.resolution_m = 0.2");
@@ -337,6 +351,9 @@ TEST(LoadConfiguration, RefusesImpossibleValuesWithFileAndLine) {
       AllOf(HasSubstr(".toml:3:"), HasSubstr("map.resolution_m = -0.1: must lie between 0.01 and 1")));
   EXPECT_THAT(refusal_of("[backend]\noptimizer_iterations = 99999999999999\n"), HasSubstr(".toml:2:"));
   EXPECT_THAT(refusal_of("[map]\nresolution_m = nan\n"), HasSubstr(".toml:2:"));
+  for (const char* const beyond_2_53 : {"9007199254740993", "-9223372036854775808"})
+    EXPECT_THAT(refusal_of(std::string("[map]\nresolution_m = ") + beyond_2_53 + "\n"),
+                AllOf(HasSubstr(".toml:2:"), HasSubstr("must lie between 0.01 and 1")));
 }
 
 TEST(LoadConfiguration, RefusesWhatOnlyTheWholeTellsWithFileAndLine) {
