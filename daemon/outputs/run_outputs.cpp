@@ -161,13 +161,26 @@ std::vector<std::string> output_names(const RunView& run) {
   return names;
 }
 
+namespace {
+
+/// One that cannot be written does not keep the others from it. Error: the first one's.
+Status write_all_but_report(const std::filesystem::path& directory, const RunView& run) {
+  Status first = write_trajectories(directory, run);
+  const auto keep_first = [&first](Status next) {
+    if (first) first = std::move(next);
+  };
+  keep_first(write_places(directory, run));
+  keep_first(write_map_files(directory, run.map));
+  keep_first(write_pictures(directory, run));
+  return first;
+}
+
+}  // namespace
+
 Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory, const RunView& run) {
   if (Status ready = prepare_output_directory(directory); !ready) return ready.error();
   const std::vector<std::string> earlier = files_of_earlier_run(directory);
-  if (Status written = write_trajectories(directory, run); !written) return written.error();
-  if (Status written = write_places(directory, run); !written) return written.error();
-  if (Status written = write_map_files(directory, run.map); !written) return written.error();
-  if (Status written = write_pictures(directory, run); !written) return written.error();
+  if (Status written = write_all_but_report(directory, run); !written) return written.error();
   WrittenOutputs outputs{.files = output_names(run), .replaced = !earlier.empty(), .removed = {}};
   for (const std::string& name : earlier) {
     std::error_code failure;

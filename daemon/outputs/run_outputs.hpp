@@ -85,7 +85,8 @@ struct WrittenOutputs {
 };
 /// Writes the outputs into the directory, which is created where missing. Files of other names stay, except
 /// those that an earlier run's report.json there lists as its own. Each file is complete or not
-/// there: the first that cannot be written ends it, those before it stay.
+/// there. Trajectories, places, map and pictures are written although one of them cannot be, the report only
+/// after all of them. Error: the first one's.
 [[nodiscard]] Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory,
                                                        const RunView& run);
 /// One line on what became of an earlier run's files; nullopt where there were none.

@@ -127,6 +127,17 @@ TEST(RunOutputs, NamesTheFileThatCannotBeWrittenAndKeepsTheOthers) {
   EXPECT_EQ(lines_of(directory.path() / "trajectory.tum").size(), 81U);
 }
 
+TEST(RunOutputs, WriteTheMapAlthoughATrajectoryCannotBe) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory.path() / "trajectory.tum");
+  const Result<WrittenOutputs> written = write_run_outputs(directory.path(), FinishedRun().view(false));
+  ASSERT_FALSE(written.ok());
+  EXPECT_THAT(written.error().message, testing::HasSubstr("trajectory.tum"));
+  EXPECT_THAT(names_in(directory.path()),
+              testing::IsSupersetOf({"map.pgm", "map.yaml", "map.png", "thumbnail.png"}));
+  EXPECT_FALSE(fs::exists(directory.path() / "report.json"));
+}
+
 TEST(RunOutputs, ReplaceAnEarlierRunsFilesAndLeaveNoneOfThem) {
   const TemporaryDirectory directory;
   const fs::path& path = directory.path();
