@@ -55,7 +55,10 @@ bool RadioWorker::fetch() {
 
 void RadioWorker::hand_on(ReceivedSample& received) {
   if (!source_.is_live()) received.arrived_at = clock_.now();
-  received.sample.starts_segment = received.sample.starts_segment || break_pending_;
+  if (break_pending_) {
+    received.sample.starts_segment = true;
+    received.sample.odometry_ran_on = false;  // the path since the sample handed on before is unknown
+  }
   break_pending_ = !samples_.try_push(received) && received.sample.starts_segment;
   report_input();
 }

@@ -110,6 +110,22 @@ TEST(RadioWorker, ALiveLinkRefusesTheNewestWhileTheQueueIsFull) {
   EXPECT_EQ(bench.pop()->sequence, SampleQueue::capacity() + 2);
 }
 
+TEST(RadioWorker, AfterARefusedBreakTheDeadReckoningHasNotRunOn) {
+  std::vector<RangeSample> samples = resting_samples(SampleQueue::capacity() + 2);
+  samples[SampleQueue::capacity()].starts_segment = true;  // will be refused
+  samples[SampleQueue::capacity() + 1].starts_segment = true;
+  samples[SampleQueue::capacity() + 1].odometry_ran_on = true;
+  RadioBench bench(std::move(samples), {.refuses_when_full = true});
+  for (std::size_t i = 0; i < SampleQueue::capacity() + 1; ++i) static_cast<void>(bench.worker.step());
+  while (bench.pop()) {
+  }
+  static_cast<void>(bench.worker.step());
+  const std::optional<RangeSample> after = bench.pop();
+  ASSERT_TRUE(after);
+  EXPECT_TRUE(after->starts_segment);
+  EXPECT_FALSE(after->odometry_ran_on);
+}
+
 TEST(RadioWorker, ABreakInTheDeadReckoningOutlivesTheRefusedSampleThatBeganIt) {
   std::vector<RangeSample> samples = resting_samples(SampleQueue::capacity() + 4);
   samples[SampleQueue::capacity()].starts_segment = true;  // will be refused, as the one after it
