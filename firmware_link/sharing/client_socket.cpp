@@ -113,10 +113,11 @@ ClientSocket::Arrival ClientSocket::on_strangers(std::span<const std::uint8_t> p
   return on_clients(packet, is_connected);
 }
 
-/// One line for each, not for each of its packets.
+/// One line for each of the first ones, not for each of their packets.
 void ClientSocket::refuse(const sockaddr_in& from) {
-  if (refused_ && is_same(*refused_, from)) return;
-  refused_ = from;
+  for (const sockaddr_in& before : refused_)
+    if (is_same(before, from)) return;
+  if (!refused_.try_push_back(from)) return;
   report(Kind::kClientRefused, ntohs(from.sin_port));
 }
 
@@ -128,7 +129,7 @@ bool ClientSocket::has_fallen_silent(HostTime now) {
 
 void ClientSocket::lose_client() {
   client_.reset();
-  refused_.reset();
+  refused_.clear();
   report(Kind::kClientGone);
 }
 

@@ -74,8 +74,8 @@ class ClientSocket {
 
   int socket_;  ///< -1: closed
   std::optional<sockaddr_in> client_;
-  std::optional<sockaddr_in> refused_;  ///< last, while this client is there
-  HostTime received_at_{};              ///< from the client
+  FixedVector<sockaddr_in, 8> refused_;  ///< and told of, while this client is there
+  HostTime received_at_{};               ///< from the client
   std::array<std::uint8_t, 64> buffer_{};
   FixedVector<VehicleEvent, 8> events_;
 };

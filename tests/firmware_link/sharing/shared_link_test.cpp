@@ -147,6 +147,28 @@ TEST_F(SharedLinkTest, RequestsWaitForAVehicleThatIsNotReceivedSetpointsDoNot) {
   EXPECT_EQ(link_->sharing().counters.steering_dropped, 1U);
 }
 
+TEST_F(SharedLinkTest, TellsOncePerRefusedClientHoweverTheySendInTurn) {
+  client_->step(clock_.now());
+  static_cast<void>(pass());
+  EXPECT_EQ(events(), std::vector{Kind::kClientConnected});
+  FlightClient first(link_->port());
+  FlightClient second(link_->port());
+  std::size_t told = 0;
+  for (int i = 0; i < 5; ++i) {
+    first.send(param_read_request(7));
+    second.send(param_read_request(7));
+    static_cast<void>(pass());
+    told += events().size();
+  }
+  EXPECT_EQ(told, 2U);
+  for (int i = 0; i < 20; ++i) {
+    FlightClient(link_->port()).send(param_read_request(7));
+    static_cast<void>(pass());
+    told += events().size();
+  }
+  EXPECT_LE(told, 8U);
+}
+
 TEST_F(SharedLinkTest, AtTheEndTheClientIsToldAndRefused) {
   client_->step(clock_.now());
   static_cast<void>(pass());
