@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,7 @@
 #include "daemon/daemon.hpp"
 #include "daemon/manual/page_option.hpp"
 #include "daemon/outputs/output_directory.hpp"
+#include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "daemon/publish/lcm_publisher.hpp"
 #include "daemon/publish/lcm_transport.hpp"
@@ -327,7 +330,8 @@ Status write_outputs(const Outputs* outputs, const Options& options, const Confi
                                     .input_uri = options.input_uri,
                                     .sensor = config.sensor.applied_to(source.sensor()),
                                     .pruned = &outputs->pruned,
-                                    .places = places});
+                                    .places = places,
+                                    .peak_memory_mb = peak_memory_mb()});
   if (!written) return written.error();
   if (const auto note = replacement_note(directory, *written)) spdlog::info("{}", *note);
   return {};
@@ -431,9 +435,18 @@ RunEnd run_once(const Options& options, const Configuration& config, const std::
           .wants_new_map = executor.wants_new_map()};
 }
 
+/// Without a slash at its end, and with a name: not "." or "..".
+std::filesystem::path named_path(const std::string& path) {
+  std::filesystem::path named = std::filesystem::path(path).lexically_normal();
+  std::error_code ignored;
+  if (named == "." || named.filename() == "..")
+    named = std::filesystem::absolute(named, ignored).lexically_normal();
+  return named.has_filename() ? named : named.parent_path();
+}
+
 /// Beside what the runs before it wrote: out_2, flight_2.pcap.
 std::string numbered(const std::string& path, int number) {
-  const std::filesystem::path first(path);
+  const std::filesystem::path first = named_path(path);
   const std::string name = first.stem().string() + "_" + std::to_string(number) + first.extension().string();
   return (first.parent_path() / name).string();
 }
@@ -452,9 +465,11 @@ int run(const Options& options) {
   const Result<std::unique_ptr<LogFile>> log = open_log(options);
   if (!log) return refuse(log.error().message);
   const SignalWatcher signals = watch_signals(log->get());  // before the threads, libusb's too
+  int exit_code = 0;                                        // the worst of all runs
   for (int number = 1;; ++number) {
     const RunEnd end = run_once(options_of_run(options, number), *config, signals.token());
-    if (!end.wants_new_map || signals.token().stop_requested()) return end.exit_code;
+    exit_code = std::max(exit_code, end.exit_code);
+    if (!end.wants_new_map || signals.token().stop_requested()) return exit_code;
   }
 }
 

@@ -7,6 +7,7 @@ commands_test.py CASE SWIFTLETD SWIFTLET. CASE is the name of one of the functio
 """
 
 import csv
+import json
 import os
 import re
 import signal
@@ -67,11 +68,30 @@ def a_new_map_is_a_run_of_its_own(bench):
     flight.process.send_signal(signal.SIGTERM)
     expect(flight.process.wait(timeout=60) == 0, flight.said())
     vehicle.end()
+    for name in ("out", "out_2"):
+        report = json.loads((bench.folder / name / "report.json").read_text(encoding="utf-8"))
+        expect(report["run_peak_memory_mb"] > 1.0, f"{name}: {report['run_peak_memory_mb']} MB")
     stamps = [[float(line.split()[0]) for line in (bench.folder / name / "trajectory.tum").read_text().splitlines()]
               for name in ("out", "out_2")]
     expect(all(len(run) > 5 for run in stamps), [len(run) for run in stamps])
     expect(stamps[0][-1] < stamps[1][0], "the second run holds samples of the first")
     expect((bench.folder / "flight_2.pcap").exists(), sorted(os.listdir(bench.folder)))
+
+
+def the_exit_code_is_the_worst_of_all_runs(bench):
+    vehicle = bench.vehicle()
+    vehicle.end()
+    flight = bench.flight(vehicle.port, "--commands", "127.0.0.1:0")
+    flight.wait_for("commands are taken on")
+    expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
+    flight.wait_for("held no usable sample")
+    vehicle = bench.vehicle(port=vehicle.port)
+    flight.wait_for("connected to the vehicle")
+    time.sleep(2.0)
+    flight.process.send_signal(signal.SIGTERM)
+    expect(flight.process.wait(timeout=60) == 2, flight.said())
+    vehicle.end()
+    expect((bench.folder / "out_2" / "trajectory.tum").exists(), sorted(os.listdir(bench.folder)))
 
 
 def what_cannot_be_is_told_in_one_line(bench):

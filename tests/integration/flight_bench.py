@@ -22,7 +22,7 @@ class Flight:
         environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
         self.log = open(self.folder / "daemon.log", "w+", encoding="utf-8")
         self.process = subprocess.Popen(
-            [bench.swiftletd, "--input", f"udp://127.0.0.1:{port}", "--lcm-url", "memq://", "-o", str(self.out),
+            [bench.swiftletd, "--input", f"udp://127.0.0.1:{port}", "--lcm-url", "memq://", "-o", f"{self.out}/",
              "--record", str(self.recording), *options], stderr=self.log, env=environment)
 
     def said(self):
