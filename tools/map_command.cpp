@@ -61,10 +61,11 @@ Result<OutputDirectory> output_of(const MapCommand& command) {
 }  // namespace
 
 Status run_map_command(const MapCommand& command) {
-  Result<PreparedRun> prepared = prepare_run(command);
-  if (!prepared) return prepared.error();
+  // First: the input is read as a whole to be calibrated.
   const Result<OutputDirectory> output = output_of(command);
   if (!output) return output.error();
+  Result<PreparedRun> prepared = prepare_run(command);
+  if (!prepared) return prepared.error();
   const Result<std::unique_ptr<MappedRun>> run =
       map_with_progress_bar(command, std::move(prepared).value(), output->path());
   if (!run) return run.error();

@@ -48,6 +48,15 @@ std::string tidied(const std::string& name) {
   return tidy;
 }
 
+/// The directory and those above it that are not there, the innermost first.
+std::vector<fs::path> missing_folders(const fs::path& directory) {
+  std::vector<fs::path> missing;
+  std::error_code unknown;
+  for (fs::path at = directory; !at.empty() && !fs::exists(at, unknown) && !unknown; at = at.parent_path())
+    missing.push_back(at);
+  return missing;
+}
+
 }  // namespace
 
 std::string flight_folder_name(const std::string& input, HostTime began) {
@@ -64,11 +73,10 @@ std::string flight_folder_name(const std::string& input, HostTime began) {
 Result<OutputDirectory> OutputDirectory::open(const fs::path& directory) {
   if (directory.empty())
     return Error{ErrorCode::kInvalidInput, "-o names no directory; leave it out for a folder of its own"};
-  std::error_code unknown;
-  const bool is_new = !fs::exists(directory, unknown) && !unknown;
+  std::vector<fs::path> missing = missing_folders(directory);
   if (Status ready = prepare_output_directory(directory); !ready) return ready.error();
   OutputDirectory output(directory);
-  if (is_new) output.made_ = {directory};
+  output.made_ = std::move(missing);
   if (Status held = output.hold(); !held) return held.error();
   return output;
 }

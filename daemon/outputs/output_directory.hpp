@@ -22,8 +22,8 @@ inline constexpr const char* kFlightsDirectory = "flights";
 /// simulation, the name of a file up to its first dot, else the URI. Holds letters, digits, '-', '.' and '_'.
 [[nodiscard]] std::string flight_folder_name(const std::string& input, HostTime began);
 
-/// Where a run writes its outputs: a directory that no other run writes to while this lives. One that was
-/// made for the run and got no file is removed at the end.
+/// Where a run writes its outputs: a directory that no other run writes to while this lives. What was
+/// made for the run and got no file is removed at the end, with the folders above it.
 class OutputDirectory {
  public:
   /// The directory that the user named, made where missing. kInvalidInput: it has no name, cannot be written,

@@ -36,14 +36,14 @@ Result<MappedInput> mapped_input(const MappedRun& run) {
 
 Result<MappedInput> map_whole_input(const MapCommand& command, const std::stop_token& stop,
                                     std::atomic<double>& progress) {
-  Result<PreparedRun> prepared = prepare_run(command, stop);
-  if (!prepared) return prepared.error();
   std::optional<OutputDirectory> output;
   if (command.output_directory) {
     Result<OutputDirectory> opened = OutputDirectory::open(*command.output_directory);
     if (!opened) return opened.error();
     output.emplace(std::move(opened).value());
   }
+  Result<PreparedRun> prepared = prepare_run(command, stop);
+  if (!prepared) return prepared.error();
   const MappingWatch watch{
       .after_sample = [&](std::optional<double> done) { progress = done.value_or(-1.0); },
       .stop = stop,

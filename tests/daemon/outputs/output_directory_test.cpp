@@ -58,9 +58,11 @@ TEST(OutputDirectory, LeavesNoEmptyFolderOfItsOwn) {
   fs::create_directory(directory.path() / "mine");
   EXPECT_TRUE(OutputDirectory::make(flights, "office").ok());
   EXPECT_TRUE(OutputDirectory::open(directory.path() / "out").ok());
+  EXPECT_TRUE(OutputDirectory::open(directory.path() / "above" / "out" / "").ok());
   EXPECT_TRUE(OutputDirectory::open(directory.path() / "mine").ok());
   EXPECT_FALSE(fs::exists(flights));
   EXPECT_FALSE(fs::exists(directory.path() / "out"));
+  EXPECT_FALSE(fs::exists(directory.path() / "above"));
   EXPECT_TRUE(fs::exists(directory.path() / "mine"));
   {
     const Result<OutputDirectory> used = OutputDirectory::make(flights, "office");
