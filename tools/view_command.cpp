@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -43,6 +44,9 @@ Status view_live(const ViewCommand& command, const std::stop_token& stop) {
   return view_lcm(command.lcm_url, command.channel_prefix, (*service)->shared(), stop, {});
 }
 
+void print_note(const std::string& note) { std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str()); }
+
+/// Damage is told when it is known, and once more as the reason of the exit code.
 Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
   MapCommand mapping;
   mapping.input = command.input;
@@ -56,9 +60,12 @@ Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
   if (!service) return service.error();
   spdlog::set_level(spdlog::level::err);  // the page tells what happens in the run
   const Status mapped = map_recording(*run, (*service)->shared(), stop, {});
-  if (!mapped) std::fprintf(stderr, "swiftlet: note: %s\n", mapped.error().message.c_str());
+  Status damage = damage_of(run->source->report());
+  if (damage && !mapped) damage = mapped.error();
+  for (const std::string& note : run->source->report().notes) print_note(note);
+  if (!damage) print_note(damage.error().message);
   while (!stop.stop_requested()) std::this_thread::sleep_for(kStopWait);
-  return {};
+  return damage;
 }
 
 }  // namespace

@@ -113,6 +113,21 @@ TEST_F(SwiftletCommand, ConvertRefusesWhatItCannotReadOrWriteInOneLine) {
   EXPECT_FALSE(fs::exists(file("out.g2o")));
 }
 
+TEST_F(SwiftletCommand, MapLooksAtTheOutputDirectoryBeforeTheInput) {
+  write("taken", "a file");
+  EXPECT_THAT(run("map {}/none.clf -o {}/taken"), refuses_with("taken"));
+  EXPECT_THAT(run("map {}/none.clf -o {}/new/out"), refuses_with("none.clf"));
+  EXPECT_FALSE(fs::exists(file("new")));
+}
+
+TEST_F(SwiftletCommand, ViewTellsOfADamagedInput) {
+  write("log.clf", small_log() + "FLASER 180 garbled\n");
+  const Outcome viewed = run_as(std::string("timeout --preserve-status --signal INT 5 ") + SWIFTLET_COMMAND,
+                                "view {}/log.clf --listen 127.0.0.1:0");
+  EXPECT_EQ(viewed.exit_code, 2);
+  EXPECT_THAT(viewed.err, HasSubstr("log.clf:151: FLASER line cut off or garbled; the line is left out"));
+}
+
 TEST_F(SwiftletCommand, LatencyTellsAndDrawsHowARunKeptTime) {
   write("small.clf", small_log());
   ASSERT_EQ(run("map {}/small.clf -o {}/out").exit_code, 0);
