@@ -56,8 +56,6 @@ enum class LogError : std::uint8_t {
   kExists = 17,         ///< EEXIST
 };
 
-/// One entry of a create or append request is 3 bytes, so 9 fit beside header, command and block id.
-inline constexpr std::size_t kMaxEntriesPerRequest = 9;
 /// Header, block id, 24-bit time: what precedes the values of a log data packet.
 inline constexpr std::size_t kLogDataPrefix = 5;
 inline constexpr std::size_t kMaxLogBytes = 26;
@@ -112,7 +110,8 @@ constexpr CrtpPacket log_start_request(std::uint8_t block, std::uint8_t period_1
   return make_crtp_packet(kLogControlTopic,
                           {static_cast<std::uint8_t>(LogCommand::kStart), block, period_10ms});
 }
-/// False, and the request unchanged, when it is full (kMaxEntriesPerRequest).
+/// To a create or append request: 3 bytes, so 9 fit beside header, command and block id. False, and the
+/// request unchanged, when it is full.
 [[nodiscard]] constexpr bool add_log_entry(CrtpPacket& request, std::uint8_t type, std::uint16_t variable) {
   if (request.size() + 3 > kMaxCrtpPacket - 1) return false;
   return request.try_push_back(type) && request.try_push_back(low_byte(variable)) &&
