@@ -17,7 +17,6 @@ enum class ErrorCode {
   kDamaged,         ///< the beginning was usable, the rest is not
   kEndOfRecording,  ///< a replay has delivered all its data; not a fault
   kTimeout,         ///< nothing received in time; try again
-  kDeviceLost,      ///< the link must be opened anew
   kOutOfSpace,      ///< a disk or a fixed store is full
   kSolver,          ///< a numerical solve failed
 };

@@ -104,7 +104,7 @@ TEST(Daemon, WhenToldToStopWorksOffWhatItHasAndPublishesTheMap) {
 }
 
 TEST(Daemon, SaysWhatEndedTheInputBeforeItsTime) {
-  ScriptedSampleSource source(flight_in_square_room(30, 2.5, 1.5), {ErrorCode::kDeviceLost, "gone"});
+  ScriptedSampleSource source(flight_in_square_room(30, 2.5, 1.5), {ErrorCode::kNotFound, "gone"});
   ManualClock clock;
   RecordingPublisher publisher;
   Daemon daemon(Configuration{}, source, clock, {.rate = 1.0}, publisher);

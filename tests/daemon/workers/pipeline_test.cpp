@@ -65,7 +65,7 @@ TEST(Pipeline, TwoRunsOfTheSameInputAgreeToTheLastBit) {
 }
 
 TEST(Pipeline, SaysWhatEndedTheInputOnceTheFinalPassIsDone) {
-  ScriptedSampleSource source(flight_in_square_room(50, 2.5, 1.5), {ErrorCode::kDeviceLost, "gone"});
+  ScriptedSampleSource source(flight_in_square_room(50, 2.5, 1.5), {ErrorCode::kNotFound, "gone"});
   Pipeline pipeline(Configuration{}, source);
   EXPECT_FALSE(run_to_end(pipeline));
   EXPECT_EQ(pipeline.outcome().error().message, "gone");

@@ -140,7 +140,7 @@ TEST(RadioWorker, ABreakInTheDeadReckoningOutlivesTheRefusedSampleThatBeganIt) {
 }
 
 TEST(RadioWorker, KeepsWhatEndedTheInputBeforeItsTime) {
-  RadioBench bench(resting_samples(1), {}, {ErrorCode::kDeviceLost, "the dongle is gone"});
+  RadioBench bench(resting_samples(1), {}, {ErrorCode::kNotFound, "the dongle is gone"});
   static_cast<void>(bench.worker.step());
   EXPECT_EQ(bench.worker.step(), StepResult::kFinished);
   ASSERT_FALSE(bench.worker.outcome());
