@@ -35,6 +35,9 @@ Support support_of(std::span<const WallDirection> walls, double yaw_rad, double 
   return support;
 }
 
+/// Of walls farther off an axis, at most one hundredth counts for it: they have another.
+double same_axis_rad(const WallAxisTuning& tuning) { return 3.0 * tuning.scatter_rad; }
+
 }  // namespace
 
 double wrap_axis(double yaw_rad) {
@@ -60,7 +63,7 @@ std::optional<WallAxis> wall_axis(std::span<const WallDirection> walls, const Wa
     yaw_rad += support.mean_off_rad;
   }
   for (const WallDirection& wall : walls) {
-    if (std::abs(wrap_axis(wall.yaw_rad - yaw_rad)) < tuning.rival_rad) continue;
+    if (std::abs(wrap_axis(wall.yaw_rad - yaw_rad)) < same_axis_rad(tuning)) continue;
     if (support_of(walls, wall.yaw_rad, tuning.scatter_rad).length_m > tuning.rival_share * support.length_m)
       return std::nullopt;
   }

@@ -17,22 +17,17 @@ struct WallDirection {
 };
 
 struct WallAxisTuning {
-  double min_length_m = 4.0;              ///< of walls along the axis ...
-  double min_share = 0.4;                 ///< ... and of the length of all walls
-  double rival_rad = radians(12);         ///< an axis farther off than this is another one ...
-  double rival_share = 0.6;               ///< ... and must have less than this much of the best one's length
-  double scatter_rad = radians(4);        ///< of walls of one axis: poorly seen ones included
+  double min_length_m = 4.0;        ///< of walls along the axis ...
+  double min_share = 0.4;           ///< ... and of the length of all walls
+  double rival_share = 0.6;         ///< another axis must have less than this much of the best one's length
+  double scatter_rad = radians(4);  ///< of walls of one axis: poorly seen ones included
   double floor_sigma_rad = radians(2.5);  ///< buildings and sensors are not square beyond that
   int rounds = 5;                         ///< of moving the axis to the weighted mean
 
   static constexpr TuningValue<WallAxisTuning> kValues[] = {
-      {"min_length_m", &WallAxisTuning::min_length_m},
-      {"min_share", &WallAxisTuning::min_share},
-      {"rival_rad", &WallAxisTuning::rival_rad},
-      {"rival_share", &WallAxisTuning::rival_share},
-      {"scatter_rad", &WallAxisTuning::scatter_rad},
-      {"floor_sigma_rad", &WallAxisTuning::floor_sigma_rad},
-      {"rounds", &WallAxisTuning::rounds}};
+      {"min_length_m", &WallAxisTuning::min_length_m},       {"min_share", &WallAxisTuning::min_share},
+      {"rival_share", &WallAxisTuning::rival_share},         {"scatter_rad", &WallAxisTuning::scatter_rad},
+      {"floor_sigma_rad", &WallAxisTuning::floor_sigma_rad}, {"rounds", &WallAxisTuning::rounds}};
 };
 
 /// The direction that walls run along or at right angles to, in the frame of those walls.

@@ -336,16 +336,14 @@ struct OnlineRefinementTuning {
 };
 
 struct TraversalIndexTuning {
-  double tile_m = 2.0;    ///< side of a tile
-  double margin_m = 0.5;  ///< walls this far off their places are found, less what traversals moved since ...
-  double refile_m = 0.2;  ///< ... which is no more than this
+  double tile_m = 2.0;                         ///< side of a tile
+  double refile_m = 0.2;                       ///< a traversal that has moved this far is filed anew
   std::size_t max_points_per_traversal = 256;  ///< of more, some are left out evenly
   std::size_t max_traversals_nearby = 64;      ///< found at once
   std::size_t max_traversals_per_tile = 8;     ///< of more, chosen evenly from the first to the last
 
   static constexpr TuningValue<TraversalIndexTuning> kValues[] = {
       {"tile_m", &TraversalIndexTuning::tile_m},
-      {"margin_m", &TraversalIndexTuning::margin_m},
       {"refile_m", &TraversalIndexTuning::refile_m},
       {"max_points_per_traversal", &TraversalIndexTuning::max_points_per_traversal},
       {"max_traversals_nearby", &TraversalIndexTuning::max_traversals_nearby},

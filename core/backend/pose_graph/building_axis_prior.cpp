@@ -149,9 +149,19 @@ void BuildingAxisPrior::erase(const IdRanges<KeyframeId>& pruned, PoseGraph& gra
   graph.headings.resize(kept);
   walls_.resize(kept);
   std::erase_if(strays_, [&](const Sight& stray) { return pruned.contains(stray.keyframe); });
-  if (!walls_.empty()) return;
-  shared_.clear();
-  strays_.clear();
+  if (walls_.empty()) strays_.clear();
+  forget_unseen_axes();
+}
+
+void BuildingAxisPrior::forget_unseen_axes() {
+  std::vector<std::size_t> number(shared_.size());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    number[k] = kept;
+    if (shared_[k].headings > 0) shared_[kept++] = shared_[k];
+  }
+  shared_.resize(kept);
+  for (Walls& walls : walls_) walls.shared = number[walls.shared];
 }
 
 void BuildingAxisPrior::update(PoseGraph& graph) const {

@@ -69,6 +69,8 @@ class BuildingAxisPrior {
   void share_strays_upto(const Sight& back, PoseGraph& graph);
   void observe(std::size_t shared, double yaw_variance_rad2);
   void hold(const Sight& sight, std::size_t shared, PoseGraph& graph);
+  /// Axes whose headings were all erased.
+  void forget_unseen_axes();
   /// In the map, of all shared axes.
   [[nodiscard]] std::vector<double> directions_rad(const PoseGraph& graph) const;
 

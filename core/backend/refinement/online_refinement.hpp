@@ -26,7 +26,7 @@ class OnlineRefinement {
         tuning_(tuning.online),
         refinement_tuning_(tuning.refinement),
         window_refinement_(scans, sensor.odometry, tuning.refinement),
-        traversals_(tuning.index) {}
+        traversals_(tuning.index, tuning.refinement.walls.radius_m) {}
 
   /// The store has a new scan, which starts with its predecessor's offset.
   void add_scan();

@@ -17,6 +17,11 @@ void sort_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+/// Which one of `count` is the k-th of `taken`, from the first to the last.
+std::size_t evenly(std::size_t k, std::size_t taken, std::size_t count) {
+  return taken == 1 ? 0 : k * (count - 1) / (taken - 1);
+}
+
 }  // namespace
 
 TraversalIndex::Tile TraversalIndex::tile_of(const Point2& p_map) const {
@@ -95,15 +100,15 @@ std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map
   if (drawn == storeys_.end()) return {};
   std::vector<Tile> tiles;
   for (const Point2& p : places_map) {
-    const Tile low = tile_of({p.x_m - tuning_.margin_m, p.y_m - tuning_.margin_m});
-    const Tile high = tile_of({p.x_m + tuning_.margin_m, p.y_m + tuning_.margin_m});
+    const Tile low = tile_of({p.x_m - margin_m_, p.y_m - margin_m_});
+    const Tile high = tile_of({p.x_m + margin_m_, p.y_m + margin_m_});
     for (std::int32_t x = low.first; x <= high.first; ++x)
       for (std::int32_t y = low.second; y <= high.second; ++y)
         if (tiles.empty() || tiles.back() != Tile(x, y)) tiles.emplace_back(x, y);
   }
   sort_unique(tiles);
 
-  std::vector<std::vector<TraversalId>> choices;  // of each tile
+  std::vector<TraversalId> found;
   for (const Tile& tile : tiles) {
     const auto at = drawn->second.find(tile);
     if (at == drawn->second.end()) continue;
@@ -114,20 +119,16 @@ std::vector<TraversalId> TraversalIndex::near(std::span<const Point2> places_map
     const auto gap = static_cast<std::size_t>(first_after - first_out);
     const std::size_t count = there.size() - gap;
     const std::size_t taken = std::min(count, tuning_.max_traversals_per_tile);
-    std::vector<TraversalId>& chosen = choices.emplace_back();
     for (std::size_t k = 0; k < taken; ++k) {
-      const std::size_t i = taken == 1 ? 0 : k * (count - 1) / (taken - 1);
-      chosen.push_back(there[i < before ? i : i + gap]);
+      const std::size_t i = evenly(k, taken, count);
+      found.push_back(there[i < before ? i : i + gap]);
     }
   }
-  std::vector<TraversalId> found;
-  for (std::size_t k = 0; k < tuning_.max_traversals_per_tile && found.size() < tuning_.max_traversals_nearby;
-       ++k) {
-    for (const std::vector<TraversalId>& chosen : choices)
-      if (k < chosen.size()) found.push_back(chosen[k]);
-    sort_unique(found);
-  }
-  if (found.size() > tuning_.max_traversals_nearby) found.resize(tuning_.max_traversals_nearby);
+  sort_unique(found);
+  const std::size_t most = tuning_.max_traversals_nearby;
+  if (found.size() <= most) return found;
+  for (std::size_t k = 0; k < most; ++k) found[k] = found[evenly(k, most, found.size())];
+  found.resize(most);
   return found;
 }
 

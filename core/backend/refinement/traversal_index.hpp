@@ -27,7 +27,9 @@ struct TraversalWalls {
 /// however long the run; so do the points that come of it. Allocates. One thread at a time.
 class TraversalIndex {
  public:
-  explicit TraversalIndex(const TraversalIndexTuning& tuning = {}) : tuning_(tuning) {}
+  /// `reach_m`: so far from a place its walls may lie.
+  explicit TraversalIndex(const TraversalIndexTuning& tuning = {}, double reach_m = WallFitTuning{}.radius_m)
+      : tuning_(tuning), margin_m_(reach_m + tuning.refile_m) {}
 
   /// Files the next traversal, or an earlier one anew. More than the most points: some are left out, evenly.
   void set(TraversalId traversal, TraversalWalls walls, const Pose2& T_map_reference);
@@ -43,7 +45,7 @@ class TraversalIndex {
   [[nodiscard]] const TraversalWalls& operator[](TraversalId traversal) const {
     return traversals_[traversal].walls;
   }
-  /// Traversals with walls within about half a metre of the places on that storey, ascending, but for the
+  /// Traversals with walls within reach of the places on that storey, ascending, but for the
   /// excluded ones.
   /// Where a tile has more than the most, they are chosen evenly from the first to the last.
   [[nodiscard]] std::vector<TraversalId> near(std::span<const Point2> places_map, StoreyId storey,
@@ -62,6 +64,7 @@ class TraversalIndex {
   void unfile(TraversalId traversal);
 
   TraversalIndexTuning tuning_;
+  double margin_m_;  // with what a traversal may have moved since it was filed
   IdMap<TraversalId, Filed> traversals_;
   using Tiles = std::map<Tile, std::vector<TraversalId>>;  // traversals ascending
   std::map<StoreyId, Tiles> storeys_;

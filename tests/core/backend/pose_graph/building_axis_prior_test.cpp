@@ -171,5 +171,25 @@ TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreErasedGoWithThem) {
   }
 }
 
+TEST(BuildingAxisPrior, AnAxisOfWhichNoHeadingIsLeftIsForgotten) {
+  PoseGraph graph;
+  BuildingAxisPrior hold;
+  const auto see = [&](double deg, double deg2) {
+    graph.T_map_keyframe.push_back({});
+    hold.add(graph.T_map_keyframe.last_id(), axis_seen_at(0.0, radians(deg)), squared(radians(1.0)) * deg2,
+             graph);
+  };
+  see(40, 0);
+  for (const double deg2 : {1.0, 2.0, 3.0}) see(-3, deg2);
+  ASSERT_EQ(graph.headings.size(), 4U) << "a second axis";
+  IdRanges<KeyframeId> gone;
+  gone.add({make_id<KeyframeId>(1), make_id<KeyframeId>(4)});
+  graph.T_map_keyframe.erase(gone);
+  hold.erase(gone, graph);
+  ASSERT_EQ(graph.headings.size(), 1U);
+  for (const double deg2 : {1.0, 2.0, 3.0}) see(0, deg2);
+  EXPECT_EQ(graph.headings.size(), 4U) << "far off the first axis, and off no other";
+}
+
 }  // namespace
 }  // namespace swiftlet
