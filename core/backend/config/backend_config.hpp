@@ -28,7 +28,7 @@ struct BackendConfig {
   double search_radius_m = 8.0;
   double search_angle_rad = radians(30);
   int max_candidates = 8;
-  double min_score = 0.4;
+  double min_score = 0.45;
   int min_match_points = 30;
 
   // Pose graph

@@ -127,7 +127,7 @@ TEST(TuningTables, EachValueIsSetByItsName) {
 
 TEST(TuningTables, TellRealNumbersFromCountsAndGiveTheirRange) {
   EXPECT_THAT(tuning_text({}),
-              HasSubstr("\nreach_m = 30.0  # 0.3 to 3000\nmax_waiting = 100  # 1 to 10000\n"));
+              HasSubstr("\nrefile_m = 0.2  # 0.002 to 20\nmax_points_per_traversal = 256  # 2.56 to 25600\n"));
   EXPECT_THAT(tuning_text({}), HasSubstr("= 1e-05  # "));
 }
 
