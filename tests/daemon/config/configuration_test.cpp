@@ -126,8 +126,9 @@ TEST(TuningTables, EachValueIsSetByItsName) {
 }
 
 TEST(TuningTables, TellRealNumbersFromCountsAndGiveTheirRange) {
-  EXPECT_THAT(tuning_text({}),
-              HasSubstr("\nrefile_m = 0.2  # 0.002 to 20\nmax_points_per_traversal = 256  # 2.56 to 25600\n"));
+  EXPECT_THAT(
+      tuning_text({}),
+      HasSubstr("\nrefile_m = 0.2  # 0.002 to 20\nmax_points_per_traversal = 256  # 2.56 to 25600\n"));
   EXPECT_THAT(tuning_text({}), HasSubstr("= 1e-05  # "));
 }
 
