@@ -72,9 +72,8 @@ struct BackendConfig {
       {"max_candidates", &BackendConfig::max_candidates, "",
        "submaps searched per keyframe at most, the most overlapping first", 1, 1000},
       {"min_score", &BackendConfig::min_score, "",
-       "mean probability under the scan's points that makes a closure in the narrowest window; wider ones "
-       "ask "
-       "for more",
+       "mean probability under the scan's points that makes a closure in the narrowest window; "
+       "wider ones ask for more",
        0.01, 0.99},
       {"min_match_points", &BackendConfig::min_match_points, "", "fewer points decide nothing", 3, 100000},
       {"align_to_walls", &BackendConfig::align_to_walls, "",
