@@ -156,7 +156,7 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
     const Eigen::Matrix3d J = jacobian_compose_second(graph.poses().back().T_local_body);
     axis.turn(since_keyframe.covariance(2, 2));
     viewpoint_covariance = J * since_keyframe.covariance * J.transpose();
-    // Landmarks of the segment or storey before are not associated in this one.
+    // Landmarks of the segment or storey before are not associated in this one, nor do they tell its axis.
     if (sample.starts_segment || sample.storey != storey) first_around = newest;
     if (sample.starts_segment && !sample.odometry_ran_on) {
       // Odometry does not lead to the vehicle's new place: the estimate stays where it is.
@@ -234,6 +234,7 @@ void Frontend::State::align_newest_landmark() {
 void Frontend::State::update_axis() {
   FixedVector<WallDirection, kCapacity.landmarks> walls;
   for (const Landmark& landmark : graph.landmarks()) {
+    if (landmark.last_seen < first_around) continue;
     const bool has_room = walls.try_push_back(
         {landmark.line_local.alpha_rad, distance_m(landmark.start_local, landmark.end_local)});
     SWIFTLET_CHECK(has_room, "the list has room for all landmarks of a graph");

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstddef>
 #include <set>
 #include <vector>
 
 #include "core/frontend/line_fit.hpp"
+#include "core/geometry/angle.hpp"
 #include "tests/core/frontend/room_drive.hpp"
 
 namespace swiftlet {
@@ -256,6 +258,19 @@ TEST(Frontend, TakesNoWallsAcrossAJump) {
   drive.samples[kJump].starts_segment = true;
   const RunOutcome out = run(drive);
   expect_other_walls_from(kJump, out);
+}
+
+TEST(Frontend, WallsFromBeforeAJumpTellNoAxis) {
+  RoomDrive drive = usual_drive(11, {0.2, 0.0});
+  constexpr std::ptrdiff_t kJump = 250;    // where it would begin to turn,
+  constexpr std::ptrdiff_t kSkipped = 20;  // by 82 of 90 degrees
+  constexpr std::ptrdiff_t kLater = kJump + 60;
+  drive.samples.erase(drive.samples.begin() + kJump, drive.samples.begin() + kJump + kSkipped);
+  drive.T_room_body.erase(drive.T_room_body.begin() + kJump, drive.T_room_body.begin() + kJump + kSkipped);
+  drive.samples[kJump].starts_segment = true;
+  const RunOutcome out = run(drive);
+  const double turned_rad = between(out.steps[kJump].T_local_body, out.steps[kLater].T_local_body).yaw_rad();
+  EXPECT_NEAR(turned_rad, between(drive.T_room_body[kJump], drive.T_room_body[kLater]).yaw_rad(), radians(1));
 }
 
 TEST(Frontend, TakesNoWallsAlongToAnotherStoreyButTheMotion) {
