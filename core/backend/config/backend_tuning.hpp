@@ -336,7 +336,7 @@ struct OnlineRefinementTuning {
 };
 
 struct TraversalIndexTuning {
-  double tile_m = 2.0;                         ///< side of a tile
+  double tile_m = 2.0;                         ///< side of a tile; pruning counts traversals in the same
   double refile_m = 0.2;                       ///< a traversal that has moved this far is filed anew
   std::size_t max_points_per_traversal = 256;  ///< of more, some are left out evenly
   std::size_t max_traversals_nearby = 64;      ///< found at once
@@ -351,7 +351,6 @@ struct TraversalIndexTuning {
 };
 
 struct PruningTuning {
-  double tile_m = 2.0;                     ///< side of the tiles in which traversals are counted
   std::size_t returns_per_traversal = 64;  ///< sampled to find where it was
   double share_of_returns = 0.9;           ///< decides: the rest are glances through doors
   std::size_t kept_per_tile = 3;           ///< of the oldest traversals in it, and of the newest
@@ -361,7 +360,6 @@ struct PruningTuning {
   double tie_sigma_rad = 0.05;             ///< likewise
 
   static constexpr TuningValue<PruningTuning> kValues[] = {
-      {"tile_m", &PruningTuning::tile_m},
       {"returns_per_traversal", &PruningTuning::returns_per_traversal},
       {"share_of_returns", &PruningTuning::share_of_returns},
       {"kept_per_tile", &PruningTuning::kept_per_tile},

@@ -40,8 +40,12 @@ struct Traversal {
 class Coverage {
  public:
   Coverage(const ScanStore& scans, const KeyframeChain& chain, const KeyframePoses& T_map_keyframe,
-           std::span<const KeyframeId> anchors, const PruningTuning& tuning)
-      : scans_(scans), chain_(chain), T_map_keyframe_(T_map_keyframe), tuning_(tuning) {
+           std::span<const KeyframeId> anchors, const BackendTuning& tuning)
+      : scans_(scans),
+        chain_(chain),
+        T_map_keyframe_(T_map_keyframe),
+        tuning_(tuning.pruning),
+        tile_m_(tuning.index.tile_m) {
     for (std::size_t k = 0; k + kKeyframesPerTraversal <= chain.size(); k += kKeyframesPerTraversal)
       traversals_.push_back(make_traversal(traversal_of(chain.all().id_at(k))));
     judge();
@@ -55,7 +59,7 @@ class Coverage {
 
  private:
   [[nodiscard]] Tile tile_of(StoreyId storey, const Point2& p_map) const {
-    return {storey, floor_to_int(p_map.x_m / tuning_.tile_m), floor_to_int(p_map.y_m / tuning_.tile_m)};
+    return {storey, floor_to_int(p_map.x_m / tile_m_), floor_to_int(p_map.y_m / tile_m_)};
   }
   [[nodiscard]] Traversal make_traversal(TraversalId id);
   void judge();
@@ -68,6 +72,7 @@ class Coverage {
   const KeyframeChain& chain_;
   const KeyframePoses& T_map_keyframe_;
   const PruningTuning& tuning_;
+  double tile_m_;  // side of the tiles in which traversals are counted
   std::vector<Traversal> traversals_;
   std::map<Tile, std::size_t> number_of_;
   std::vector<std::size_t> traversals_in_;  // of each tile
@@ -138,32 +143,32 @@ std::optional<KeyframeId> Coverage::anchor_of(const Traversal& traversal, double
 
 }  // namespace
 
-void Pruning::add(const PrunedTraversal& traversal, std::size_t scans_in_it) {
+void Pruning::add(const PrunedTraversal& traversal, const ScanStore& store) {
   traversals.push_back(traversal);
   keyframes.add(traversal.keyframes);
   scans.add(traversal.scans);
   ids.add(traversal_of(traversal.keyframes.first));
-  scan_count += scans_in_it;
+  scan_count += store.all().count(traversal.scans);
+  seeing_count += store.seeing(traversal.scans);
 }
 
 Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recent,
                      std::size_t scans_wanted) const {
-  const Coverage coverage(*scans_, *chain_, T_map_keyframe, anchors_, config_->tuning.pruning);
+  const Coverage coverage(*scans_, *chain_, T_map_keyframe, anchors_, config_->tuning);
   const std::vector<Traversal>& traversals = coverage.traversals();
   std::vector<std::optional<KeyframeId>> anchor_of(traversals.size());  // of those that can go
   for (std::size_t p = 0; p < traversals.size(); ++p)
     if (traversals[p].is_redundant && traversals[p].keyframes.end <= first_recent)
       anchor_of[p] = coverage.anchor_of(traversals[p], config_->min_travel_between_m);
   Pruning pruning;
-  for (std::size_t p = 0; p < traversals.size() && pruning.scan_count < scans_wanted;) {
+  for (std::size_t p = 0; p < traversals.size() && pruning.seeing_count < scans_wanted;) {
     std::size_t end = p;
     while (end < traversals.size() && anchor_of[end]) ++end;
     const bool widens_a_hole = end > p && ((*scans_)[traversals[p].scans.first].starts_segment ||
                                            (*scans_)[traversals[end - 1].scans.end].starts_segment);
     if (end - p >= config_->tuning.pruning.min_run || widens_a_hole) {
-      for (std::size_t k = p; k < end && pruning.scan_count < scans_wanted; ++k)
-        pruning.add({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]},
-                    scans_->all().count(traversals[k].scans));
+      for (std::size_t k = p; k < end && pruning.seeing_count < scans_wanted; ++k)
+        pruning.add({traversals[k].keyframes, traversals[k].scans, *anchor_of[k]}, *scans_);
     }
     p = end + 1;
   }
@@ -171,13 +176,13 @@ Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recen
 }
 
 Pruning Pruner::next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use) {
-  if (scans_->size() < due_at_ || chain_->size() == 0) return {};
+  if (scans_->seeing() < due_at_ || chain_->size() == 0) return {};
   const auto at_a_time =
       static_cast<std::size_t>(config_->tuning.pruning.share_at_a_time * config_->max_scans);
   Pruning pruning =
-      plan(T_map_keyframe, first_recent(first_in_use), scans_->size() - max_scans() + at_a_time);
+      plan(T_map_keyframe, first_recent(first_in_use), scans_->seeing() - max_scans() + at_a_time);
   // Where little can be spared, there is nothing to be gained by asking at every step.
-  due_at_ = std::max(max_scans(), scans_->size() - pruning.scan_count + at_a_time);
+  due_at_ = std::max(max_scans(), scans_->seeing() - pruning.seeing_count + at_a_time);
   return pruning;
 }
 
@@ -187,8 +192,7 @@ void Pruner::keep_anchors(const Pruning& pruning) {
   anchors_.erase(std::unique(anchors_.begin(), anchors_.end()), anchors_.end());
 }
 
-/// The first keyframe that the frontend may still change, or that an open submap, a multiscan or the
-/// building's axis uses.
+/// The first keyframe that the frontend may still change, or that an open submap or a multiscan uses.
 KeyframeId Pruner::first_recent(KeyframeId first_in_use) const {
   const IdMap<KeyframeId, ScanId>& keyframes = chain_->all();
   const double recent_m = chain_->path_m(keyframes.last_id()) -

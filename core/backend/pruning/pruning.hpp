@@ -27,8 +27,9 @@ struct Pruning {
   IdRanges<ScanId> scans;
   IdRanges<TraversalId> ids;  ///< of the traversals
   std::size_t scan_count = 0;
+  std::size_t seeing_count = 0;  ///< of those, with returns
   [[nodiscard]] bool empty() const { return traversals.empty(); }
-  void add(const PrunedTraversal& traversal, std::size_t scans_in_it);
+  void add(const PrunedTraversal& traversal, const ScanStore& store);
 };
 
 /// Chooses traversals to prune, the oldest first. The place of a traversal is given by coarse tiles: in those
@@ -42,10 +43,11 @@ class Pruner {
   Pruner(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
       : config_(&config), scans_(&scans), chain_(&chain), due_at_(max_scans()) {}
 
-  /// What is to be pruned now: mostly empty, and always until there are config.max_scans scans. Nothing from
-  /// keyframe `first_in_use` on is touched, nor what was travelled last.
+  /// What is to be pruned now: mostly empty, and always until there are config.max_scans scans with returns.
+  /// Nothing from keyframe `first_in_use` on is touched, nor what was travelled last.
   [[nodiscard]] Pruning next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use);
-  /// At least `scans_wanted` scans, or all that can be spared of what lies before `first_recent`.
+  /// At least `scans_wanted` scans with returns, or all that can be spared of what lies before
+  /// `first_recent`.
   [[nodiscard]] Pruning plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recent,
                              std::size_t scans_wanted) const;
   /// The anchors of what is pruned stay from now on.

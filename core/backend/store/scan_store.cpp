@@ -42,7 +42,13 @@ ScanId ScanStore::add(const FrontendStep& step) {
     returns_.push_back({sample.distance_m[beam], beam, sample.status[beam] == RangeStatus::kHit});
   }
   scan.return_count = static_cast<std::uint16_t>(returns_.size() - scan.first_return);
+  seeing_ += scan.return_count > 0 ? 1 : 0;
   return scans_.push_back(scan);
+}
+
+std::size_t ScanStore::seeing(const ScanRange& range) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scans_.values(range), [](const StoredScan& scan) { return scan.return_count > 0; }));
 }
 
 std::vector<RangeSample> ScanStore::samples() const {
@@ -68,6 +74,7 @@ std::vector<RangeSample> ScanStore::samples() const {
 }
 
 void ScanStore::erase(const IdRanges<ScanId>& pruned) {
+  for (const ScanRange& hole : pruned) seeing_ -= seeing(hole);
   scans_.erase(pruned);
   for (const ScanRange& hole : pruned) {
     const ScanId behind = scans_.at_or_after(hole.end);

@@ -51,6 +51,9 @@ class ScanStore {
   void erase(const IdRanges<ScanId>& pruned);
   [[nodiscard]] const IdMap<ScanId, StoredScan>& all() const { return scans_; }
   [[nodiscard]] std::size_t size() const { return scans_.size(); }
+  /// Scans with returns: those of a landed vehicle have none.
+  [[nodiscard]] std::size_t seeing() const { return seeing_; }
+  [[nodiscard]] std::size_t seeing(const ScanRange& range) const;
   [[nodiscard]] const StoredScan& operator[](ScanId id) const { return scans_[id]; }
   [[nodiscard]] std::span<const ScanReturn> returns(const StoredScan& scan) const {
     return {returns_.data() + scan.first_return, scan.return_count};
@@ -75,6 +78,7 @@ class ScanStore {
   std::array<Point2, kMaxBeams> direction_ = unit_directions(beams_);
   IdMap<ScanId, StoredScan> scans_;
   std::vector<ScanReturn> returns_;
+  std::size_t seeing_ = 0;
 
   static std::array<Point2, kMaxBeams> unit_directions(const BeamLayout& beams);
 };

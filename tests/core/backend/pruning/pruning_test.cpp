@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -176,7 +177,7 @@ TEST(Pruning, AHoleThatGrowsIsTiedAtItsNewEndOnly) {
   const IdRange<KeyframeId> next{hole.end, hole.end + kKeyframesPerTraversal};
   ASSERT_FALSE(begun.keyframes.contains(next.end)) << "not the next hole's";
   Pruning grown;
-  grown.add({next, ten_laps().chain().scans_of(next), begun.traversals.front().anchor}, 1);
+  grown.add({next, ten_laps().chain().scans_of(next), begun.traversals.front().anchor}, ten_laps().scans());
   const auto more = ties_around(grown, scans, T_map_keyframe);
   ASSERT_EQ(more.size(), 1U);
   EXPECT_EQ(more.front().to, next.end);
@@ -186,7 +187,7 @@ TEST(Pruning, LeavesAnchorsOfEarlierOnesAndWhatIsRecent) {
   const Pruning before = plan(ten_laps(), 1'000'000);
   const KeyframeId kept = before.traversals[3].keyframes.first + 1;
   Pruning earlier;
-  earlier.add({{}, {}, kept}, 0);
+  earlier.add({{}, {}, kept}, ten_laps().scans());
   const BackendConfig config;
   Pruner pruner(config, ten_laps().scans(), ten_laps().chain());
   pruner.keep_anchors(earlier);
@@ -214,6 +215,25 @@ TEST(Pruning, IsDueOnceThereAreMoreScansThanAllowed) {
                   .next(ten_laps().T_local_keyframe(), pruning.traversals.front().keyframes.first)
                   .empty())
       << "all of it lies behind what is in use";
+}
+
+TEST(Pruning, IsNotDueForAVehicleThatStandsLanded) {
+  std::vector<RangeSample> samples = laps(10);
+  const std::size_t flown = samples.size();
+  for (std::size_t i = 0; i < flown; ++i) {
+    RangeSample landed = samples.back();
+    landed.sequence += 1;
+    landed.measured_at += std::chrono::milliseconds(100);
+    landed.stamp += std::chrono::milliseconds(100);
+    landed.status.fill(RangeStatus::kInvalid);
+    samples.push_back(landed);
+  }
+  const StoredRun run(samples);
+  ASSERT_GT(run.scans().size(), flown);
+  BackendConfig config;
+  config.max_scans = static_cast<int>(flown) + 1;
+  const KeyframeId end = run.chain().all().end_id();
+  EXPECT_TRUE(Pruner(config, run.scans(), run.chain()).next(run.T_local_keyframe(), end).empty());
 }
 
 }  // namespace
