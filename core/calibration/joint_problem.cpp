@@ -55,12 +55,27 @@ bool is_settled(const PosesAndWalls& problem, const JointProblemTuning& tuning) 
   return (problem.change().array().abs() < tuning.settled * sigma.array()).all();
 }
 
+/// Ascending, for each scan. A segment begins another one: so the vehicle's clock may begin anew with it.
+std::vector<std::size_t> stretch_of_scans(std::span<const CalibrationScan> scans, Duration stretch) {
+  std::vector<std::size_t> numbers;
+  std::size_t number = 0;
+  DeviceTime begun = scans.front().measured_at;
+  for (const CalibrationScan& scan : scans) {
+    const Duration since = scan.measured_at - begun;
+    if (!numbers.empty() && (scan.starts_segment || since >= stretch)) {
+      ++number;
+      begun = scan.starts_segment ? scan.measured_at : begun + since / stretch * stretch;
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 JointEstimate summary_of(const PosesAndWalls& problem, std::span<const CalibrationScan> scans,
                          const JointProblemTuning& tuning) {
   const SystematicCovariance by_model = problem.information().inverse();
-  const SystematicCovariance by_scatter = by_model * problem.scatter([&](std::size_t scan) {
-    return static_cast<std::size_t>((scans[scan].measured_at - scans.front().measured_at) / tuning.stretch);
-  }) * by_model;
+  const SystematicCovariance by_scatter =
+      by_model * problem.scatter(stretch_of_scans(scans, tuning.stretch)) * by_model;
   JointEstimate estimate;
   estimate.errors = problem.errors();
   estimate.sigma = by_model.diagonal().cwiseMax(by_scatter.diagonal()).cwiseSqrt();
@@ -128,6 +143,8 @@ Result<JointEstimate> estimate_jointly(std::span<const CalibrationScan> scans, c
   if (Status status = add_noise_uncertainty(tuning, problem, estimate); !status) return status.error();
   add_convergence_uncertainty(halfway, estimate);
   add_sampling_uncertainty(tuning.sampling_share * usual_interval_s(odometry_of(scans)), estimate);
+  if (!estimate.errors.allFinite() || !estimate.sigma.allFinite())
+    return Error{ErrorCode::kSolver, "the systematic errors of the sensors have no finite estimate"};
   return estimate;
 }
 

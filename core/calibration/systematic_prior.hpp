@@ -21,10 +21,9 @@ struct InputCalibration {
   SystematicErrors sigma = SystematicErrors::Zero();  ///< of what was found; 0: not estimated
 };
 /// `estimate`, as weighed() returns it, is relative to the expected range age, and to no calibration of the
-/// odometry but for the yaw of wheels. An age is not
-/// below zero. The yaw that wheels miss becomes what the frontend expects of it: it differs along the way, so
-/// the frontend goes on learning it. Dead reckoning of wheels as a map of its own stays as reported, scale
-/// and yaw.
+/// odometry but for the yaw of wheels. The yaw that wheels miss becomes what the frontend expects of it: it
+/// differs along the way, so the frontend goes on learning it. Dead reckoning of wheels as a map of its own
+/// stays as reported, scale and yaw.
 [[nodiscard]] InputCalibration calibrated_by(const JointEstimate& estimate, const SensorModel& expected);
 
 }  // namespace swiftlet

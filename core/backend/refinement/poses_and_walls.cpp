@@ -381,23 +381,23 @@ Status PosesAndWalls::step() {
   return {};
 }
 
-PosesAndWalls::ErrorsMatrix PosesAndWalls::scatter(
-    const std::function<std::size_t(std::size_t)>& group_of) const {
-  std::vector<SystematicErrors> gradients(group_of(nodes_.scans() - 1) + 1, SystematicErrors::Zero());
+PosesAndWalls::ErrorsMatrix PosesAndWalls::scatter(std::span<const std::size_t> group_of_scan) const {
+  std::vector<SystematicErrors> gradients(group_of_scan.back() + 1, SystematicErrors::Zero());
   for (const WallReturn& wall : returns_) {
     const WallRow row = wall_row(wall);
     const Index node = H_->row_of_node(sights_[wall.sight].node);
     const SystematicErrors by_errors =
         row.by_errors - by_errors_.middleRows<3>(node).transpose() * row.by_node -
         by_errors_.middleRows<2>(H_->row_of_patch(wall.patch)).transpose() * row.by_patch;
-    gradients[group_of(hits_[wall.hit].scan)] += row.weight * row.error * by_errors;
+    gradients[group_of_scan[hits_[wall.hit].scan]] += row.weight * row.error * by_errors;
   }
   for (std::size_t k = 1; k < nodes_.size(); ++k) {
     const MotionRow row = motion_row(k);
     const Eigen::Matrix<double, 3, kSystematicErrors> by_errors =
         row.by_errors - row.by_from * by_errors_.middleRows<3>(H_->row_of_node(k - 1)) -
         row.by_to * by_errors_.middleRows<3>(H_->row_of_node(k));
-    gradients[group_of(nodes_.first_scan(k))] += by_errors.transpose() * row.weight.cwiseProduct(row.error);
+    gradients[group_of_scan[nodes_.first_scan(k)]] +=
+        by_errors.transpose() * row.weight.cwiseProduct(row.error);
   }
   ErrorsMatrix scatter = ErrorsMatrix::Zero();
   for (const SystematicErrors& g : gradients) scatter += g * g.transpose();

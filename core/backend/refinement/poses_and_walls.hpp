@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -83,7 +82,8 @@ class PosesAndWalls {
   [[nodiscard]] const ErrorsMatrix& information() const { return reduced_; }
   [[nodiscard]] const SystematicErrors& change() const { return change_; }
   /// Sum over groups of scans of the squares of the errors' gradients, the other unknowns being left free.
-  [[nodiscard]] ErrorsMatrix scatter(const std::function<std::size_t(std::size_t scan)>& group_of) const;
+  /// `group_of_scan` ascends from 0.
+  [[nodiscard]] ErrorsMatrix scatter(std::span<const std::size_t> group_of_scan) const;
 
  private:
   using Index = Eigen::Index;

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstddef>
+
 #include "tests/core/calibration/room_flight.hpp"
 
 namespace swiftlet {
@@ -85,6 +88,22 @@ TEST(JointProblem, FindsNoAgeWhereStampsComeInBunches) {
   ASSERT_TRUE(estimate) << estimate.error().message;
   EXPECT_NEAR(estimate->errors(index_of(SystematicError::kRangeAge)), 0.0, 1e-6);
   EXPECT_GT(estimate->sigma(index_of(SystematicError::kRangeAge)), 0.1);
+}
+
+TEST(JointProblem, IsNotMisledByAClockThatBeginsAnew) {
+  for (const int restarts_at_s : {-30, 1'000'000'000}) {
+    FlownScans flown = fly({});
+    const Result<JointEstimate> before =
+        estimate_jointly(flown.scans, SensorModel::crazyflie(), flown.T_map_body, go_on);
+    const std::size_t half = flown.scans.size() / 2;
+    const Duration lost = DeviceTime(std::chrono::seconds(restarts_at_s)) - flown.scans[half].measured_at;
+    flown.scans[half].starts_segment = true;
+    for (std::size_t i = half; i < flown.scans.size(); ++i) flown.scans[i].measured_at += lost;
+    const Result<JointEstimate> estimate =
+        estimate_jointly(flown.scans, SensorModel::crazyflie(), flown.T_map_body, go_on);
+    ASSERT_TRUE(before && estimate);
+    EXPECT_TRUE((estimate->sigma.array() < 1.5 * before->sigma.array() + 1e-9).all());
+  }
 }
 
 TEST(JointProblem, GivesTheSameTwice) {
