@@ -17,9 +17,8 @@ namespace swiftlet {
 struct MapBuilder::State {
   State(const MapConfig& map_config, const SensorModel& sensor)
       : config(map_config),
-        max_range_m(static_cast<float>(sensor.max_range_m)),
-        clear_range_m(std::min(map_config.clear_range_m, sensor.max_range_m)),
-        drawing(map_config, clear_range_m) {}
+        max_range_m(sensor.max_range_m),
+        drawing(map_config, std::min(map_config.clear_range_m, sensor.max_range_m), sensor.max_range_m) {}
 
   /// Where a keyframe and the next one stood when the scans in between, which hang on both, were drawn.
   struct Stretch {
@@ -27,6 +26,9 @@ struct MapBuilder::State {
     Pose2 T_map_next;
   };
   [[nodiscard]] static Stretch stretch_now(const Backend& backend, KeyframeId k);
+  [[nodiscard]] static ScanId known_end(const Backend& backend) {
+    return backend.doubted_since().value_or(backend.scans().all().end_id());
+  }
   [[nodiscard]] bool has_moved(const Pose2& drawn, const Pose2& now) const;
   void take_new_keyframes(const Backend& backend);
   void draw_up_to(const Backend& backend, ScanId end);
@@ -40,8 +42,7 @@ struct MapBuilder::State {
   [[nodiscard]] Beams beams_of(const Backend& backend, ScanId scan) const;
 
   MapConfig config;
-  float max_range_m;
-  double clear_range_m;
+  double max_range_m;
   ScanDrawing drawing;
   IdMap<KeyframeId, Stretch> stretches;
   ScanId drawn_end{};            // later scans are not in the map yet
@@ -56,7 +57,7 @@ MapBuilder::State::Stretch MapBuilder::State::stretch_now(const Backend& backend
 
 bool MapBuilder::State::has_moved(const Pose2& drawn, const Pose2& now) const {
   const Pose2 moved = between(drawn, now);
-  const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * clear_range_m;
+  const double farthest_m = std::hypot(moved.x_m(), moved.y_m()) + std::abs(moved.yaw_rad()) * max_range_m;
   return farthest_m > config.tuning.drawing.follow_cells * config.resolution_m;
 }
 
@@ -123,7 +124,7 @@ MapBuilder::State::Beams MapBuilder::State::beams_of(const Backend& backend, Sca
   const ScanStore& scans = backend.scans();
   Beams beams;
   for (ScanReturn r : scans.returns(scan)) {
-    if (!r.is_hit) r.distance_m = max_range_m;
+    if (!r.is_hit) r.distance_m = static_cast<float>(max_range_m);
     const bool fits = beams.try_push_back({scans.point_body(r), r.is_hit});
     SWIFTLET_CHECK(fits, "a scan has at most kMaxBeams returns");
   }
@@ -153,9 +154,8 @@ std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_cha
                                           const ScanRange& refined) {
   State& s = *state_;
   s.take_new_keyframes(backend);
-  const ScanId known_end = backend.doubted_since().value_or(backend.scans().all().end_id());
-  s.rub_out_from(backend, known_end);
-  s.draw_up_to(backend, known_end);
+  s.rub_out_from(backend, State::known_end(backend));
+  s.draw_up_to(backend, State::known_end(backend));
   const KeyframeId first = s.first_unsettled(backend);
   if (!refined.empty()) {
     const std::span<const StoredScan> scans = backend.scans().all().values(refined);
@@ -164,9 +164,20 @@ std::vector<TileIndex> MapBuilder::update(const Backend& backend, bool poses_cha
   }
   for (KeyframeId k = first; k < s.stretches.end_id(); k = s.stretches.next(k)) s.follow(backend, k);
   s.keyframes_end = s.stretches.end_id();
-  if (poses_changed) s.swept.begin(s.stretches.size());
+  if (poses_changed) s.swept.begin(s.stretches);
   s.sweep(backend);
   return s.drawing.store().publish();
+}
+
+bool MapBuilder::is_behind(const Backend& backend) const {
+  const ScanRange waiting{state_->drawn_end, State::known_end(backend)};
+  return waiting.first < waiting.end &&
+         backend.scans().return_count(waiting) >= state_->config.tuning.drawing.max_returns_moved;
+}
+
+std::vector<TileIndex> MapBuilder::catch_up(const Backend& backend) {
+  state_->draw_up_to(backend, State::known_end(backend));
+  return state_->drawing.store().publish();
 }
 
 std::vector<TileIndex> MapBuilder::settle(const Backend& backend) {

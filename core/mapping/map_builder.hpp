@@ -29,6 +29,10 @@ class MapBuilder {
   /// `refined` ones and, when `poses_changed`, of all in this and the next updates, those that moved
   /// noticeably. Returns the tiles whose published content changed, in index order.
   std::vector<TileIndex> update(const Backend& backend, bool poses_changed, const ScanRange& refined = {});
+  /// Whether more scans wait than one update draws: of a vehicle that stands, or that doubt has left.
+  [[nodiscard]] bool is_behind(const Backend& backend) const;
+  /// Draws some of them. Precondition: no keyframe was added since update(). Returns as update() does.
+  std::vector<TileIndex> catch_up(const Backend& backend);
   /// Rubs out what the backend is about to prune. What is left unknown shows with the next update.
   void prune(const Backend& backend, const Pruning& pruning);
   /// Draws every scan exactly where the backend has it. Returns as update() does.

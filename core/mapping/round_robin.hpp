@@ -13,14 +13,18 @@ namespace swiftlet {
 template <AnId Id>
 class RoundRobin {
  public:
-  /// So many ids are due, whether they were already or not.
-  void begin(std::size_t count) { due_ = count; }
+  /// All ids are due, whether they were already or not.
+  template <typename T>
+  void begin(const IdMap<Id, T>& all) {
+    due_ = all.size();
+    end_ = all.end_id();
+  }
   [[nodiscard]] bool is_done() const { return due_ == 0; }
   /// The id whose turn it is. Precondition: not done.
   template <typename T>
   Id take(const IdMap<Id, T>& all) {
     next_ = all.at_or_after(next_);
-    if (next_ >= all.end_id()) next_ = all.first_id();
+    if (next_ >= end_) next_ = all.first_id();
     --due_;
     const Id taken = next_;
     ++next_;
@@ -30,8 +34,9 @@ class RoundRobin {
   template <typename T>
   void erase(const IdRanges<Id>& gone, const IdMap<Id, T>& all) {
     const std::size_t begin = all.position(next_);
-    const std::size_t end = begin + due_;
-    const std::size_t wrapped_end = end - std::min(end, all.size());  // due are those before it, too
+    const std::size_t size = all.position(end_);
+    const std::size_t end = std::min(begin + due_, size);
+    const std::size_t wrapped_end = begin + due_ - end;  // due are those before it, too
     std::size_t erased = 0;
     for (const IdRange<Id>& range : gone) {
       const std::size_t first = all.position(range.first);
@@ -44,6 +49,7 @@ class RoundRobin {
 
  private:
   Id next_{};
+  Id end_{};  // of those that are due: later ones were added since
   std::size_t due_ = 0;
 };
 

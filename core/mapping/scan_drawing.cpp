@@ -12,11 +12,11 @@ constexpr double kFarthestM = 1e5;  // cells of 1 cm and lattice steps of 1/4 of
 
 }  // namespace
 
-ScanDrawing::ScanDrawing(const MapConfig& config, double clear_range_m)
+ScanDrawing::ScanDrawing(const MapConfig& config, double clear_range_m, double max_range_m)
     : cells_per_m_(1.0 / config.resolution_m),
       clear_range_m_(clear_range_m),
       position_step_m_(config.resolution_m / config.tuning.drawing.lattice_per_cell),
-      yaw_step_rad_(position_step_m_ / clear_range_m),
+      yaw_step_rad_(position_step_m_ / max_range_m),
       store_(config) {}
 
 std::optional<ScanDrawing::LatticePose> ScanDrawing::rounded(const Pose2& T_map_body) const {

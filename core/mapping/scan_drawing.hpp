@@ -28,15 +28,15 @@ struct DrawnBeams {
 /// Draws scans into a tile store and can move each of them later.
 ///
 /// A scan is drawn at its pose rounded to a lattice of a quarter of a cell (in position, and in what a turn
-/// moves at the clearing range), far below the noise of a reading. So a correction too small to matter costs
+/// moves at the sensor's range), far below the noise of a reading. So a correction too small to matter costs
 /// one comparison, and still what is drawn is a function of each scan's present pose alone: no history of
 /// small corrections, and no order among large ones, can leave a trace.
 ///
 /// One thread at a time. Allocates as scans and map grow.
 class ScanDrawing {
  public:
-  /// `clear_range_m`: beams clear cells up to this distance at most; hits are drawn at any distance.
-  ScanDrawing(const MapConfig& config, double clear_range_m);
+  /// `clear_range_m`: beams clear cells up to this distance at most. `max_range_m`: hits lie no farther.
+  ScanDrawing(const MapConfig& config, double clear_range_m, double max_range_m);
 
   /// Whether drawing `scan` at this pose would change anything.
   [[nodiscard]] bool needs_drawing(ScanId scan, const Pose2& T_map_body) const;

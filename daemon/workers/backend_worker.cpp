@@ -57,7 +57,10 @@ void BackendWorker::add_step() {
     changed = backend_.add(step_);
   }
   if (feed_) feed_->hand_on_confidence(backend_, step_.has_keyframe);
-  if (!step_.has_keyframe) return;
+  if (!step_.has_keyframe) {
+    if (feed_ && map_.is_behind(backend_)) draw([&] { return map_.catch_up(backend_); });
+    return;
+  }
   hand_on_correction();
   if (feed_) draw([&] { return map_.update(backend_, changed.poses_changed, changed.refined); });
   prune();

@@ -96,8 +96,7 @@ std::string title_text(const MapScene& scene) {
   std::snprintf(rest.data(), rest.size(), "%s%04d-%02u-%02u %02d:%02d utc, %s min, %.0f m",
                 text.empty() ? "" : "   ", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
                 static_cast<unsigned>(date.day()), static_cast<int>(minutes / 60),
-                static_cast<int>(minutes % 60), minutes_and_seconds(scene.duration).c_str(),
-                path_length_m(scene));
+                static_cast<int>(minutes % 60), minutes_and_seconds(scene.duration).c_str(), scene.length_m);
   return text + rest.data();
 }
 

@@ -14,7 +14,7 @@ namespace swiftlet {
 inline constexpr int kLegendHeightPx = 64;
 inline constexpr int kTitleHeightPx = 32;
 
-/// The longest of 1, 2, 5, 10, 20, 50, .. metres whose bar is at most `max_px` long.
+/// The longest of 1, 2, 5, 10, 20, 50, .. metres whose bar is at most `max_px` long, or one metre.
 [[nodiscard]] double scale_bar_length_m(double px_per_m, double max_px);
 
 /// Fills the strip of kLegendHeightPx rows from `top_px` on: scale bar, time scale, and a key to the lines.

@@ -50,14 +50,6 @@ void add_walls(MapScene& scene, const Backend& backend, StoreyId storey, const W
 
 }  // namespace
 
-double path_length_m(const MapScene& scene) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < scene.scans.size(); ++i)
-    if (!scene.scans[i].starts_segment)
-      length_m += distance_m(scene.scans[i - 1].corrected_map, scene.scans[i].corrected_map);
-  return length_m;
-}
-
 MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId storey) {
   MapScene scene;
   scene.resolution_m = map.config().resolution_m;
@@ -68,10 +60,13 @@ MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId 
   const ScanStore& scans = backend.scans();
   scene.scans.reserve(scans.size());
   Pose2 T_map_odom;
+  double path_before_m = 0.0;
   bool is_here = false;
   for (const auto& [id, scan] : scans.all()) {
     const bool was_here = std::exchange(is_here, scan.storey == storey);
+    const double step_m = scan.path_m - std::exchange(path_before_m, scan.path_m);
     if (!is_here) continue;
+    if (was_here) scene.length_m += step_m;
     const bool starts_segment = scan.starts_segment || !was_here;
     const Pose2 T_map_body = backend.T_map_body(id);
     if (starts_segment) T_map_odom = T_map_body * scan.T_odom_body.inverse();

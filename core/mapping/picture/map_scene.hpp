@@ -34,13 +34,11 @@ struct MapScene {
   std::vector<MapSegment> walls;     ///< as far as the grid bears them out
   std::vector<MapSegment> closures;  ///< accepted, from keyframe to keyframe
   std::vector<MapSegment> dropped_closures;
-  std::string title;     ///< of the run; empty: it has none
-  HostTime began{};      ///< stamp of the first scan
-  Duration duration{0};  ///< from the first scan to the last
+  std::string title;      ///< of the run; empty: it has none
+  HostTime began{};       ///< stamp of the first scan
+  Duration duration{0};   ///< from the first scan to the last
+  double length_m = 0.0;  ///< travelled on the storey, by dead reckoning, with what was pruned
 };
-
-/// Metres along the corrected path, without breaks.
-[[nodiscard]] double path_length_m(const MapScene& scene);
 
 /// The present state of a run on a storey, without a title. Allocates.
 [[nodiscard]] MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId storey = {});

@@ -169,6 +169,28 @@ TEST(MapBuilder, FollowsWhenItIsAskedOnlyNowAndThen) {
   expect_same_map(seldom, drawn_at_once);
 }
 
+TEST(MapBuilder, DrawsWhatAVehicleSeesThatStands) {
+  MapConfig config;
+  config.tuning.drawing.max_returns_moved = 100;
+  Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
+  MapBuilder map(config, kSensor);
+  FrontendStep step = room_flight(1).front();
+  map.update(backend, backend.add(step).poses_changed);
+  step.has_keyframe = false;
+  step.sample.starts_segment = false;
+  int drawings = 0;
+  for (int i = 0; i < 1000; ++i) {
+    backend.add(step);
+    if (!map.is_behind(backend)) continue;
+    map.catch_up(backend);
+    ++drawings;
+  }
+  EXPECT_EQ(drawings, 40);
+  MapBuilder settled(config, kSensor);
+  settled.settle(backend);
+  expect_same_map(map, settled);
+}
+
 TEST(MapBuilder, ReportsExactlyTheTilesWhoseContentChanged) {
   Backend backend(without_loops(), kSensor, BeamLayout::multiranger());
   MapBuilder map(MapConfig{}, kSensor);

@@ -41,16 +41,25 @@ TEST(RoundRobin, NothingIsDueAtFirst) { EXPECT_TRUE(RoundRobin<KeyframeId>().is_
 
 TEST(RoundRobin, VisitsEachOnceFromWhereItEnded) {
   RoundRobin<KeyframeId> turns;
-  turns.begin(5);
+  turns.begin(map_of(5));
   take(turns, 3, map_of(5));
-  turns.begin(6);
+  turns.begin(map_of(6));
   EXPECT_THAT(take_all(turns, map_of(6)), ElementsAre(3, 4, 5, 0, 1, 2));
+}
+
+TEST(RoundRobin, WhatIsAddedMeanwhileTakesNobodysTurn) {
+  RoundRobin<KeyframeId> turns;
+  turns.begin(map_of(5));
+  take(turns, 3, map_of(5));
+  turns.begin(map_of(5));
+  take(turns, 1, map_of(5));
+  EXPECT_THAT(take_all(turns, map_of(7)), ElementsAre(4, 0, 1, 2));
 }
 
 TEST(RoundRobin, WhatIsErasedBeforeTheTurnChangesNothing) {
   RoundRobin<KeyframeId> turns;
   Map map = map_of(8);
-  turns.begin(8);
+  turns.begin(map);
   take(turns, 4, map);
   erase(turns, {range(1, 3)}, map);
   EXPECT_THAT(take_all(turns, map), ElementsAre(4, 5, 6, 7));
@@ -59,7 +68,7 @@ TEST(RoundRobin, WhatIsErasedBeforeTheTurnChangesNothing) {
 TEST(RoundRobin, WhatIsErasedAndWasDueIsDueNoMore) {
   RoundRobin<KeyframeId> turns;
   Map map = map_of(8);
-  turns.begin(8);
+  turns.begin(map);
   take(turns, 3, map);
   erase(turns, {range(2, 4), range(6, 7)}, map);
   EXPECT_THAT(take_all(turns, map), ElementsAre(4, 5, 7));
@@ -68,9 +77,9 @@ TEST(RoundRobin, WhatIsErasedAndWasDueIsDueNoMore) {
 TEST(RoundRobin, TheSameStayDueAcrossTheEnd) {
   RoundRobin<KeyframeId> turns;
   Map map = map_of(8);
-  turns.begin(8);
+  turns.begin(map);
   take(turns, 6, map);
-  turns.begin(8);
+  turns.begin(map);
   take(turns, 1, map);  // due are 7 and 0 to 5, and 6 again
   erase(turns, {range(1, 3), range(5, 7)}, map);
   EXPECT_THAT(take_all(turns, map), ElementsAre(7, 0, 3, 4));
@@ -79,7 +88,7 @@ TEST(RoundRobin, TheSameStayDueAcrossTheEnd) {
 TEST(RoundRobin, WithNothingDueNothingBecomesDue) {
   RoundRobin<KeyframeId> turns;
   Map map = map_of(3);
-  turns.begin(3);
+  turns.begin(map);
   take(turns, 3, map);
   erase(turns, {range(0, 2)}, map);
   EXPECT_THAT(take_all(turns, map), IsEmpty());

@@ -71,7 +71,7 @@ std::vector<Scan> random_scans(int count, std::uint32_t seed) {
 }
 
 TEST(ScanDrawing, DrawsASmallRoom) {
-  ScanDrawing drawing(metre_cells(), 10.0);
+  ScanDrawing drawing(metre_cells(), 10.0, 10.0);
   const std::vector<BeamEnd> beams = {{{4, 0}, true}, {{0, 2}, true}, {{-4, 0}, true}, {{0, -2}, true}};
   drawing.draw(ScanId{0}, {4.5, 2.5, 0.0}, {beams});
   drawing.store().publish();
@@ -83,21 +83,21 @@ TEST(ScanDrawing, DrawsASmallRoom) {
 }
 
 TEST(ScanDrawing, ABeamWithoutReturnOnlyClears) {
-  ScanDrawing drawing(metre_cells(), 10.0);
+  ScanDrawing drawing(metre_cells(), 10.0, 10.0);
   drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, {std::vector<BeamEnd>{{{4, 0}, false}}});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 6, 1), testing::ElementsAre("....  "));
 }
 
 TEST(ScanDrawing, ClearsUpToItsRangeAndMarksHitsBeyond) {
-  ScanDrawing drawing(metre_cells(), 3.0);
+  ScanDrawing drawing(metre_cells(), 3.0, 3.0);
   drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, {std::vector<BeamEnd>{{{6, 0}, true}}});
   drawing.store().publish();
   EXPECT_THAT(picture(drawing.store(), 8, 1), testing::ElementsAre("...   # "));
 }
 
 TEST(ScanDrawing, MovingAScanLeavesNoTraceOfWhereItWas) {
-  ScanDrawing drawing(metre_cells(), 10.0);
+  ScanDrawing drawing(metre_cells(), 10.0, 10.0);
   const std::vector<BeamEnd> beams = {{{3, 0}, true}};
   drawing.draw(ScanId{0}, {0.5, 0.5, 0.0}, {beams});
   drawing.store().publish();
@@ -109,11 +109,11 @@ TEST(ScanDrawing, MovingAScanLeavesNoTraceOfWhereItWas) {
 
 TEST(ScanDrawing, DoesNotDependOnTheWayThePosesCameAbout) {
   const std::vector<Scan> last = random_scans(200, 1);
-  ScanDrawing at_once(MapConfig{}, 3.0);
+  ScanDrawing at_once(MapConfig{}, 3.0, 3.0);
   for (std::size_t i = 0; i < last.size(); ++i)
     at_once.draw(make_id<ScanId>(i), last[i].T_map_body, {last[i].beams});
 
-  ScanDrawing wandering(MapConfig{}, 3.0);
+  ScanDrawing wandering(MapConfig{}, 3.0, 3.0);
   std::mt19937 generator(2);
   for (std::uint32_t round = 0; round < 5; ++round) {
     const std::vector<Scan> elsewhere = random_scans(200, 100 + round);
@@ -131,8 +131,8 @@ TEST(ScanDrawing, DoesNotDependOnTheWayThePosesCameAbout) {
 TEST(ScanDrawing, ManySmallCorrectionsEndWhereOneLargeOneDoes) {
   const std::vector<Scan> scans = random_scans(50, 3);
   const Pose2 T_moved_map(0.31, -0.17, 0.02);
-  ScanDrawing creeping(MapConfig{}, 3.0);
-  ScanDrawing jumping(MapConfig{}, 3.0);
+  ScanDrawing creeping(MapConfig{}, 3.0, 3.0);
+  ScanDrawing jumping(MapConfig{}, 3.0, 3.0);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     for (int step = 0; step <= 400; ++step) {
       const double share = step / 400.0;
@@ -146,7 +146,7 @@ TEST(ScanDrawing, ManySmallCorrectionsEndWhereOneLargeOneDoes) {
 }
 
 TEST(ScanDrawing, RedrawsNothingForAMoveBelowTheLattice) {
-  ScanDrawing drawing(MapConfig{}, 3.0);
+  ScanDrawing drawing(MapConfig{}, 3.0, 3.0);
   drawing.draw(ScanId{0}, {1.0, 1.0, 0.0}, {std::vector<BeamEnd>{{{1, 0}, true}}});
   EXPECT_FALSE(drawing.needs_drawing(ScanId{0}, {1.0005, 1.0, 0.0}));
   EXPECT_TRUE(drawing.needs_drawing(ScanId{0}, {1.01, 1.0, 0.0}));
@@ -155,7 +155,7 @@ TEST(ScanDrawing, RedrawsNothingForAMoveBelowTheLattice) {
 }
 
 TEST(ScanDrawing, DrawsNothingAtAPoseThatIsNone) {
-  ScanDrawing drawing(MapConfig{}, 3.0);
+  ScanDrawing drawing(MapConfig{}, 3.0, 3.0);
   const std::vector<BeamEnd> beams = {{{1, 0}, true}};
   drawing.draw(ScanId{0}, {1.0, 1.0, 0.0}, {beams});
   drawing.draw(ScanId{0}, {1e9, 1.0, 0.0}, {beams});

@@ -56,7 +56,8 @@ TEST(MapLegend, TheTitleNamesRunDateAndLength) {
   EXPECT_EQ(title_text(scene), "olsson.pcap");
   scene.began = HostTime(std::chrono::seconds(1'600'000'000));
   scene.duration = std::chrono::seconds(83);
-  scene.scans = {{{0.0, 0.0}, {}, true}, {{3.0, 4.0}, {}, false}, {{50.0, 4.0}, {}, true}};
+  scene.length_m = 5.2;
+  scene.scans.resize(1);
   EXPECT_EQ(title_text(scene), "olsson.pcap   2020-09-13 12:26 utc, 1:23 min, 5 m");
   scene.title.clear();
   EXPECT_EQ(title_text(scene), "2020-09-13 12:26 utc, 1:23 min, 5 m");

@@ -16,6 +16,7 @@ TEST(MapScene, ShowsEveryScanWithItsOdometryBegunAtTheCorrectedStart) {
   for (const FrontendStep& step : room_flight(41)) backend.add(step);
   map.update(backend, true);
   const MapScene scene = make_map_scene(backend, map);
+  EXPECT_NEAR(scene.length_m, backend.scans().all().values().back().path_m, 1e-9);
   ASSERT_EQ(scene.scans.size(), 41U);
   EXPECT_TRUE(scene.scans[0].starts_segment);
   EXPECT_FALSE(scene.scans[1].starts_segment);
