@@ -28,7 +28,7 @@ const StampedPose* StampedPath::nearest_within(Duration tolerance, HostTime stam
   auto found = not_before(stamp);
   if (found == poses_.end() ||
       (found != poses_.begin() && stamp - (found - 1)->stamp <= found->stamp - stamp))
-    --found;
+    found = not_before((found - 1)->stamp);
   return std::chrono::abs(found->stamp - stamp) <= tolerance ? &*found : nullptr;
 }
 

@@ -36,6 +36,7 @@ TEST(StampedPath, SortsItsPosesAndFindsTheFirstOfEqualStamps) {
                           {HostTime(seconds(2)), Pose2(3.0, 0.0, 0.0)}});
   EXPECT_EQ(path.poses().front().pose.x_m(), 1.0);
   EXPECT_EQ(path.nearest(HostTime(seconds(2)))->pose.x_m(), 2.0);
+  EXPECT_EQ(path.nearest(HostTime(milliseconds(2001)))->pose.x_m(), 2.0);
   EXPECT_EQ(path.interpolated(HostTime(seconds(2))).x_m(), 2.0);
 }
 
