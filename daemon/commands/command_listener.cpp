@@ -21,6 +21,7 @@
 
 #include "daemon/commands/command_message.hpp"
 #include "daemon/commands/tcpq_conversation.hpp"
+#include "daemon/publish/lcm_network.hpp"
 
 namespace swiftlet {
 namespace {
@@ -124,9 +125,7 @@ std::string CommandListener::url() const {
   sockaddr_in bound{};
   socklen_t size = sizeof bound;
   ::getsockname(socket_, std::bit_cast<sockaddr*>(&bound), &size);
-  std::array<char, INET_ADDRSTRLEN> host{};
-  ::inet_ntop(AF_INET, &bound.sin_addr, host.data(), host.size());
-  return "tcpq://" + std::string(host.data()) + ":" + std::to_string(ntohs(bound.sin_port));
+  return lcm_server_url(bound);
 }
 
 void CommandListener::run(const std::stop_token& stop) {

@@ -4,7 +4,6 @@
 
 #include <arpa/inet.h>
 #include <netdb.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -88,6 +87,12 @@ bool has_route_to(const std::string& address) {
          (errno != ENETUNREACH && errno != EHOSTUNREACH);
 }
 
+std::string lcm_server_url(const sockaddr_in& address) {
+  std::array<char, INET_ADDRSTRLEN> host{};
+  ::inet_ntop(AF_INET, &address.sin_addr, host.data(), host.size());
+  return std::string(kServer) + host.data() + ":" + std::to_string(ntohs(address.sin_port));
+}
+
 std::optional<LcmServer> LcmServer::of_url(const std::string& url) {
   const auto place = place_in(url, kServer);
   if (!place) return std::nullopt;
@@ -103,7 +108,7 @@ bool LcmServer::is_there() {
   return is_there_;
 }
 
-bool LcmServer::accepts() const {
+bool LcmServer::accepts() {
   const addrinfo wanted{.ai_flags = 0,
                         .ai_family = AF_INET,
                         .ai_socktype = SOCK_STREAM,
@@ -115,6 +120,7 @@ bool LcmServer::accepts() const {
   addrinfo* found = nullptr;
   if (::getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found) != 0) return false;
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, ::freeaddrinfo);
+  numeric_url_ = lcm_server_url(*reinterpret_cast<const sockaddr_in*>(address->ai_addr));
   const Socket socket(SOCK_STREAM | SOCK_NONBLOCK);
   if (::connect(socket.file(), address->ai_addr, address->ai_addrlen) == 0) return is_greeted(socket.file());
   if (errno != EINPROGRESS) return false;

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <netinet/in.h>
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -17,6 +19,9 @@ namespace swiftlet {
 /// Whether datagrams to this IPv4 address leave by any way. True for what is no address.
 [[nodiscard]] bool has_route_to(const std::string& address);
 
+/// "tcpq://127.0.0.1:7700"
+[[nodiscard]] std::string lcm_server_url(const sockaddr_in& address);
+
 /// The server of a tcpq:// URL. One thread at a time.
 class LcmServer {
  public:
@@ -28,13 +33,16 @@ class LcmServer {
   [[nodiscard]] bool is_there();
   /// It has gone: the next look is due.
   void mark_lost() { is_there_ = false; }
+  /// What LCM reaches the server by, which takes a name for this machine; empty before it was there.
+  [[nodiscard]] const std::string& numeric_url() const { return numeric_url_; }
 
  private:
   LcmServer(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
-  [[nodiscard]] bool accepts() const;
+  [[nodiscard]] bool accepts();
 
   std::string host_;
   std::string port_;
+  std::string numeric_url_;
   bool is_there_ = false;
   std::chrono::steady_clock::time_point next_look_{};
 };

@@ -60,7 +60,7 @@ struct LcmTransport::State {
     if (lcm && has_lost_server()) disconnect();
     if (lcm) return &*lcm;
     if (server && !server->is_there()) return nullptr;
-    lcm.emplace(url);
+    lcm.emplace(server ? server->numeric_url() : url);
     if (!lcm->good() || (server && !limit_waits(lcm->getFileno()))) disconnect();
     if (!lcm) return nullptr;
     for (Channel& channel : channels) subscribe(channel);

@@ -14,9 +14,12 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "daemon/publish/lcm_network.hpp"
 
 namespace swiftlet {
 namespace {
@@ -110,6 +113,14 @@ class StalledServer {
   std::vector<int> connections_;
   std::jthread thread_;
 };
+
+TEST(LcmServer, IsReachedByItsAddressWhereTheUrlHasAName) {
+  const StalledServer server(true);
+  const std::string port = server.url().substr(server.url().rfind(':'));
+  std::optional<LcmServer> named = LcmServer::of_url("tcpq://localhost" + port);
+  ASSERT_TRUE(named && named->is_there());
+  EXPECT_EQ(named->numeric_url(), server.url());
+}
 
 TEST(LcmTransport, AServerThatNeverReadsIsLeftWithinSeconds) {
   const StalledServer server(true);
