@@ -19,6 +19,7 @@
 #include "daemon/outputs/g2o_graph.hpp"
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/view/view_service.hpp"
+#include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/sample_table/sample_table.hpp"
 #include "swiftlet/status_t.hpp"
 #include "tools/convert/mcap_run.hpp"
@@ -99,7 +100,8 @@ void print_messages(const ConvertCommand& command, std::uint64_t messages) {
 }
 
 /// Maps the recording into an MCAP file; `report` is of the input.
-Status write_mcap(const ConvertCommand& command, const FileSink& write, InputReport& report) {
+Status write_mcap(const ConvertCommand& command, const FileSink& write, InputReport& report,
+                  std::uint64_t& messages) {
   const MapCommand mapping = mapping_of(command);
   Result<PreparedRun> run = prepare_run(mapping);
   if (!run) return run.error();
@@ -119,7 +121,7 @@ Status write_mcap(const ConvertCommand& command, const FileSink& write, InputRep
     mcap.add_last(shared.history);
     if (Status added = mcap.add_trajectory(backend, &*pruned); !added) return added;
     mcap.finish();
-    print_messages(command, mcap.messages());
+    messages = mcap.messages();
     is_complete = true;
     return {};
   };
@@ -132,9 +134,11 @@ Status write_mcap(const ConvertCommand& command, const FileSink& write, InputRep
 
 Status convert_to_mcap(const ConvertCommand& command) {
   InputReport report;
-  Status written =
-      write_file(command.output, [&](const FileSink& write) { return write_mcap(command, write, report); });
+  std::uint64_t messages = 0;
+  Status written = write_file(
+      command.output, [&](const FileSink& write) { return write_mcap(command, write, report, messages); });
   if (!written) return written;
+  print_messages(command, messages);
   return damage_of(report);
 }
 
@@ -150,9 +154,14 @@ Status record_mcap(const ConvertCommand& command) {
   const std::stop_callback at_signal(signals.token(), [&over] { over.request_stop(); });
   std::printf("listening on %s; Ctrl-C ends\n", command.lcm_url.c_str());
   std::fflush(stdout);
-  return write_file(command.output, [&](const FileSink& write) -> Status {
+  std::uint64_t messages = 0;
+  Status written = record_file(command.output, [&](const FileSink& write) -> Status {
     SharedRunHistory shared;
-    McapRun mcap(write);
+    McapRun mcap([&](std::string_view bytes) {
+      const bool goes_on = write(bytes);
+      if (!goes_on) over.request_stop();
+      return goes_on;
+    });
     const auto after_message = [&] {
       mcap.add_news(shared.history);
       if (has_finished(shared.history)) over.request_stop();
@@ -165,9 +174,11 @@ Status record_mcap(const ConvertCommand& command) {
       return Error{ErrorCode::kInvalidInput,
                    "nothing was received on " + command.lcm_url + "; swiftlet doctor checks LCM"};
     mcap.finish();
-    print_messages(command, mcap.messages());
+    messages = mcap.messages();
     return {};
   });
+  if (written) print_messages(command, messages);
+  return written;
 }
 
 struct OutputKind {
@@ -189,21 +200,20 @@ Error cannot_write(const ConvertCommand& command, const std::string& reason) {
   return {ErrorCode::kInvalidInput, command.output + ": " + reason};
 }
 
+/// Where a file is read; empty: it is none.
+fs::path input_file(const std::string& input) {
+  const Result<InputUri> uri = parse_input_uri(input);
+  const auto* const file = uri ? uri->as<InputFile>() : nullptr;
+  return file != nullptr ? file->path : "";
+}
+
 /// Asked before the work.
 Status check_output(const ConvertCommand& command) {
   if (kind_of(command.output) == nullptr)
     return cannot_write(command, "the output's name must end with .csv, .g2o or .mcap");
   if (command.input == kLcmInput && kind_of(command.output)->record == nullptr)
     return cannot_write(command, "a running swiftletd gives an .mcap file only");
-  std::error_code failure;
-  if (fs::equivalent(command.input, command.output, failure))
-    return cannot_write(command, "this is the input; name another output");
-  if (fs::is_directory(command.output, failure))
-    return cannot_write(command, "this is a directory; name a file in it");
-  const fs::path folder = folder_of(command.output);
-  if (!fs::is_directory(folder, failure))
-    return cannot_write(command, "there is no directory " + folder.string());
-  return {};
+  return check_output_file(command.output, std::array{input_file(command.input)});
 }
 
 }  // namespace

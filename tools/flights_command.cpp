@@ -8,17 +8,18 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 #include <vector>
 
+#include "daemon/outputs/report_file.hpp"
+
 namespace swiftlet {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 struct Flight {
   double length_m = 0.0;
@@ -28,14 +29,12 @@ struct Flight {
 
 /// nullopt where the folder has no report, or one of something else.
 std::optional<Flight> flight_in(const fs::path& folder) {
-  std::ifstream stream(folder / "report.json");
-  if (!stream) return std::nullopt;
-  const Json report = Json::parse(stream, nullptr, false);
+  const Result<Json> report = read_report(folder / "report.json");
+  if (!report || report->is_discarded()) return std::nullopt;
   try {
-    if (report.is_discarded()) return std::nullopt;
-    const Json& closures = report.at("backend").at("closures");
-    return Flight{.length_m = report.at("trajectory").at("odometry_length_m"),
-                  .duration_s = report.at("trajectory").at("duration_s"),
+    const Json& closures = report->at("backend").at("closures");
+    return Flight{.length_m = report->at("trajectory").at("odometry_length_m"),
+                  .duration_s = report->at("trajectory").at("duration_s"),
                   .closures = closures.at("accepted").get<int>() - closures.at("dropped").get<int>()};
   } catch (const Json::exception&) {  // something is missing or of another type
     return std::nullopt;

@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/latency_command.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -20,7 +22,13 @@
 namespace swiftlet {
 namespace {
 
+namespace fs = std::filesystem;
+
 Status show_report(const LatencyCommand& command) {
+  if (!command.picture_file.empty())
+    if (Status usable = check_output_file(command.picture_file, std::array{fs::path(command.report_file)});
+        !usable)
+      return usable;
   const Result<TimingReport> report = read_timing_report(command.report_file);
   if (!report) return report.error();
   std::fputs(latency_table(*report).c_str(), stdout);

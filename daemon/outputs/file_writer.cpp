@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -15,25 +16,76 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kMostUnfinished = 100;
+
+std::error_code last_failure() { return {errno, std::generic_category()}; }
+
 Error not_written(const fs::path& path, const std::error_code& failure) {
   return {ErrorCode::kOutOfSpace, path.string() + " was not written: " + failure.message()};
 }
 
-/// Writes what will be `path`, until all bytes have reached the disk.
-Status write_all(const fs::path& unfinished, const fs::path& path, const FileContent& content) {
-  const auto failed = [&] { return not_written(path, std::error_code(errno, std::generic_category())); };
-  std::FILE* file = std::fopen(unfinished.c_str(), "wb");
-  if (file == nullptr) return failed();
-  bool written = true;
+Error cannot_be_output(const fs::path& file, const std::string& reason) {
+  return {ErrorCode::kInvalidInput, file.string() + ": " + reason};
+}
+
+/// A file beside `path` that was not there: another program, or an earlier one, may have left some.
+Result<fs::path> created_beside(const fs::path& path, std::FILE*& file) {
+  for (int i = 0; i < kMostUnfinished; ++i) {
+    const fs::path unfinished = path.string() + ".unfinished" + (i == 0 ? "" : std::to_string(i));
+    file = std::fopen(unfinished.c_str(), "wbx");
+    if (file != nullptr) return unfinished;
+    if (errno != EEXIST) break;
+  }
+  return not_written(path, last_failure());
+}
+
+/// Until all bytes have reached the disk. Closes the file.
+Status write_all(std::FILE* file, const fs::path& path, const FileContent& content) {
+  int failure = 0;
   Status made = content([&](std::string_view bytes) {
-    written = written && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    if (failure == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) failure = errno;
+    return failure == 0;
   });
-  written = written && std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
-  const int write_errno = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!written) errno = write_errno;
-  if (!written || !closed) return failed();
+  if (failure == 0 && std::fflush(file) != 0) failure = errno;
+  if (failure == 0 && ::fsync(::fileno(file)) != 0 && errno != EINVAL && errno != EROFS) failure = errno;
+  if (std::fclose(file) != 0 && failure == 0) failure = errno;
+  if (failure != 0) return not_written(path, std::error_code(failure, std::generic_category()));
   return made;
+}
+
+/// Into what is no file of bytes: a pipe, a device.
+Status write_directly(const fs::path& path, const FileContent& content) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) return not_written(path, last_failure());
+  return write_all(file, path, content);
+}
+
+enum class IfItFails : std::uint8_t { kRemove, kKeep };
+
+Status write_beside(const fs::path& path, const FileContent& content, IfItFails then) {
+  std::FILE* file = nullptr;
+  const Result<fs::path> unfinished = created_beside(path, file);
+  if (!unfinished) return unfinished.error();
+  Status written = write_all(file, path, content);
+  std::error_code failure;
+  if (written) {
+    fs::rename(*unfinished, path, failure);
+    if (!failure) return {};
+    written = not_written(path, failure);
+  }
+  if (then == IfItFails::kKeep && written.error().code == ErrorCode::kOutOfSpace)
+    return Error{ErrorCode::kOutOfSpace,
+                 written.error().message + "; what came before it is in " + unfinished->string()};
+  fs::remove(*unfinished, failure);
+  return written;
+}
+
+Status write_however(const fs::path& path, const FileContent& content, IfItFails then) {
+  std::error_code failure;
+  const fs::file_status there = fs::status(path, failure);
+  if (fs::exists(there) && !fs::is_regular_file(there)) return write_directly(path, content);
+  const fs::path target = fs::is_symlink(path, failure) ? fs::weakly_canonical(path, failure) : path;
+  return write_beside(target.empty() ? path : target, content, then);
 }
 
 }  // namespace
@@ -43,11 +95,26 @@ Status prepare_output_directory(const fs::path& directory) {
   fs::create_directories(directory, failure);
   if (!failure && !fs::is_directory(directory, failure))
     failure = std::make_error_code(std::errc::not_a_directory);
-  if (!failure && ::access(directory.c_str(), W_OK | X_OK) != 0)
-    failure = std::error_code(errno, std::generic_category());
+  if (!failure && ::access(directory.c_str(), W_OK | X_OK) != 0) failure = last_failure();
   if (!failure) return {};
   return Error{ErrorCode::kInvalidInput, "output directory " + directory.string() + " cannot be written: " +
                                              failure.message() + "; name another one"};
+}
+
+Status check_output_file(const fs::path& file, std::span<const fs::path> inputs) {
+  std::error_code failure;
+  if (file.empty()) return Error{ErrorCode::kInvalidInput, "the output has no name; give it one"};
+  if (fs::is_directory(file, failure))
+    return cannot_be_output(file, "this is a directory; name a file in it");
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(file, input, failure))
+      return cannot_be_output(file, "this is the input; name another output");
+  const fs::path folder = fs::absolute(file, failure).parent_path();
+  if (!fs::is_directory(folder, failure))
+    return cannot_be_output(file, "there is no directory " + folder.string());
+  if (!fs::exists(file, failure) && ::access(folder.c_str(), W_OK | X_OK) != 0)
+    return cannot_be_output(file, folder.string() + " cannot be written: " + last_failure().message());
+  return {};
 }
 
 Status write_file(const fs::path& path, std::string_view bytes) {
@@ -58,17 +125,11 @@ Status write_file(const fs::path& path, std::string_view bytes) {
 }
 
 Status write_file(const fs::path& path, const FileContent& content) {
-  const fs::path unfinished = path.string() + ".unfinished";
-  Status written = write_all(unfinished, path, content);
-  if (written) {
-    std::error_code failure;
-    fs::rename(unfinished, path, failure);
-    if (!failure) return {};
-    written = not_written(path, failure);
-  }
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  return written;
+  return write_however(path, content, IfItFails::kRemove);
+}
+
+Status record_file(const fs::path& path, const FileContent& content) {
+  return write_however(path, content, IfItFails::kKeep);
 }
 
 }  // namespace swiftlet

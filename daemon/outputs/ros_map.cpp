@@ -43,14 +43,14 @@ TileRange range_of(std::span<const TileIndex> tiles) {
 
 void write_pgm(std::span<const TileIndex> tiles, const TileContent& content, const FileSink& write) {
   const TileRange range = range_of(tiles);
-  write("P5\n" + std::to_string(range.width_cells()) + " " + std::to_string(range.height_cells()) +
-        "\n255\n");
+  bool goes_on = write("P5\n" + std::to_string(range.width_cells()) + " " +
+                       std::to_string(range.height_cells()) + "\n255\n");
   std::string pixels;
-  for (std::int32_t y = range.high.y; y >= range.low.y; --y) {
+  for (std::int32_t y = range.high.y; goes_on && y >= range.low.y; --y) {
     pixels.assign(range.width_cells() * kTileCells, static_cast<char>(kPgmUnknown));
     for (const TileIndex index : tiles)
       if (index.y == y) copy_tile(content(index), range, pixels);
-    write(pixels);
+    goes_on = write(pixels);
   }
 }
 

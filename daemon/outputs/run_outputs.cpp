@@ -3,7 +3,6 @@
 #include "daemon/outputs/run_outputs.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/outputs/places_file.hpp"
 #include "daemon/outputs/png_file.hpp"
+#include "daemon/outputs/report_file.hpp"
 #include "daemon/outputs/ros_map.hpp"
 #include "daemon/outputs/run_report.hpp"
 #include "daemon/outputs/tum_trajectory.hpp"
@@ -91,12 +91,11 @@ Status write_places(const std::filesystem::path& directory, const RunView& run) 
 
 /// Those that its report lists; of a report that lists none, itself. Nothing else is taken for a run's.
 std::vector<std::string> files_of_earlier_run(const std::filesystem::path& directory) {
-  std::ifstream stream(directory / kReport);
-  if (!stream) return {};
-  const auto report = nlohmann::json::parse(stream, nullptr, false);
+  const Result<nlohmann::ordered_json> report = read_report(directory / kReport);
+  if (!report) return {};
   std::vector<std::string> files{kReport};
-  if (!report.is_object() || !report.contains("files")) return files;
-  for (const nlohmann::json& entry : report["files"]) {
+  if (!report->is_object() || !report->contains("files")) return files;
+  for (const nlohmann::ordered_json& entry : (*report)["files"]) {
     const std::string name = entry.is_string() ? entry.get<std::string>() : "";
     if (std::filesystem::path(name).filename() == name) files.push_back(name);
   }

@@ -47,7 +47,7 @@ class MapConsumer {
     }
     write_pgm(
         tiles, [this](TileIndex index) { return tiles_.at(index); },
-        [&file](std::string_view bytes) { file << bytes; });
+        [&file](std::string_view bytes) { return static_cast<bool>(file << bytes); });
   }
 
   [[nodiscard]] std::string state() const {

@@ -108,6 +108,7 @@ TEST_F(SwiftletCommand, ConvertRefusesWhatItCannotReadOrWriteInOneLine) {
   EXPECT_THAT(run("convert udp://127.0.0.1:1 {}/out.csv"), refuses_with("a live vehicle has no end"));
   write("table.csv", "1,2\n");
   EXPECT_THAT(run("convert {}/table.csv {}/table.csv"), refuses_with("this is the input"));
+  EXPECT_THAT(run("convert replay:{}/table.csv {}/table.csv"), refuses_with("this is the input"));
   EXPECT_THAT(run("convert {}/table.csv {}/out.g2o"), refuses_with("is no table of samples"));
   EXPECT_FALSE(fs::exists(file("out.csv")));
   EXPECT_FALSE(fs::exists(file("out.g2o")));
@@ -137,6 +138,9 @@ TEST_F(SwiftletCommand, LatencyTellsAndDrawsHowARunKeptTime) {
   EXPECT_GT(fs::file_size(file("latency.png")), 1000U);
   EXPECT_THAT(run("latency"), refuses_with("name a report.json, or --listen"));
   EXPECT_THAT(run("latency {}/small.clf"), refuses_with("not a report.json"));
+  EXPECT_THAT(run("latency {}"), refuses_with("is a directory"));
+  EXPECT_THAT(run("latency {}/out/report.json --picture {}/out/report.json"),
+              refuses_with("this is the input"));
   EXPECT_THAT(run("latency --listen --picture {}/p.png"), refuses_with("a picture needs a report.json"));
   EXPECT_THAT(run("latency --listen --lcm-url mqtt://here"), refuses_with("mqtt://here"));
 }
@@ -276,6 +280,7 @@ TEST_F(SwiftletCommand, WithoutADirectoryEachFlightGetsAFolderThatFlightsLists) 
   ASSERT_EQ(folders.size(), 2U);
   for (const fs::path& folder : folders) EXPECT_GT(fs::file_size(folder / "thumbnail.png"), 0U);
   write("flights/notes.txt", "no flight");
+  fs::create_directories(file("flights/no flight/report.json"));
   const Outcome listed = run_in("{}", "flights");
   EXPECT_EQ(listed.exit_code, 0) << listed.err;
   EXPECT_EQ(std::count(listed.out.begin(), listed.out.end(), '\n'), 3);  // a heading and two flights

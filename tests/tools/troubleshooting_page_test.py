@@ -60,7 +60,8 @@ SILENT_TEXTS = {
         chain of poses underconstrained near pose …: its constraints leave a direction open
         pose graph diverged: poses are no longer finite
         the joint problem of poses, walls and systematic errors has no solution
-        the joint problem of poses, walls and systematic errors diverged""",
+        the joint problem of poses, walls and systematic errors diverged
+        the systematic errors of the sensors have no finite estimate""",
     "never shown: requests are made by ourselves": """
         a packet of … bytes; CRTP takes 1 to 31
         null packets are the link's own; send requests only""",
@@ -97,6 +98,7 @@ SILENT_TEXTS = {
         the number of beams
         more than 64
         what follows the last column
+        what follows the range age
         Bitcraze Crazyflie
         from byte
         … and in … more places

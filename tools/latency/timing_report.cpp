@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/latency/timing_report.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "daemon/outputs/report_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -42,11 +43,10 @@ TimingReport report_of(const Json& json) {
 }  // namespace
 
 Result<TimingReport> read_timing_report(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) return Error{ErrorCode::kNotFound, file.string() + ": no such file"};
-  const Json json = Json::parse(stream, nullptr, false);
+  const Result<Json> json = read_report(file);
+  if (!json) return json.error();
   try {
-    if (!json.is_discarded()) return report_of(json);
+    if (!json->is_discarded()) return report_of(*json);
   } catch (const Json::exception&) {  // something is missing or of another type
   }
   return Error{ErrorCode::kInvalidInput,

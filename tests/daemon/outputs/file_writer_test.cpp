@@ -4,7 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cerrno>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include "tests/daemon/outputs/temporary_directory.hpp"
 
@@ -31,7 +34,8 @@ TEST(WriteFile, ReplacesAnOlderFile) {
 TEST(WriteFile, KeepsTheOldFileWhenItFails) {
   const TemporaryDirectory directory;
   ASSERT_TRUE(write_file(directory.path() / "file", "old").ok());
-  fs::create_directory(directory.path() / "file.unfinished");  // stands in the way
+  for (int i = 0; i < 100; ++i)  // stand in the way
+    fs::create_directory(directory.path() / ("file.unfinished" + (i == 0 ? "" : std::to_string(i))));
   const Status status = write_file(directory.path() / "file", "new");
   ASSERT_FALSE(status.ok());
   EXPECT_THAT(status.error().message, testing::HasSubstr((directory.path() / "file").string()));
@@ -41,12 +45,64 @@ TEST(WriteFile, KeepsTheOldFileWhenItFails) {
 TEST(WriteFile, SaysThatTheDiskIsFull) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const TemporaryDirectory directory;
-  fs::create_symlink("/dev/full", directory.path() / "file.unfinished");
-  const Status status = write_file(directory.path() / "file", std::string(100'000, 'x'));
+  fs::create_symlink("/dev/full", directory.path() / "file");
+  int pieces = 0;
+  const Status status = write_file(directory.path() / "file", [&pieces](const FileSink& write) {
+    while (write(std::string(100'000, 'x'))) ++pieces;
+    errno = 0;
+    return Status();
+  });
   ASSERT_FALSE(status.ok());
+  EXPECT_EQ(pieces, 0) << "the rest is not asked for";
   EXPECT_EQ(status.error().code, ErrorCode::kOutOfSpace);
   EXPECT_THAT(status.error().message, testing::HasSubstr("No space left"));
-  EXPECT_FALSE(fs::exists(directory.path() / "file"));
+  EXPECT_TRUE(fs::is_symlink(directory.path() / "file")) << "it goes where the link leads";
+}
+
+TEST(WriteFile, LeavesWhatAnInterruptedProgramHasLeft) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory.path() / "file.unfinished", "a recording").ok());
+  ASSERT_TRUE(write_file(directory.path() / "file", "new").ok());
+  EXPECT_EQ(text_of(directory.path() / "file.unfinished"), "a recording");
+  EXPECT_EQ(text_of(directory.path() / "file"), "new");
+}
+
+TEST(WriteFile, FollowsALink) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory.path() / "file", "old").ok());
+  fs::create_symlink("file", directory.path() / "link");
+  ASSERT_TRUE(write_file(directory.path() / "link", "new").ok());
+  EXPECT_TRUE(fs::is_symlink(directory.path() / "link"));
+  EXPECT_EQ(text_of(directory.path() / "file"), "new");
+}
+
+TEST(RecordFile, KeepsWhatWasWrittenAndTellsWhere) {
+  const TemporaryDirectory directory;
+  const Status written = record_file(directory.path() / "file", [&](const FileSink& write) {
+    write("what was received");
+    fs::create_directories(directory.path() / "file" / "in the way");  // as if the disk failed
+    return Status();
+  });
+  ASSERT_FALSE(written.ok());
+  const fs::path kept = directory.path() / "file.unfinished";
+  EXPECT_THAT(written.error().message, testing::HasSubstr(kept.string()));
+  EXPECT_EQ(text_of(kept), "what was received");
+}
+
+TEST(CheckOutputFile, RefusesWhatCannotBeWritten) {
+  const TemporaryDirectory directory;
+  const fs::path input = directory.path() / "input";
+  ASSERT_TRUE(write_file(input, "in").ok());
+  fs::create_symlink("input", directory.path() / "link");
+  const std::vector<fs::path> inputs{"there is none", input};
+  EXPECT_TRUE(check_output_file(directory.path() / "output", inputs).ok());
+  for (const fs::path& path : {fs::path(), directory.path(), input, directory.path() / "link",
+                               directory.path() / "nowhere" / "output"}) {
+    const Status status = check_output_file(path, inputs);
+    ASSERT_FALSE(status.ok()) << path;
+    EXPECT_EQ(status.error().code, ErrorCode::kInvalidInput);
+    EXPECT_THAT(status.error().message, testing::HasSubstr(path.string()));
+  }
 }
 
 TEST(PrepareOutputDirectory, CreatesWhatIsMissing) {

@@ -28,7 +28,12 @@ const McapChannel kChannel{.id = 1,
 template <typename Use>
 std::string written(Use use) {
   std::string bytes;
-  McapWriter writer([&bytes](std::string_view more) { bytes += more; }, {kChannel});
+  McapWriter writer(
+      [&bytes](std::string_view more) {
+        bytes += more;
+        return true;
+      },
+      {kChannel});
   use(writer);
   writer.finish();
   return bytes;

@@ -43,7 +43,10 @@ std::string pgm_of(const std::vector<MapTile>& tiles) {
     return *std::find_if(tiles.begin(), tiles.end(),
                          [index](const MapTile& tile) { return tile.index == index; });
   };
-  write_pgm(indices_of(tiles), content, [&bytes](std::string_view piece) { bytes += piece; });
+  write_pgm(indices_of(tiles), content, [&bytes](std::string_view piece) {
+    bytes += piece;
+    return true;
+  });
   return bytes;
 }
 
@@ -114,7 +117,10 @@ TEST(RosMap, OfNothingIsOneUnknownTile) {
 TEST(RosMap, HandsOnOneRowOfTilesAtATime) {
   const std::vector<TileIndex> tiles = {{0, 0}, {1, 9}};
   std::size_t longest = 0;
-  write_pgm(tiles, unknown_tile, [&](std::string_view piece) { longest = std::max(longest, piece.size()); });
+  write_pgm(tiles, unknown_tile, [&](std::string_view piece) {
+    longest = std::max(longest, piece.size());
+    return true;
+  });
   EXPECT_EQ(longest, 2 * kCellsInTile);
 }
 
