@@ -63,7 +63,7 @@ AssemblyConfig assembly_config(const CarmenLog& log, const SensorModel& sensor) 
   // run.
   config.continuity.longest_interpolation = kLongestLineInterval;
   config.continuity.longest_silence = Duration::max();
-  config.continuity.jump_slack_m = 2.0;
+  config.continuity.jump_slack_m = kWheelsJumpSlackM;
   config.continuity.top_turn_rate_rad_per_s = std::numeric_limits<double>::infinity();
   return config;
 }

@@ -109,6 +109,7 @@ Result<ReceivedSample> FlightTableSource::next() {
 void FlightTableSource::feed() {
   const Result<std::string_view> row = lines_.next();
   if (!row) return end_with(row.error().code == ErrorCode::kDamaged ? row.error().message : "");
+  if (row->empty()) return;
   ++report_.counters.frames;
   if (row->starts_with('#')) return;
   if (const std::optional<Reading> reading = read_row(*row)) return assembler_.add(ground_.hold(*reading));

@@ -34,8 +34,7 @@ void append_number(std::string& text, Number number) {
 }
 
 Error cannot_be(std::string_view what, std::string_view text) {
-  return {ErrorCode::kInvalidInput,
-          std::string(what) + " cannot be '" + std::string(text.substr(0, 40)) + "'"};
+  return {ErrorCode::kInvalidInput, std::string(what) + " cannot be '" + quoted(text) + "'"};
 }
 
 /// The value of `name=value`.
@@ -60,6 +59,7 @@ Result<SensorModel> parse_sensor(std::string_view line) {
   const Result<double> age_s =
       named_value(next_field(line, ' '), "range_age_s", to_seconds(kMinRangeAge), to_seconds(kMaxRangeAge));
   if (!age_s) return age_s.error();
+  if (!line.empty()) return cannot_be("what follows the range age", line);
   sensor.min_range_m = *min_m;
   sensor.max_range_m = *max_m;
   sensor.range_age = from_seconds(*age_s);

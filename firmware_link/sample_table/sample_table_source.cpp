@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "firmware_link/sample/odometry_timeline.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -81,6 +83,14 @@ void SampleTableSource::count(const RangeSample& sample) {
   }
 }
 
+/// Farther than any source of samples lets through, whether it flies or has wheels.
+bool SampleTableSource::leaps(const RangeSample& sample) const {
+  if (!last_ || (sample.starts_segment && !sample.odometry_ran_on)) return false;
+  const double passed_s = to_seconds(sample.measured_at - last_->measured_at);
+  return distance_m(last_->T_odom_body.position(), sample.T_odom_body.position()) >
+         kWheelsJumpSlackM + ContinuityLimits().top_speed_m_per_s * std::max(passed_s, 0.0);
+}
+
 Error SampleTableSource::end_at_line(const std::string& problem) {
   return end_with(path_ + ", line " + std::to_string(lines_.line_number()) + ": " + problem +
                   "; the table is used up to there");
@@ -91,6 +101,7 @@ Result<std::string_view> SampleTableSource::next_row() {
   for (;;) {
     Result<std::string_view> line = lines_.next();
     if (!line) return end_with(line.error().code == ErrorCode::kEndOfRecording ? "" : line.error().message);
+    if (line->empty()) continue;
     const Result<std::optional<StoreyId>> storey = parse_storey_line(*line);
     if (!storey) return end_at_line(storey.error().message);
     if (!*storey) return line;
@@ -104,10 +115,15 @@ Result<ReceivedSample> SampleTableSource::next() {
   if (!row) return row.error();
   Result<RangeSample> sample = parse_sample_row(*row, head_);
   if (!sample) return end_at_line(sample.error().message);
-  if (!last_measured_at_) sample->starts_segment = true;
-  if (!sample->starts_segment && sample->measured_at <= *last_measured_at_)
+  if (!last_) sample->starts_segment = true;
+  if (!sample->starts_segment && sample->measured_at <= last_->measured_at)
     return end_at_line("measured_at_ns does not increase");
-  last_measured_at_ = sample->measured_at;
+  if (leaps(*sample)) {
+    sample->starts_segment = true;
+    sample->odometry_ran_on = false;
+    ++report_.counters.leaps;
+  }
+  last_ = *sample;
   sample->storey = storey_;
   sample->sequence = static_cast<std::uint32_t>(report_.counters.samples);
   count(*sample);

@@ -17,7 +17,8 @@ namespace swiftlet {
 [[nodiscard]] bool is_taken_for_sample_table(const std::string& path);
 
 /// Range samples from a table (sample_table.hpp), plain or gzip. The age of the ranges is applied in it
-/// already; limits of the options count where they are narrower than the table's. A row that cannot be used
+/// already; limits of the options count where they are narrower than the table's. A leap of the dead
+/// reckoning begins a segment. A row that cannot be used
 /// ends the input, and a problem names it. One thread at a time.
 class SampleTableSource final : public SampleSource {
  public:
@@ -36,12 +37,13 @@ class SampleTableSource final : public SampleSource {
   Error end_at_line(const std::string& problem);
   Result<std::string_view> next_row();
   void count(const RangeSample& sample);
+  [[nodiscard]] bool leaps(const RangeSample& sample) const;
 
   std::string path_;
   GzipLines lines_;
   SampleTableHead head_;
   InputReport report_;
-  std::optional<DeviceTime> last_measured_at_;
+  std::optional<RangeSample> last_;
   StoreyId storey_{};  ///< of the rows that follow
   bool has_ended_ = false;
 };

@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -16,6 +19,15 @@ template <typename Number>
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
+}
+
+/// Its beginning, fit for a message whatever the file holds.
+[[nodiscard]] inline std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string quote(text.substr(0, kMost));
+  std::replace_if(
+      quote.begin(), quote.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return quote;
 }
 
 /// Cuts off what stands before the next `separator`.

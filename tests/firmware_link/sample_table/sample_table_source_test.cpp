@@ -148,6 +148,31 @@ TEST(SampleTable, AVehiclesClockMayBeginAnewWithASegment) {
   EXPECT_EQ(read_all(file.path()).samples.size(), 2U);
 }
 
+TEST(SampleTable, ALeapOfTheDeadReckoningBeginsASegment) {
+  const TemporaryFile file("a.csv", kHead +
+                                        "0,0,1,2,0.5,0,2.5,inf\n"
+                                        "100000000,100000000,3,2,0.5,0,2.5,inf\n"
+                                        "200000000,200000000,500000,2,0.5,2,2.5,inf\n"
+                                        "300000000,300000000,3.1,2,0.5,0,2.5,inf\n");
+  const Read read = read_all(file.path());
+  std::vector<bool> starts;
+  for (const RangeSample& sample : read.samples) {
+    starts.push_back(sample.starts_segment);
+    EXPECT_FALSE(sample.odometry_ran_on);
+  }
+  EXPECT_THAT(starts, ElementsAre(true, false, true, true));
+  EXPECT_EQ(read.report.counters.leaps, 2U);
+  EXPECT_THAT(read.report.problems, IsEmpty());
+}
+
+TEST(SampleTable, SkipsEmptyLines) {
+  const std::string row = "10,5,1,2,0.5,0,2.5,inf\n";
+  const TemporaryFile file("a.csv", std::string(kHead).append(row).append("\n\r\n"));
+  const Read read = read_all(file.path());
+  EXPECT_EQ(read.samples.size(), 1U);
+  EXPECT_THAT(read.report.problems, IsEmpty());
+}
+
 TEST(SampleTable, EndsAtARowThatCannotBeUsedAndNamesIt) {
   const std::string good = "10,5,1,2,0.5,0,2.5,inf\n";
   for (const auto& [row, fault] : std::vector<std::pair<std::string, std::string>>{
@@ -159,7 +184,8 @@ TEST(SampleTable, EndsAtARowThatCannotBeUsedAndNamesIt) {
            {"20,6,1,2,0.5,3,2.5,inf\n", "line 6: segment cannot be '3'"},
            {"20,5,1,2,0.5,0,2.5,inf\n", "line 6: measured_at_ns does not increase"},
            {"99999999999999999999,6,1,2,0.5,0,2.5,inf\n", "line 6: stamp_ns cannot be"},
-           {"20,6,1,2,0.5,0,-1,inf\n", "line 6: range_0_m cannot be '-1'"}}) {
+           {"20,6,1,2,0.5,0,-1,inf\n", "line 6: range_0_m cannot be '-1'"},
+           {"20,6,1,2,0.5,0,\x1b[2J\xff,inf\n", "line 6: range_0_m cannot be '?[2J?'"}}) {
     const TemporaryFile file("a.csv", std::string(kHead).append(good).append(row).append(good));
     const Read read = read_all(file.path());
     EXPECT_EQ(read.samples.size(), 1U) << row;
