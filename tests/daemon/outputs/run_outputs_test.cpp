@@ -71,10 +71,10 @@ TEST(RunOutputs, MarkedPlacesStandWhereTheFinalMapHasThem) {
   EXPECT_THAT(written->files, testing::Contains("places.csv"));
   const std::vector<std::string> lines = lines_of(directory.path() / "places.csv");
   ASSERT_EQ(lines.size(), 4U);
-  EXPECT_EQ(lines[0], "name,time_s,x_m,y_m,yaw_rad");
+  EXPECT_EQ(lines[0], "name,time_s,x_m,y_m,yaw_rad,storey");
   EXPECT_THAT(lines[1], testing::StartsWith("door,1600000001.423000,1.300000,"));
   EXPECT_THAT(lines[2], testing::StartsWith("threshold,1600000001.423000,1.300000,"));
-  EXPECT_THAT(lines[3], testing::StartsWith("kitchen,"));
+  EXPECT_THAT(lines[3], testing::AllOf(testing::StartsWith("kitchen,"), testing::EndsWith(",0")));
 }
 
 TEST(RunOutputs, TrajectoriesHaveOneLineASample) {
