@@ -34,6 +34,7 @@
 #include "daemon/recording/recorder.hpp"
 #include "daemon/recording/recording_plan.hpp"
 #include "daemon/system/log_file.hpp"
+#include "daemon/system/named_file.hpp"
 #include "daemon/system/service_manager.hpp"
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/system/terminal.hpp"
@@ -73,7 +74,8 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys");
+  app.add_option("--config", options.config_path, "TOML file; docs/configuration.md lists its keys")
+      ->check(named_file());
   using enum InputNature;
   app.add_option("INPUT,--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile, kFollowed}));
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
@@ -115,7 +117,8 @@ void declare(CLI::App& app, Options& options) {
       ->expected(0, 1);
   app.add_option("--log-file", options.log_file,
                  "log there, not to stderr; SIGHUP opens it anew, for whoever rotates logs, instead of "
-                 "ending the run");
+                 "ending the run")
+      ->check(named_file());
   app.add_flag("-v,--verbose", options.verbose, "log each status");
   app.add_flag("--print-configuration-reference", options.print_reference,
                "write docs/configuration.md and exit");

@@ -2,9 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/calibrate_command.hpp"
 
+#include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stop_token>
+#include <system_error>
 
 #include "daemon/outputs/file_writer.hpp"
 #include "daemon/system/signal_watcher.hpp"
@@ -12,10 +15,13 @@
 #include "firmware_link/input/open_sample_source.hpp"
 #include "tools/calibration/calibration_report.hpp"
 #include "tools/calibration/calibration_rounds.hpp"
+#include "tools/command_end.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace swiftlet {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The whole input in memory. `report`: the input's report when it was first read.
 Result<PairedRun> read_input(const CalibrateCommand& command, std::optional<Duration> range_age,
@@ -26,7 +32,7 @@ Result<PairedRun> read_input(const CalibrateCommand& command, std::optional<Dura
   const Result<std::unique_ptr<SampleSource>> opened = open_sample_source(command.input, options);
   if (!opened) return opened.error();
   SampleSource& source = **opened;
-  PairedRun run{{}, source.beams(), source.sensor()};
+  PairedRun run{{}, source.beams(), source.sensor(), source.report().shows_age};
   while (!stop.stop_requested()) {
     const Result<ReceivedSample> received = source.next();
     if (received) run.samples.push_back(received->sample);
@@ -54,6 +60,16 @@ Result<CalibrationReport> calibrate(const CalibrateCommand& command, const std::
   return report;
 }
 
+/// Asked before the work.
+Status check_toml_file(const fs::path& file, const std::string& input) {
+  if (Status usable = check_output_file(file, std::array{fs::path(file_of_input(input))}); !usable)
+    return usable;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  return Error{ErrorCode::kInvalidInput,
+               file.string() + ": is there already; name another file or remove it"};
+}
+
 Status check_request(const CalibrateCommand& command) {
   const Result<InputUri> input = parse_input_uri(command.input);
   if (!input) return input.error();
@@ -61,25 +77,17 @@ Status check_request(const CalibrateCommand& command) {
     return Error{ErrorCode::kInvalidInput, command.input +
                                                ": a whole flight is needed at once; record it first with "
                                                "swiftlet record, then calibrate from the recording"};
-  std::error_code ignored;
-  if (!command.toml_file.empty() && std::filesystem::exists(command.toml_file, ignored))
-    return Error{ErrorCode::kInvalidInput,
-                 command.toml_file.string() + ": is there already; name another file or remove it"};
-  return {};
+  return command.toml_file.empty() ? Status() : check_toml_file(command.toml_file, command.input);
 }
 
-Status print_results(const CalibrateCommand& command, const CalibrationReport& report,
-                     const InputReport& input) {
-  for (const std::string& note : input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
-  if (!command.toml_file.empty())
-    if (Status written = write_file(command.toml_file, calibration_toml(report)); !written) return written;
+/// The results come first: they are there whatever becomes of the file.
+Status write_results(const CalibrateCommand& command, const CalibrationReport& report) {
   std::fputs((command.json ? calibration_json(report) : calibration_text(report)).c_str(), stdout);
-  if (!command.toml_file.empty() && !command.json)
+  if (command.toml_file.empty()) return {};
+  if (Status written = write_file(command.toml_file, calibration_toml(report)); !written) return written;
+  if (!command.json)
     std::printf("file: %s: for --config of swiftlet map and swiftletd\n", command.toml_file.c_str());
-  if (input.problems.empty()) return {};
-  std::string damage;
-  for (const std::string& problem : input.problems) damage += (damage.empty() ? "" : "; ") + problem;
-  return Error{ErrorCode::kDamaged, damage};
+  return {};
 }
 
 }  // namespace
@@ -90,7 +98,7 @@ Status run_calibrate_command(const CalibrateCommand& command) {
   InputReport input;
   const Result<CalibrationReport> report = calibrate(command, signals.token(), input);
   if (!report) return report.error();
-  return print_results(command, *report, input);
+  return conclude(write_results(command, *report), input);
 }
 
 }  // namespace swiftlet

@@ -23,8 +23,9 @@ struct CalibrateCommand {
 /// steps.
 ///
 /// Errors: kNotFound, kInvalidInput: the input cannot be used, or the file is there already or cannot be
-/// written beside. kDamaged: the input is damaged after usable samples; what came before was used. kTimeout:
-/// a signal came; nothing was written. kOutOfSpace: the file could not be written. kSolver.
+/// written, which is asked first. kDamaged: the input is damaged after usable samples; what came before was
+/// used. kTimeout: a signal came; nothing was written. kOutOfSpace: the file was not written; what it holds
+/// was printed. kSolver.
 [[nodiscard]] Status run_calibrate_command(const CalibrateCommand& command);
 
 }  // namespace swiftlet

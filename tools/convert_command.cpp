@@ -22,6 +22,7 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/sample_table/sample_table.hpp"
 #include "swiftlet/status_t.hpp"
+#include "tools/command_end.hpp"
 #include "tools/convert/mcap_run.hpp"
 #include "tools/map_command.hpp"
 #include "tools/mapped_run.hpp"
@@ -200,20 +201,13 @@ Error cannot_write(const ConvertCommand& command, const std::string& reason) {
   return {ErrorCode::kInvalidInput, command.output + ": " + reason};
 }
 
-/// Where a file is read; empty: it is none.
-fs::path input_file(const std::string& input) {
-  const Result<InputUri> uri = parse_input_uri(input);
-  const auto* const file = uri ? uri->as<InputFile>() : nullptr;
-  return file != nullptr ? file->path : "";
-}
-
 /// Asked before the work.
 Status check_output(const ConvertCommand& command) {
   if (kind_of(command.output) == nullptr)
     return cannot_write(command, "the output's name must end with .csv, .g2o or .mcap");
   if (command.input == kLcmInput && kind_of(command.output)->record == nullptr)
     return cannot_write(command, "a running swiftletd gives an .mcap file only");
-  return check_output_file(command.output, std::array{input_file(command.input)});
+  return check_output_file(command.output, std::array{fs::path(file_of_input(command.input))});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 # The files that trajectories are evaluated from.
 swiftlet_add_library(swiftlet_eval_files
   SOURCES
+    evaluation/common_time.cpp
     evaluation/number_rows.cpp
     evaluation/reference_kind.cpp
     evaluation/relations_file.cpp

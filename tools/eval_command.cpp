@@ -3,9 +3,12 @@
 #include "tools/eval_command.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "daemon/outputs/file_writer.hpp"
+#include "firmware_link/input/input_uri.hpp"
+#include "tools/command_end.hpp"
 #include "tools/evaluation/eval_report.hpp"
 #include "tools/evaluation/evaluate.hpp"
 #include "tools/evaluation/live_evaluation.hpp"
@@ -54,12 +57,23 @@ Result<Evaluation> evaluate(const EvalCommand& command) {
   return evaluation;
 }
 
+bool is_json_alone(const EvalCommand& command) { return command.json_file == "-"; }
+
+/// Asked before the work.
+Status check_json_file(const EvalCommand& command) {
+  if (command.json_file.empty() || is_json_alone(command)) return {};
+  std::vector<std::filesystem::path> inputs{command.config_file};
+  inputs.emplace_back(command.live ? file_of_input(command.trajectory) : command.trajectory);
+  for (const std::vector<std::string>* files : {&command.references, &command.relations, &command.truths})
+    inputs.insert(inputs.end(), files->begin(), files->end());
+  return check_output_file(command.json_file, inputs);
+}
+
+/// The table comes first: it is there whatever becomes of the file.
 Status write_figures(const EvalCommand& command, const std::string& text, const std::string& json) {
-  const bool is_json_alone = command.json_file == "-";
-  if (!command.json_file.empty() && !is_json_alone)
-    if (Status written = write_file(command.json_file, json); !written) return written;
-  std::fputs((is_json_alone ? json : text).c_str(), stdout);
-  return {};
+  std::fputs((is_json_alone(command) ? json : text).c_str(), stdout);
+  if (command.json_file.empty() || is_json_alone(command)) return {};
+  return write_file(command.json_file, json);
 }
 
 Status evaluate_poses_as_published(const EvalCommand& command) {
@@ -70,34 +84,36 @@ Status evaluate_poses_as_published(const EvalCommand& command) {
   const Result<LiveEvaluation> evaluation = evaluate_live(
       {command.trajectory, truths.empty() ? "" : truths[0], command.config_file, command.batch_s});
   if (!evaluation) return evaluation.error();
-  return write_figures(command, live_evaluation_text(*evaluation), live_evaluation_json(*evaluation));
+  const Status written =
+      write_figures(command, live_evaluation_text(*evaluation), live_evaluation_json(*evaluation));
+  return conclude(written, evaluation->report);
 }
 
-/// Prints the notes of the captures. Their damage, in one line.
-Status tell_notes(const Evaluation& evaluation) {
-  std::string damage;
+/// Notes and problems of all captures.
+InputReport captures_of(const Evaluation& evaluation) {
+  InputReport all;
   for (const ReferenceResult& reference : evaluation.references) {
     const auto* flight = std::get_if<FlightResult>(&reference.figures);
     if (flight == nullptr) continue;
-    for (const std::string& note : flight->input.notes)
-      std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
-    for (const std::string& problem : flight->input.problems)
-      damage += (damage.empty() ? "" : "; ") + problem;
+    const InputReport& input = flight->input;
+    all.notes.insert(all.notes.end(), input.notes.begin(), input.notes.end());
+    all.problems.insert(all.problems.end(), input.problems.begin(), input.problems.end());
   }
-  if (damage.empty()) return {};
-  return Error{ErrorCode::kDamaged, damage};
+  return all;
+}
+
+Status evaluate_trajectory(const EvalCommand& command) {
+  const Result<Evaluation> evaluation = evaluate(command);
+  if (!evaluation) return evaluation.error();
+  const Status written = write_figures(command, evaluation_text(*evaluation), evaluation_json(*evaluation));
+  return conclude(written, captures_of(*evaluation));
 }
 
 }  // namespace
 
 Status run_eval_command(const EvalCommand& command) {
-  if (command.live) return evaluate_poses_as_published(command);
-  const Result<Evaluation> evaluation = evaluate(command);
-  if (!evaluation) return evaluation.error();
-  if (Status written = write_figures(command, evaluation_text(*evaluation), evaluation_json(*evaluation));
-      !written)
-    return written;
-  return tell_notes(*evaluation);
+  if (Status usable = check_json_file(command); !usable) return usable;
+  return command.live ? evaluate_poses_as_published(command) : evaluate_trajectory(command);
 }
 
 }  // namespace swiftlet

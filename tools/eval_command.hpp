@@ -22,12 +22,13 @@ struct EvalCommand {
   std::string json_file;                ///< empty: none; "-": to stdout, in place of the table
 };
 
-/// Holds the trajectory against each reference. The figures go to stdout, notes of a capture to stderr.
+/// Holds the trajectory against each reference. The figures go to stdout, notes of a capture or, of `live`,
+/// of the input to stderr.
 ///
-/// Errors: kInvalidInput, kNotFound: no reference given, or a file cannot be used or has no stamp in common
-/// with the trajectory; nothing was written. kDamaged: a capture is damaged after usable samples; the figures
-/// come from what came before; of `live`, nothing was written. kOutOfSpace, kInvalidInput: the JSON file
-/// cannot be written.
+/// Errors: kInvalidInput, kNotFound: no reference given, a file cannot be used or has no stamp in common with
+/// the trajectory, or the JSON file cannot be written or is one of the inputs, which is asked first; nothing
+/// was written. kDamaged: capture or input is damaged after usable samples, and the figures come from the
+/// rest; or a reference is damaged, and nothing was written. kOutOfSpace: the JSON file was not written.
 [[nodiscard]] Status run_eval_command(const EvalCommand& command);
 
 }  // namespace swiftlet

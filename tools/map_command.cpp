@@ -10,6 +10,7 @@
 
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
+#include "tools/command_end.hpp"
 #include "tools/mapped_run.hpp"
 #include "tools/prepared_run.hpp"
 

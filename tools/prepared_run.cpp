@@ -156,13 +156,6 @@ Status check_usable(const MapCommand& command, const InputReport& report, const 
   return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
 }
 
-Status damage_of(const InputReport& report) {
-  if (report.problems.empty()) return {};
-  std::string message = report.problems.front();
-  for (std::size_t i = 1; i < report.problems.size(); ++i) message += "; " + report.problems[i];
-  return Error{ErrorCode::kDamaged, message};
-}
-
 Error stopped_error(const std::string& input) {
   return {ErrorCode::kTimeout, input + ": mapping was stopped before its end"};
 }

@@ -47,9 +47,6 @@ struct PreparedRun {
 [[nodiscard]] Status check_usable(const MapCommand& command, const InputReport& report,
                                   const Backend& backend);
 
-/// All that was wrong with the input, in one line: kDamaged.
-[[nodiscard]] Status damage_of(const InputReport& report);
-
 /// What a run that was stopped returns: kTimeout.
 [[nodiscard]] Error stopped_error(const std::string& input);
 

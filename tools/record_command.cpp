@@ -147,6 +147,8 @@ class Listener {
 };
 
 Result<RecordingPlan> plan_for(const RecordCommand& command) {
+  if (command.file.empty())
+    return Error{ErrorCode::kInvalidInput, "-o names no file; name the recording, as in -o flight.pcap"};
   const Result<InputUri> input = parse_input_uri(command.input);
   if (!input) return input.error();
   const HostTime now(std::chrono::system_clock::now().time_since_epoch());

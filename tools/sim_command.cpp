@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/sim_command.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -91,9 +92,14 @@ class ChangeReporter {
   bool was_flying_ = false;
 };
 
+/// Without stdin the next file that is opened has its number: the server's socket.
+bool stdin_is_open() { return ::fcntl(STDIN_FILENO, F_GETFD) >= 0; }
+
 /// stdin, line by line, without waiting.
 class InstructionReader {
  public:
+  explicit InstructionReader(bool has_stdin) : is_over_(!has_stdin) {}
+
   /// After the end: -1, which poll() ignores.
   [[nodiscard]] int fd() const { return is_over_ ? -1 : STDIN_FILENO; }
   /// To be called when poll() reports input.
@@ -105,17 +111,18 @@ class InstructionReader {
     else
       is_over_ = true;
   }
+  /// The last one needs no end of line.
   [[nodiscard]] std::optional<std::string> next_line() {
     const std::size_t end = text_.find('\n');
-    if (end == std::string::npos) return std::nullopt;
+    if (end == std::string::npos && (!is_over_ || text_.empty())) return std::nullopt;
     std::string line = text_.substr(0, end);
-    text_.erase(0, end + 1);
+    text_.erase(0, end == std::string::npos ? end : end + 1);
     return line;
   }
 
  private:
   std::string text_;
-  bool is_over_ = false;
+  bool is_over_;
 };
 
 /// False: quit.
@@ -172,9 +179,9 @@ bool execute_lines(InstructionReader& reader, SimulatedVehicle& vehicle, Simulat
   return true;
 }
 
-void run_until_quit(SimulatedVehicle& vehicle, SimulatedUdpServer& server, const std::stop_token& stop) {
+void run_until_quit(InstructionReader& reader, SimulatedVehicle& vehicle, SimulatedUdpServer& server,
+                    const std::stop_token& stop) {
   ChangeReporter changes(server, vehicle);
-  InstructionReader reader;
   while (!stop.stop_requested()) {
     std::array<pollfd, 2> watched{{{server.socket_fd(), POLLIN, 0}, {reader.fd(), POLLIN, 0}}};
     static_cast<void>(poll(watched.data(), watched.size(), server.client() ? kWaitMs : kIdleWaitMs));
@@ -188,6 +195,7 @@ void run_until_quit(SimulatedVehicle& vehicle, SimulatedUdpServer& server, const
 }  // namespace
 
 Status run_sim_command(const SimCommand& command) {
+  InstructionReader reader(stdin_is_open());  // before any file is opened
   const SignalWatcher signals;
   Result<SimulatedWorld> world = make_simulated_world(command.world, command.seed);
   if (!world) return world.error();
@@ -204,7 +212,7 @@ Status run_sim_command(const SimCommand& command) {
                          .delay = from_seconds(command.delay_ms / 1000.0)});
   print_line("listening on udp://" + (*server)->address() + ", world " + command.world + ", seed " +
              std::to_string(command.seed) + "; type help for instructions");
-  run_until_quit(vehicle, **server, signals.token());
+  run_until_quit(reader, vehicle, **server, signals.token());
   print_line("ended");
   return {};
 }

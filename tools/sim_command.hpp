@@ -28,8 +28,9 @@ struct SimCommand {
 
 /// Puts a simulated vehicle on UDP in real time until SIGINT, SIGTERM, SIGHUP or the instruction `quit`.
 /// Instructions are read from stdin, one a line (sim_instructions_help()); the end of stdin does not end the
-/// simulation. Prints to stdout, a line each, where it listens, which clients come and go, what the vehicle
-/// does, and what is wrong with an instruction. To be called before any other thread runs.
+/// simulation, nor need stdin be open. Prints to stdout, a line each, where it listens, which clients come
+/// and go, what the vehicle does, and what is wrong with an instruction. To be called before any other thread
+/// runs.
 ///
 /// Errors: kNotFound, kInvalidInput: world, deck or address cannot be used, or the port is in use.
 [[nodiscard]] Status run_sim_command(const SimCommand& command);

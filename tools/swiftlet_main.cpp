@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,8 +20,10 @@
 #include "daemon/command_line.hpp"
 #include "daemon/manual/page_option.hpp"
 #include "daemon/outputs/output_directory.hpp"
+#include "daemon/system/named_file.hpp"
 #include "daemon/version.hpp"
 #include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/link/uri_text.hpp"
 #include "firmware_link/simulation/flight.hpp"
 #include "firmware_link/simulation/world.hpp"
 #include "tools/calibrate_command.hpp"
@@ -58,6 +62,18 @@ std::string worlds_text() {
   return text;
 }
 
+/// As in sim://WORLD?seed=N; CLI11 alone takes -1 for the greatest number and 010 for eight.
+CLI::Validator seed_of_address() {
+  const auto take = [](std::string& text) {
+    constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+    const std::optional<std::uint64_t> seed = swiftlet::whole_number(text, std::uint64_t{0}, kMax);
+    if (!seed) return std::string("the seed must be a whole number from 0 to 18446744073709551615");
+    text = std::to_string(*seed);
+    return std::string();
+  };
+  return {take, ""};
+}
+
 CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   CLI::App* map =
       app.add_subcommand("map", "Take a whole input through the pipeline and write map and trajectory");
@@ -65,7 +81,7 @@ CLI::App* add_map_command(CLI::App& app, swiftlet::MapCommand& command) {
   map->add_option("-o,--output", command.output_directory,
                   "Directory for the outputs, created where missing; without it a new folder in " +
                       std::string(swiftlet::kFlightsDirectory));
-  map->add_option("--config", command.config_file, "TOML file with settings");
+  map->add_option("--config", command.config_file, "TOML file with settings")->check(swiftlet::named_file());
   map->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
       ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
   map->add_flag_callback(
@@ -85,6 +101,7 @@ CLI::App* add_sim_command(CLI::App& app, swiftlet::SimCommand& command) {
       "sim", "Put a simulated vehicle on UDP, to practise on; reads instructions from stdin, try help");
   sim->add_option("--world", command.world, "One of those below")->capture_default_str();
   sim->add_option("--seed", command.seed, "Of all noise: the same seed is the same vehicle")
+      ->transform(seed_of_address())
       ->capture_default_str();
   sim->add_option("--udp", command.udp, "ADDRESS:PORT to listen on")->capture_default_str();
   sim->add_option("--laps", command.laps, "How often to fly the world's script before landing")
@@ -154,7 +171,9 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
                    "With --live: also runs that end at such poses, every so many seconds")
       ->check(swiftlet::number_from(0.001, 1e6))
       ->needs(live);
-  eval->add_option("--config", command.config_file, "With --live: TOML file with settings")->needs(live);
+  eval->add_option("--config", command.config_file, "With --live: TOML file with settings")
+      ->check(swiftlet::named_file())
+      ->needs(live);
   eval->add_option("--json", command.json_file,
                    "Write all figures to this file; - for stdout, not the table");
   return eval;
@@ -185,7 +204,8 @@ CLI::App* add_convert_command(CLI::App& app, swiftlet::ConvertCommand& command) 
           "The file to write, by its ending: .csv samples, which swiftlet reads back; .g2o pose graph; "
           ".mcap run for Foxglove")
       ->required();
-  convert->add_option("--config", command.config_file, "TOML file with settings");
+  convert->add_option("--config", command.config_file, "TOML file with settings")
+      ->check(swiftlet::named_file());
   convert->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
       ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
   convert->add_flag_callback(
@@ -210,7 +230,8 @@ CLI::App* add_latency_command(CLI::App& app, swiftlet::LatencyCommand& command) 
   CLI::App* latency = app.add_subcommand(
       "latency", "Show how a run kept time: from radio frame to published pose, each stage, each queue");
   latency->add_option("REPORT", command.report_file, "report.json of a run");
-  latency->add_option("--picture", command.picture_file, "Draw the histograms to this PNG file");
+  latency->add_option("--picture", command.picture_file, "Draw the histograms to this PNG file")
+      ->check(swiftlet::named_file());
   latency->add_flag("--listen", command.listen, "Listen to a running swiftletd instead");
   latency->add_option("--lcm-url", command.lcm_url, "Where it publishes")
       ->envname("LCM_DEFAULT_URL")
@@ -240,7 +261,9 @@ CLI::App* add_view_command(CLI::App& app, swiftlet::ViewCommand& command) {
   view->add_option("--rate", command.rate, "Play the input at this many times its pace")
       ->check(swiftlet::number_from(0.1, 1000.0))
       ->needs(input);
-  view->add_option("--config", command.config_file, "For the input: TOML file with settings")->needs(input);
+  view->add_option("--config", command.config_file, "For the input: TOML file with settings")
+      ->check(swiftlet::named_file())
+      ->needs(input);
   view->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
       ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)))
       ->needs(input);

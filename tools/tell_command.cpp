@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/tell_command.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "daemon/commands/command_message.hpp"
 #include "daemon/publish/lcm_transport.hpp"
+#include "firmware_link/link/uri_text.hpp"
 #include "swiftlet/command_t.hpp"
 
 namespace swiftlet {
@@ -21,6 +23,17 @@ std::int8_t action_of(const std::string& what) {
 
 Error refused(const std::string& why) { return {ErrorCode::kInvalidInput, why}; }
 
+/// `HOST:PORT`. LCM takes its own port for one that is missing, which is not that of swiftletd.
+bool is_address(const std::string& to) {
+  const std::size_t colon = std::min(to.find(':'), to.size());
+  const std::string host = to.substr(0, colon);
+  const auto may_stand_in_host = [](char c) {
+    return is_digit(c) || is_letter(c) || c == '.' || c == '-' || c == '_';
+  };
+  return !host.empty() && std::ranges::all_of(host, may_stand_in_host) && colon < to.size() &&
+         whole_number(std::string_view(to).substr(colon + 1), 1, 65535).has_value();
+}
+
 }  // namespace
 
 Status run_tell_command(const TellCommand& command) {
@@ -29,6 +42,8 @@ Status run_tell_command(const TellCommand& command) {
   message.name = command.name;
   if (message.action != command_t::ACTION_MARK_PLACE && !command.name.empty())
     return refused("tell " + command.what + ": takes no name");
+  if (!is_address(command.to))
+    return refused("--to '" + command.to + "': must be ADDRESS:PORT; the default is 127.0.0.1:8450");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   // As swiftletd will read it: a name that it would refuse is refused here.

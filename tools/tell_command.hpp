@@ -17,7 +17,7 @@ struct TellCommand {
 };
 
 /// Sends a command to a running swiftletd, whose log says what became of it. Errors: kInvalidInput: the name
-/// does not fit the command, or nobody takes commands there.
+/// does not fit the command, `to` is no address, or nobody takes commands there.
 [[nodiscard]] Status run_tell_command(const TellCommand& command);
 
 }  // namespace swiftlet

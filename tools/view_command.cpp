@@ -4,6 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -14,6 +15,9 @@
 
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/view/view_service.hpp"
+#include "firmware_link/link/udp_address.hpp"
+#include "firmware_link/link/uri_text.hpp"
+#include "tools/command_end.hpp"
 #include "tools/map_command.hpp"
 #include "tools/prepared_run.hpp"
 #include "tools/view/mapped_recording.hpp"
@@ -22,6 +26,29 @@ namespace swiftlet {
 namespace {
 
 constexpr std::chrono::milliseconds kStopWait{100};  // the longest a signal goes unnoticed
+
+/// As a browser names the site of a page: SCHEME://HOST[:PORT], or file://.
+bool is_origin(const std::string& text) {
+  const std::size_t end = text.find("://");
+  if (end == std::string::npos || end == 0 || !is_letter(text.front())) return false;
+  const std::string scheme = text.substr(0, end);
+  const auto may_stand_in_scheme = [](char c) {
+    return is_digit(c) || is_letter(c) || c == '+' || c == '-' || c == '.';
+  };
+  if (!std::ranges::all_of(scheme, may_stand_in_scheme)) return false;
+  const std::string host = text.substr(end + 3);
+  return in_capitals(scheme) == "FILE" ? host.empty() : parse_udp_address(host).ok();
+}
+
+/// Another would be the origin of no page.
+Status check_origins(const std::vector<std::string>& origins) {
+  for (const std::string& origin : origins)
+    if (!is_origin(origin))
+      return Error{ErrorCode::kInvalidInput, "--allow-origin '" + origin +
+                                                 "': must be SCHEME://HOST[:PORT], as in "
+                                                 "https://app.foxglove.dev, or file://"};
+  return {};
+}
 
 Result<std::unique_ptr<ViewService>> open_service(const ViewCommand& command, const ShownSource& source) {
   const Result<ListenAddress> address = parse_listen_address(command.listen);
@@ -71,6 +98,7 @@ Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
 }  // namespace
 
 Status run_view_command(const ViewCommand& command) {
+  if (Status usable = check_origins(command.foreign_origins); !usable) return usable;
   const SignalWatcher signals;
   const std::stop_token stop = signals.token();
   return command.input.empty() ? view_live(command, stop) : view_recording(command, stop);

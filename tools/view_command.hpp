@@ -27,7 +27,7 @@ struct ViewCommand {
 /// as it can be. Prints the page's address to stdout; what was wrong with a recording goes to stderr. To be
 /// called before any other thread runs.
 ///
-/// Errors: kNotFound, kInvalidInput: input, configuration, LCM URL or address cannot be used.
+/// Errors: kNotFound, kInvalidInput: input, configuration, LCM URL, address or origin cannot be used.
 [[nodiscard]] Status run_view_command(const ViewCommand& command);
 
 }  // namespace swiftlet

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/input/faulty_sample_source.hpp"
 
+#include "core/base/settings.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
@@ -64,6 +65,15 @@ std::vector<StampedPose> FaultySampleSource::ground_truth() const {
     if (sample.number < flown.size())
       truth.push_back({flown[sample.number].stamp + sample.added, flown[sample.number].pose});
   return truth;
+}
+
+void FaultySampleSource::end() {
+  flight_->end();
+  report_ = flight_->report();
+  ended_ = true;
+  for (std::size_t i = next_fault_; i < faults_.size(); ++i)
+    report_.notes.push_back("the fault after " + shortest_text(to_seconds(faults_[i].after)) +
+                            " s never began: the flight ended before");
 }
 
 Result<ReceivedSample> FaultySampleSource::next() {

@@ -13,7 +13,8 @@
 
 namespace swiftlet {
 
-/// A simulated flight whose dead reckoning breaks by its faults. The truth stays that of the flight.
+/// A simulated flight whose dead reckoning breaks by its faults. The truth stays that of the flight. A fault
+/// that it did not come to is a note of its report once it has ended.
 class FaultySampleSource final : public SampleSource {
  public:
   /// `faults`: in the order of time.
@@ -23,12 +24,12 @@ class FaultySampleSource final : public SampleSource {
   [[nodiscard]] Result<ReceivedSample> next() override;
   [[nodiscard]] const BeamLayout& beams() const override { return flight_->beams(); }
   [[nodiscard]] const SensorModel& sensor() const override { return flight_->sensor(); }
-  [[nodiscard]] const InputReport& report() const override { return flight_->report(); }
+  [[nodiscard]] const InputReport& report() const override { return ended_ ? report_ : flight_->report(); }
   [[nodiscard]] std::optional<double> progress() const override { return flight_->progress(); }
   [[nodiscard]] bool is_live() const override { return flight_->is_live(); }
   [[nodiscard]] std::optional<LiveStatus> live_status() const override { return flight_->live_status(); }
   [[nodiscard]] std::optional<VehicleEvent> take_event() override { return flight_->take_event(); }
-  void end() override { flight_->end(); }
+  void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
  private:
@@ -49,6 +50,8 @@ class FaultySampleSource final : public SampleSource {
   std::vector<Delivered> delivered_;
   Pose2 T_fault_odom_;  // what faults have done to the estimate
   Pose2 T_odom_last_;   // of the last sample, before faults
+  bool ended_ = false;
+  InputReport report_;  // once ended
 };
 
 }  // namespace swiftlet

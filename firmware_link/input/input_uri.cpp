@@ -36,7 +36,7 @@ std::string input_forms(std::initializer_list<InputNature> natures) {
   for (const InputKind& kind : input_kinds()) {
     if (std::ranges::find(natures, kind.nature) == natures.end()) continue;
     forms.push_back(std::string(kind.scheme).append(kind.form));
-    if (kind.nature == InputNature::kFile) forms.emplace_back("a path (.pcap or .clf, also in gzip)");
+    if (kind.nature == InputNature::kFile) forms.emplace_back("a path (.pcap, .csv or .clf, also in gzip)");
   }
   std::string text;
   for (const std::string& form : forms) {
@@ -58,6 +58,12 @@ Result<InputUri> parse_input_uri(const std::string& uri) {
   if (uri.find("://") != std::string::npos)
     return no_scheme(uri, "unknown scheme " + in_quotes(uri.substr(0, uri.find(':'))));
   return InputUri{.kind = &file_kind(), .address = InputFile{uri}};
+}
+
+std::string file_of_input(const std::string& uri) {
+  const Result<InputUri> parsed = parse_input_uri(uri);
+  const auto* const file = parsed ? parsed->as<InputFile>() : nullptr;
+  return file != nullptr ? file->path : "";
 }
 
 }  // namespace swiftlet

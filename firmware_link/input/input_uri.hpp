@@ -69,5 +69,7 @@ struct InputUri {
 /// A URI of one of the kinds, or a plain path. Errors: kInvalidInput, with a line for the user that shows how
 /// to write it.
 [[nodiscard]] Result<InputUri> parse_input_uri(const std::string& uri);
+/// The path of an input that is a file; empty: it is none.
+[[nodiscard]] std::string file_of_input(const std::string& uri);
 
 }  // namespace swiftlet

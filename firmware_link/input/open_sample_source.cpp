@@ -23,8 +23,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr const char* kBeamsIgnored = "the number of beams is the sensor's own here; --beams is ignored";
-
 Status check_options(const SampleSourceOptions& options) {
   if (options.beam_count && (*options.beam_count < 2 || *options.beam_count > static_cast<int>(kMaxBeams)))
     return Error{ErrorCode::kInvalidInput, "--beams " + std::to_string(*options.beam_count) +

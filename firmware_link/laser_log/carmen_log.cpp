@@ -309,7 +309,9 @@ Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_coun
     return Error{ErrorCode::kInvalidInput, log.problems.front() + "; no usable scan"};
   return Error{
       ErrorCode::kInvalidInput,
-      path + ": neither a capture (pcap) nor a CARMEN laser log (no FLASER, ROBOTLASER1 or RAWLASER1 line)"};
+      path +
+          ": neither a capture (pcap) nor a table (.csv) nor a CARMEN laser log (no FLASER, ROBOTLASER1 "
+          "or RAWLASER1 line)"};
 }
 
 }  // namespace swiftlet

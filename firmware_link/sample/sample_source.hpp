@@ -70,6 +70,10 @@ class SampleSource {
   [[nodiscard]] virtual std::vector<MendedPositions> mended() const { return {}; }
 };
 
+/// The note of an input whose beams are as they are, where beam_count is asked for.
+inline constexpr const char* kBeamsIgnored =
+    "the number of beams is the sensor's own here; --beams is ignored";
+
 struct SampleSourceOptions {
   std::optional<int> beam_count;      ///< laser logs: how many beams to keep (default 11); 2..kMaxBeams
   std::optional<Duration> range_age;  ///< overrides the sensor model's

@@ -87,7 +87,9 @@ Result<std::unique_ptr<SampleSource>> FlightTableSource::open(const std::string&
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
   if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
-  return std::unique_ptr<SampleSource>(new FlightTableSource(path, std::move(lines).value(), sensor));
+  std::unique_ptr<FlightTableSource> source(new FlightTableSource(path, std::move(lines).value(), sensor));
+  if (options.beam_count) source->report_.notes.emplace_back(kBeamsIgnored);
+  return std::unique_ptr<SampleSource>(std::move(source));
 }
 
 FlightTableSource::FlightTableSource(std::string path, GzipLines lines, const SensorModel& sensor)

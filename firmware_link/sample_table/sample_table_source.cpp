@@ -61,7 +61,9 @@ Result<std::unique_ptr<SampleSource>> SampleTableSource::open(const std::string&
   head->sensor = narrowed(head->sensor, options);
   if (head->sensor.min_range_m >= head->sensor.max_range_m)
     return Error{ErrorCode::kInvalidInput, path + ": no range lies between the limits set and its own"};
-  return std::unique_ptr<SampleSource>(new SampleTableSource(path, std::move(lines).value(), *head));
+  std::unique_ptr<SampleTableSource> source(new SampleTableSource(path, std::move(lines).value(), *head));
+  if (options.beam_count) source->report_.notes.emplace_back(kBeamsIgnored);
+  return std::unique_ptr<SampleSource>(std::move(source));
 }
 
 Error SampleTableSource::end_with(const std::string& problem) {

@@ -186,6 +186,8 @@ def bad_input_gets_one_line_and_exit_code_2(bench):
             (["--input", "sim://loop", "--config", bench.folder / "missing.toml"], "missing.toml"),
             (["--input", "sim://loop", "--config", config], "bad.toml:3"),
             (["--input", "sim://loop", "--config", bench.folder], "is a directory; name the TOML file"),
+            (["--input", "sim://loop", "--config", ""], "--config: names no file"),
+            (["--input", "sim://loop", "--log-file", ""], "--log-file: names no file"),
             (["--input", "sim://loop", "--rate", "-1"], "--rate"),
             (["--input", "sim://loop", "--rate", "nan"], "--rate: nan is no number"),
             (["--input", "sim://loop", "--rate", "inf"], "--rate: inf is no number"),

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/record_command.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -15,6 +16,13 @@ namespace {
 
 TEST(RecordingSummary, HasEverythingThatOneWantsToSeeWhileFlying) {
   EXPECT_EQ(recording_summary(4521, 9.96, 45, 296'048), "4521 samples, 10.0 Hz, 45 gaps, 296 kB");
+}
+
+TEST(RunRecordCommand, RefusesAFileWithoutAName) {
+  const Status recorded = run_record_command({.input = "sim://patrol", .file = "", .seconds = 1.0});
+  ASSERT_FALSE(recorded.ok());
+  EXPECT_EQ(recorded.error().code, ErrorCode::kInvalidInput);
+  EXPECT_THAT(recorded.error().message, testing::StartsWith("-o names no file"));
 }
 
 TEST(RunRecordCommand, EndsWhenItsTimeIsUpByTheLinksOwnClock) {

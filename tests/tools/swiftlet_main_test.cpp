@@ -208,6 +208,35 @@ TEST_F(SwiftletCommand, TakesNoNumberThatIsNone) {
   }
 }
 
+TEST_F(SwiftletCommand, TakesNoFileWithoutAName) {
+  write("run.clf", small_log());
+  for (const char* arguments :
+       {"map {}/run.clf -o {}/out --config ''", "convert {}/run.clf {}/out.csv --config ''",
+        "eval --live {}/run.clf --config ''", "view {}/run.clf --config ''"})
+    EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, arguments), refuses_with(": --config: names no file"));
+  EXPECT_THAT(run("latency {}/report.json --picture ''"), refuses_with("latency: --picture: names no file"));
+}
+
+TEST_F(SwiftletCommand, TellsOnlyWhatIsAnAddressWithAPort) {
+  for (const std::string to : {"foo", "''", "127.0.0.1", ":8450", "127.0.0.1:0", "127.0.0.1:84500", "a:b:1"})
+    EXPECT_THAT(run("tell save-map --to " + to), refuses_with(": must be ADDRESS:PORT")) << to;
+  for (const std::string to : {"127.0.0.1:1", "localhost:1"})
+    EXPECT_THAT(run("tell save-map --to " + to), refuses_with("nobody takes commands on " + to));
+}
+
+TEST_F(SwiftletCommand, ViewAllowsOnlyOriginsThatABrowserMayName) {
+  for (const std::string origin : {"foo", "''", "null", "app.foxglove.dev", "https://", "://host", "1://host",
+                                   "https://app.foxglove.dev/", "https://host:0", "file:///home"})
+    EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, "view --listen 127.0.0.1:0 --allow-origin " + origin),
+                refuses_with(": must be SCHEME://HOST[:PORT]"))
+        << origin;
+  for (const std::string origin :
+       {"https://app.foxglove.dev", "http://127.0.0.1:8080", "http://[::1]:8080", "file://"})
+    EXPECT_THAT(run("view --listen nowhere --allow-origin " + origin),
+                refuses_with("'nowhere' is no address"))
+        << origin;
+}
+
 TEST_F(SwiftletCommand, SaysThatItsOutputCouldNotBeWritten) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
@@ -224,6 +253,39 @@ TEST_F(SwiftletCommand, NamesWhatTheSimulationCannotUse) {
   EXPECT_THAT(run("sim --udp 192.0.2.1:19850"), refuses_with("192.0.2.1:19850"));
   EXPECT_THAT(run("sim --missing-deck lighthouse"), refuses_with("lighthouse"));
   EXPECT_THAT(run("sim --loss 101"), refuses_with("--loss"));
+}
+
+TEST_F(SwiftletCommand, SimTakesTheSeedsThatAnAddressTakes) {
+  for (const std::string seed : {"-1", "+1", "1.5", "0x10", "18446744073709551616", "''"})
+    EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, "sim --udp 127.0.0.1:0 --seed " + seed),
+                refuses_with("sim: --seed: the seed must be a whole number from 0 to 18446744073709551615"))
+        << seed;
+}
+
+TEST_F(SwiftletCommand, SimTakesALastInstructionWithoutAnEndOfLine) {
+  const Outcome outcome = run_as("sh -c 'printf quit | timeout 20 " SWIFTLET_COMMAND " \"$@\"' sh",
+                                 "sim --udp 127.0.0.1:0 --seed 010");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr(", seed 10; "), EndsWith("\nended\n")));
+}
+
+TEST_F(SwiftletCommand, SimWithoutStdinTakesNoPacketsForInstructions) {
+  write("send-quit", R"(heard=$1
+shift
+"$@" sim --udp 127.0.0.1:0 <&- >"$heard" &
+for _ in $(seq 100); do
+  port=$(sed -n 's/^listening on .*:\([0-9]*\), world.*/\1/p' "$heard")
+  [ -n "$port" ] && break
+  sleep 0.1
+done
+echo quit >"/dev/udp/127.0.0.1/$port"
+sleep 0.5
+kill -KILL $!
+wait $!
+echo "exit code $?"
+)");
+  const Outcome outcome = run_as("bash {}/send-quit {}/heard " SWIFTLET_COMMAND, "");
+  EXPECT_EQ(outcome.out, "exit code 137\n");  // it ran on until it was killed
 }
 
 TEST_F(SwiftletCommand, NamesTheConfigurationThatCannotBeUsed) {
@@ -367,6 +429,16 @@ TEST_F(SwiftletCommand, MapsWithTheAgeThatTheInputShows) {
   EXPECT_THAT(text_of(file("set/report.json")), HasSubstr("\"range_age_s\": 0.15,"));
 }
 
+TEST_F(SwiftletCommand, CalibratesNoAgeFromATableWhoseRangesHaveTheirPlace) {
+  ASSERT_EQ(run("convert 'sim://office?seed=4' {}/flight.csv").exit_code, 0);
+  const Outcome outcome = run("calibrate {}/flight.csv -o {}/found.toml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("not observable: ranges and dead reckoning of this input have one stamp"));
+  EXPECT_THAT(text_of(file("found.toml")),
+              AllOf(HasSubstr("# range_age_s: not observable: "), Not(HasSubstr("\nrange_age_s"))));
+}
+
 TEST_F(SwiftletCommand, CalibratesNothingFromARunWithoutTurns) {
   write("run.clf", small_log());
   const Outcome outcome = run("calibrate {}/run.clf --json");
@@ -432,6 +504,64 @@ TEST_F(SwiftletCommand, EvaluatesPosesAsTheyWerePublished) {
   EXPECT_THAT(run("eval --live {}/none.pcap"), refuses_with("none.pcap: no such file"));
   EXPECT_THAT(run("eval --live sim://patrol --truth {}/a.tum --truth {}/b.tum"),
               refuses_with("takes one reference at most"));
+}
+
+TEST_F(SwiftletCommand, EvaluatesADamagedInputLiveUpToItsDamageAndSaysSo) {
+  write("log.clf", small_log() + "FLASER 180 garbled\n");
+  const Outcome people = run("eval --live {}/log.clf --json {}/figures.json");
+  EXPECT_EQ(people.exit_code, 2);
+  EXPECT_THAT(people.out, AllOf(HasSubstr("0 poses at known places"), HasSubstr("rms unknown, ")));
+  EXPECT_THAT(people.err, AllOf(StartsWith("swiftlet: note: dead reckoning from the FLASER lines"),
+                                HasSubstr("\nswiftlet: "), HasSubstr("log.clf:151: FLASER line cut off"),
+                                EndsWith("the line is left out\n")));
+  EXPECT_THAT(text_of(file("figures.json")), AllOf(HasSubstr("log.clf:151: "), HasSubstr("\"rms_m\": null")));
+}
+
+TEST_F(SwiftletCommand, RefusesATruthOfAnotherTimeInEitherWay) {
+  write("log.clf", small_log());
+  write("path.tum", "100 0 0 0 0 0 0 1\n101 1 0 0 0 0 0 1\n");
+  write("other.tum", "5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
+  const auto refusal =
+      AllOf(refuses_with("other.tum: has no po"), refuses_with("from 5.000000 to 6.000000 s"),
+            refuses_with("the trajectory's from 100.000000 to "));
+  EXPECT_THAT(run("eval {}/path.tum --truth {}/other.tum"), refusal);
+  EXPECT_THAT(run("eval --live {}/log.clf --truth {}/other.tum"), refusal);
+}
+
+TEST_F(SwiftletCommand, WritesNoFiguresOverWhatTheyAreMadeOf) {
+  write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  write("motions.txt", "1 2 1.5 0 0 0 0 0\n");
+  write("log.clf", small_log());
+  write("settings.toml", "");
+  const auto refusal = refuses_with("this is the input; name another output");
+  EXPECT_THAT(run("eval {}/path.tum {}/motions.txt --json {}/motions.txt"), refusal);
+  EXPECT_THAT(run("eval {}/path.tum {}/motions.txt --json {}/path.tum"), refusal);
+  EXPECT_THAT(run("eval {}/path.tum --truth {}/path.tum --json {}/path.tum"), refusal);
+  EXPECT_THAT(run("eval {}/path.tum --relations {}/motions.txt --json {}/./motions.txt"), refusal);
+  EXPECT_THAT(run("eval --live {}/log.clf --json {}/log.clf"), refusal);
+  EXPECT_THAT(run("eval --live replay:{}/log.clf --json {}/log.clf"), refusal);
+  EXPECT_THAT(run("eval --live {}/log.clf --truth {}/path.tum --json {}/path.tum"), refusal);
+  EXPECT_THAT(run("eval --live {}/log.clf --config {}/settings.toml --json {}/settings.toml"), refusal);
+  EXPECT_THAT(run("calibrate {}/log.clf -o {}/log.clf"), refusal);
+  EXPECT_THAT(run("calibrate replay:{}/log.clf -o {}/log.clf"), refusal);
+  EXPECT_EQ(text_of(file("log.clf")), small_log());
+  EXPECT_EQ(text_of(file("motions.txt")), "1 2 1.5 0 0 0 0 0\n");
+}
+
+TEST_F(SwiftletCommand, LooksAtTheOutputFileBeforeItEvaluatesOrCalibrates) {
+  EXPECT_THAT(run("eval --live {}/none.clf --json {}"), refuses_with("this is a directory"));
+  EXPECT_THAT(run("eval --live {}/none.clf --json {}/none/a.json"), refuses_with("there is no directory"));
+  EXPECT_THAT(run("calibrate {}/none.clf -o {}"), refuses_with("this is a directory"));
+  EXPECT_THAT(run("calibrate {}/none.clf -o {}/none/a.toml"), refuses_with("there is no directory"));
+}
+
+TEST_F(SwiftletCommand, PrintsTheTableThoughItsFileCannotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  write("path.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  const Outcome outcome = run("eval {}/path.tum --truth {}/path.tum --json /dev/full");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, HasSubstr("2 of 2 positions"));
+  EXPECT_THAT(outcome.err, HasSubstr("/dev/full was not written: No space left on device"));
 }
 
 TEST_F(SwiftletCommand, NamesWhatItCannotEvaluate) {

@@ -89,7 +89,7 @@ SILENT_TEXTS = {
         sim://office?seed=1
         replay:flight.pcap
         follow:flight.pcap
-        a path (.pcap or .clf, also in gzip)
+        a path (.pcap, .csv or .clf, also in gzip)
         seed, laps, fault
         # swiftlet samples 1
         the line of the sensor

@@ -23,6 +23,7 @@ constexpr int kParts = 2 * kMaxRounds + 1;
 /// One pairing of ranges with dead reckoning, and what came of it.
 struct Round {
   SensorModel sensor;
+  bool shows_age = true;
   std::size_t samples = 0;
   MotionSummary motion;
   BackendCounters counters;
@@ -57,7 +58,7 @@ Result<Round> Calibration::run_round(std::optional<Duration> range_age) {
   const Result<PairedRun> read = read_run_(range_age);
   if (!read) return read.error();
   const PairedRun& run = *read;
-  Round round{run.sensor, run.samples.size(), {}, {}, std::nullopt};
+  Round round{run.sensor, run.shows_age, run.samples.size(), {}, {}, std::nullopt};
   const std::vector<CalibrationScan> scans = calibration_scans(run.samples, run.beams);
   round.motion = summarize_motion(scans);
   if (why_hopeless(round.motion)) return round;
@@ -81,6 +82,14 @@ Result<CalibrationCheck> Calibration::check(const CalibrationFindings& findings,
   return CalibrationCheck{before.held_out_after_m, map->counters.held_out_after_m};
 }
 
+/// An age remains among the unknowns, for what is off beside it, but no setting follows from it.
+CalibrationFindings with_no_age(CalibrationFindings findings) {
+  CalibrationFinding& age = findings[static_cast<std::size_t>(SystematicError::kRangeAge)];
+  age.verdict = CalibrationFinding::Verdict::kNotObservable;
+  age.reason = "ranges and dead reckoning of this input have one stamp, which shows no age";
+  return findings;
+}
+
 /// Moves what was found at the last pairing's age to where the first one's stands.
 CalibrationFindings findings_of(const Round& first, const Round& last) {
   const SensorModel& sensor = first.sensor;
@@ -98,7 +107,7 @@ Result<CalibrationReport> Calibration::run() {
   if (first.samples < 2)
     return Error{ErrorCode::kInvalidInput, name_ + " holds no usable run: too few samples"};
   Round last = first;
-  for (int round = 1; round < kMaxRounds && last.estimate; ++round) {
+  for (int round = 1; round < kMaxRounds && last.estimate && last.shows_age; ++round) {
     const double shift_s = last.estimate->errors(index_of(SystematicError::kRangeAge));
     const Duration age = within_limits_of_range_age(last.sensor.range_age + from_seconds(shift_s));
     if (std::chrono::abs(age - last.sensor.range_age) < kSettledAge) break;
@@ -107,6 +116,7 @@ Result<CalibrationReport> Calibration::run() {
     last = *again;
   }
   CalibrationReport report{name_, first.samples, first.motion, findings_of(first, last), std::nullopt};
+  if (!first.shows_age) report.findings = with_no_age(report.findings);
   const bool changes = std::any_of(report.findings.begin(), report.findings.end(), [](const auto& finding) {
     return finding.verdict == CalibrationFinding::Verdict::kMatters;
   });

@@ -21,6 +21,7 @@ struct PairedRun {
   std::vector<RangeSample> samples;
   BeamLayout beams;
   SensorModel sensor;
+  bool shows_age = true;  ///< false: ranges and dead reckoning have one stamp, see InputReport
 };
 
 /// Reads one and the same run from its beginning, its ranges taken for so old; nothing: for as old as they
@@ -28,8 +29,9 @@ struct PairedRun {
 using ReadRun = std::function<Result<PairedRun>(std::optional<Duration> range_age)>;
 
 /// What `swiftlet calibrate` does with a run: maps and estimates, reads it anew at the range age so found
-/// until that settles, and in the end maps it with what matters set. `name`: of the run, for report and
-/// messages. For `go_on` all this is one piece of work.
+/// until that settles, and in the end maps it with what matters set. A run that shows no age is estimated
+/// once, and the age is not observable. `name`: of the run, for report and messages. For `go_on` all this is
+/// one piece of work.
 ///
 /// Errors: those of `read_run`; kInvalidInput: fewer than two samples; kTimeout where `go_on` returned false;
 /// kSolver. Allocates. Repeatable.

@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/evaluation/evaluate.hpp"
-#include "firmware_link/input/open_sample_source.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
-#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
+#include "tools/evaluation/common_time.hpp"
 #include "tools/evaluation/relations_file.hpp"
 #include "tools/evaluation/tum_file.hpp"
 
 namespace swiftlet {
 namespace {
-
-double seconds_of(HostTime stamp) { return to_seconds(stamp.time_since_epoch()); }
-
-/// Both time spans, so that the reader sees whether clock, log or file is another. Precondition: neither is
-/// empty.
-Error nothing_in_common(const StampedPath& trajectory, const std::string& file, const char* what,
-                        const std::vector<HostTime>& stamps) {
-  const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
-  return {
-      ErrorCode::kInvalidInput,
-      fmt::format("{}: {}; its stamps are from {:.6f} to {:.6f} s, the trajectory's from {:.6f} to {:.6f} "
-                  "s; are they of one run and one clock?",
-                  file, what, seconds_of(*first), seconds_of(*last),
-                  seconds_of(trajectory.poses().front().stamp), seconds_of(trajectory.poses().back().stamp))};
-}
 
 Result<ReferenceResult> against_relations(const StampedPath& trajectory, const std::string& file) {
   const Result<std::vector<Relation>> relations = read_relations_file(file);
@@ -38,9 +21,9 @@ Result<ReferenceResult> against_relations(const StampedPath& trajectory, const s
   if (error.all.count > 0) return ReferenceResult{file, std::move(error)};
   std::vector<HostTime> stamps;
   for (const Relation& relation : *relations) stamps.insert(stamps.end(), {relation.first, relation.second});
-  return nothing_in_common(trajectory, file,
+  return nothing_in_common(file,
                            "of none of its relations does the trajectory have both stamps (within 2 ms)",
-                           stamps);
+                           span_of(stamps), span_of(trajectory));
 }
 
 Result<ReferenceResult> against_truth(const StampedPath& trajectory, const std::string& file) {
@@ -49,8 +32,8 @@ Result<ReferenceResult> against_truth(const StampedPath& trajectory, const std::
   const StampedPath truth(std::move(poses).value());
   PathError error = path_error(trajectory, truth);
   if (error.position.pairs > 0) return ReferenceResult{file, std::move(error)};
-  return nothing_in_common(trajectory, file, "has no position near any of the trajectory's stamps",
-                           {truth.poses().front().stamp, truth.poses().back().stamp});
+  return nothing_in_common(file, "has no position near any of the trajectory's stamps", span_of(truth),
+                           span_of(trajectory));
 }
 
 Result<ReferenceResult> against_flight(const StampedPath& trajectory, const std::string& file) {
@@ -65,7 +48,8 @@ Result<ReferenceResult> against_flight(const StampedPath& trajectory, const std:
   if (sharpness.drawn > 0)
     return ReferenceResult{file, FlightResult{std::move(sharpness), (*source)->report()}};
   if (samples.empty()) return Error{ErrorCode::kInvalidInput, file + ": holds no sample"};
-  return nothing_in_common(trajectory, file, "has no sample within the trajectory's time", sharpness.outside);
+  return nothing_in_common(file, "has no sample within the trajectory's time", span_of(sharpness.outside),
+                           span_of(trajectory));
 }
 
 }  // namespace

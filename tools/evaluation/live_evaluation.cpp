@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/evaluation/live_evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -9,6 +10,8 @@
 
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
+#include "tools/calibration/input_calibration.hpp"
+#include "tools/evaluation/common_time.hpp"
 #include "tools/evaluation/live_observer.hpp"
 #include "tools/evaluation/tum_file.hpp"
 #include "tools/prepared_run.hpp"
@@ -48,14 +51,30 @@ Status run_to_end(Pipeline& pipeline, LiveObserver* observer) {
   return {};
 }
 
-/// The truth of the file or, without one, that of the simulation or the run's own final path.
-Result<StampedPath> true_path(const LiveEvalCommand& command, const SampleSource& source,
-                              const Backend& finished, const PrunedScans& pruned) {
-  if (!command.truth_file.empty()) {
-    Result<std::vector<StampedPose>> read = read_tum_file(command.truth_file);
-    if (!read) return read.error();
-    return StampedPath(std::move(read).value());
+/// Of the truth's file; nothing without one.
+Result<std::optional<StampedPath>> measured_path(const std::string& truth_file) {
+  if (truth_file.empty()) return std::optional<StampedPath>();
+  Result<std::vector<StampedPose>> read = read_tum_file(truth_file);
+  if (!read) return read.error();
+  return std::optional(StampedPath(std::move(read).value()));
+}
+
+/// Whether any published pose has a true one.
+Status check_common_stamps(const std::string& truth_file, const StampedPath& truth,
+                           std::span<const DoubtedPose> published) {
+  std::vector<HostTime> stamps;
+  for (const DoubtedPose& pose : published) {
+    if (truth.nearest(pose.stamp) != nullptr) return {};
+    stamps.push_back(pose.stamp);
   }
+  return nothing_in_common(truth_file, "has no pose within 2 ms of any of the trajectory's stamps",
+                           span_of(truth), span_of(stamps));
+}
+
+/// The measured one or, without it, that of the simulation or the run's own final path.
+Result<StampedPath> true_path(const std::optional<StampedPath>& measured, const SampleSource& source,
+                              const Backend& finished, const PrunedScans& pruned) {
+  if (measured) return *measured;
   std::vector<StampedPose> truth = source.ground_truth();
   if (!truth.empty()) return StampedPath(std::move(truth));
   const Status visited = pruned.for_each_scan(finished, [&](const TrajectoryPoint& at) {
@@ -114,9 +133,32 @@ Result<BatchError> batch_error(const MapCommand& map, const PreparedRun& run, do
                     published.share_off()};
 }
 
+/// As `swiftlet map` has it: what ended the run early is damage, too.
+InputReport report_of(const PreparedRun& run, const Status& ended) {
+  InputReport report = run.source->report();
+  std::vector<std::string>& problems = report.problems;
+  if (!ended && std::find(problems.begin(), problems.end(), ended.error().message) == problems.end())
+    problems.push_back(ended.error().message);
+  report.notes.insert(report.notes.end(), run.notes.begin(), run.notes.end());
+  if (run.calibration) report.notes.push_back(calibration_note(*run.calibration));
+  return report;
+}
+
+LiveEvaluation evaluation_of(const std::string& input, const LiveObserver& observer, const StampedPath& truth,
+                             InputReport report) {
+  LiveEvaluation evaluation{input, observer.error(truth), {}, {}};
+  evaluation.consistency = {consistency(observer.doubted_poses(), truth),
+                            count_alarms(observer.doubted_poses(), evaluation.live.errors)};
+  evaluation.poses.assign(observer.doubted_poses().begin(), observer.doubted_poses().end());
+  evaluation.report = std::move(report);
+  return evaluation;
+}
+
 }  // namespace
 
 Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
+  const Result<std::optional<StampedPath>> measured = measured_path(command.truth_file);
+  if (!measured) return measured.error();
   MapCommand map;
   map.input = command.input;
   map.config_file = command.config_file;
@@ -127,15 +169,16 @@ Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
   Pipeline pipeline(prepared->config, *prepared->source);
   pipeline.keep_pruned(*pruned);
   LiveObserver observer(pipeline.backend());
-  if (Status ended = run_to_end(pipeline, &observer); !ended) return ended.error();
-  if (Status usable = check_usable(map, prepared->source->report(), pipeline.backend()); !usable)
-    return usable.error();
-  const Result<StampedPath> truth = true_path(command, *prepared->source, pipeline.backend(), *pruned);
+  const Status ended = run_to_end(pipeline, &observer);
+  InputReport report = report_of(*prepared, ended);
+  if (Status usable = check_usable(map, report, pipeline.backend()); !usable) return usable.error();
+  if (*measured)
+    if (Status common = check_common_stamps(command.truth_file, **measured, observer.doubted_poses());
+        !common)
+      return common.error();
+  const Result<StampedPath> truth = true_path(*measured, *prepared->source, pipeline.backend(), *pruned);
   if (!truth) return truth.error();
-  LiveEvaluation evaluation{command.input, observer.error(*truth), {}, {}};
-  evaluation.consistency = {consistency(observer.doubted_poses(), *truth),
-                            count_alarms(observer.doubted_poses(), evaluation.live.errors)};
-  evaluation.poses.assign(observer.doubted_poses().begin(), observer.doubted_poses().end());
+  LiveEvaluation evaluation = evaluation_of(command.input, observer, *truth, std::move(report));
   if (!command.batch_s) return evaluation;
   Result<BatchError> batch = batch_error(map, *prepared, *command.batch_s, evaluation.live.errors, *truth);
   if (!batch) return batch.error();

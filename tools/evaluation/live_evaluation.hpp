@@ -9,6 +9,7 @@
 #include "core/base/result.hpp"
 #include "core/evaluation/known_place_error.hpp"
 #include "daemon/outputs/run_outputs.hpp"
+#include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
 
@@ -35,13 +36,14 @@ struct LiveEvaluation {
   std::optional<BatchError> batch;
   RunConsistency consistency;
   std::vector<DoubtedPose> poses{};  ///< as published
+  InputReport report{};              ///< of the input, with the notes of the run
 };
 
 /// Maps the input and holds the poses published on the way against the map that was published then, and their
-/// covariances and states against the errors.
+/// covariances and states against the errors. Damage after usable samples is no error: it is in the report.
 ///
-/// Errors: kNotFound, kInvalidInput: input, configuration or truth cannot be used. kDamaged: the input is
-/// damaged.
+/// Errors: kNotFound, kInvalidInput: input, configuration or truth cannot be used, or the truth has no pose
+/// within kStampTolerance of a published one. kDamaged: the truth is damaged.
 [[nodiscard]] Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command);
 
 [[nodiscard]] std::string live_evaluation_text(const LiveEvaluation& evaluation);

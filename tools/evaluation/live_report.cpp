@@ -37,8 +37,44 @@ double position_sigma_m(const Covariance3& P) {
   return std::sqrt(mean + std::hypot(0.5 * (P.xx - P.yy), P.xy));
 }
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.3f}", *value) : "unknown";
+std::string number(const std::optional<double>& value, int digits = 3) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "unknown";
+}
+
+/// A figure of so many moments: of none it is unknown, not 0.
+std::optional<double> known_of(std::size_t moments, double figure) {
+  return moments > 0 ? std::optional(figure) : std::nullopt;
+}
+
+std::string batch_text(const BatchError& batch) {
+  const auto rms = [&](double rms_m) { return number(known_of(batch.moments, rms_m)); };
+  const auto percent = [&](double share) { return number(known_of(batch.moments, 100.0 * share), 1); };
+  return fmt::format(
+      "  runs that end at {} of the poses: rms {} m, beyond {} m {} %; live there {} m, {} %\n",
+      batch.moments, rms(batch.rms_m), KnownPlaceTuning{}.off_m, percent(batch.share_off),
+      rms(batch.live_rms_m), percent(batch.live_share_off));
+}
+
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json batch_json(const BatchError& batch) {
+  const auto known = [&](double figure) { return number_or_null(known_of(batch.moments, figure)); };
+  return {{"moments", batch.moments},
+          {"rms_m", known(batch.rms_m)},
+          {"share_off", known(batch.share_off)},
+          {"live_rms_m", known(batch.live_rms_m)},
+          {"live_share_off", known(batch.live_share_off)}};
+}
+
+Json live_json(const KnownPlaceError& live) {
+  Json json = known_place_json(live);
+  if (live.moments == 0)
+    for (const char* key : {"rms_m", "p95_m", "max_m", "share_off"}) json[key] = nullptr;
+  if (live.contacts_off == 0) json["settled_p50_s"] = nullptr;
+  Json& errors = json["errors_m"] = Json::array();
+  for (const StampedError& at : live.errors)
+    errors.push_back({to_seconds(at.stamp.time_since_epoch()), at.error_m});
+  return json;
 }
 
 }  // namespace
@@ -47,46 +83,36 @@ std::string live_evaluation_text(const LiveEvaluation& evaluation) {
   const KnownPlaceError& live = evaluation.live;
   const KnownPlaceTuning tuning;
   std::string text = fmt::format("{}: {} poses at known places\n", evaluation.input, live.moments);
-  text +=
-      fmt::format("  error, m: rms {:.3f}, p95 {:.3f}, max {:.3f}; beyond {} m for {:.1f} % of the time\n",
-                  live.rms_m, live.p95_m, live.max_m, tuning.off_m, 100.0 * live.share_off);
+  const auto error = [&](double figure_m) { return number(known_of(live.moments, figure_m)); };
+  text += fmt::format("  error, m: rms {}, p95 {}, max {}; beyond {} m for {} % of the time\n",
+                      error(live.rms_m), error(live.p95_m), error(live.max_m), tuning.off_m,
+                      number(known_of(live.moments, 100.0 * live.share_off), 1));
   text += fmt::format("  p95 across the nearest wall {} m, along it {} m\n", number(live.across_p95_m),
                       number(live.along_p95_m));
-  text +=
-      fmt::format("  contacts with old ground: {}, off at first: {}, those below {} m after {:.1f} s (p50)\n",
-                  live.contacts, live.contacts_off, tuning.settled_m, live.settled_p50_s);
+  text += fmt::format("  contacts with old ground: {}, off at first: {}, those below {} m after {} s (p50)\n",
+                      live.contacts, live.contacts_off, tuning.settled_m,
+                      number(known_of(live.contacts_off, live.settled_p50_s), 1));
   text += fmt::format("  jumps beyond {} m: {}, greatest {:.3f} m\n", tuning.off_m, live.jumps,
                       live.greatest_jump_m);
   for (std::size_t i = 0; i < live.map_rms_m.size(); ++i)
     text += fmt::format("  old ground {} m away: off by {} m (rms)\n", tuning.distances_m[i],
                         number(live.map_rms_m[i]));
   text += consistency_text(evaluation.consistency);
-  if (evaluation.batch)
-    text += fmt::format(
-        "  runs that end at {} of the poses: rms {:.3f} m, beyond {} m {:.1f} %; live there {:.3f} m, {:.1f} "
-        "%\n",
-        evaluation.batch->moments, evaluation.batch->rms_m, tuning.off_m, 100.0 * evaluation.batch->share_off,
-        evaluation.batch->live_rms_m, 100.0 * evaluation.batch->live_share_off);
+  if (evaluation.batch) text += batch_text(*evaluation.batch);
   return text;
 }
 
 std::string live_evaluation_json(const LiveEvaluation& evaluation) {
-  Json json{{"input", evaluation.input}, {"live", known_place_json(evaluation.live)}};
-  Json& errors = json["live"]["errors_m"] = Json::array();
-  for (const StampedError& at : evaluation.live.errors)
-    errors.push_back({to_seconds(at.stamp.time_since_epoch()), at.error_m});
+  Json json{{"input", evaluation.input},
+            {"problems", evaluation.report.problems},
+            {"live", live_json(evaluation.live)}};
   json["consistency"] = consistency_json(evaluation.consistency);
   Json& poses = json["poses"] = Json::array();
   for (const DoubtedPose& pose : evaluation.poses)
     poses.push_back({to_seconds(pose.stamp.time_since_epoch()), pose.T_map_body.x_m(), pose.T_map_body.y_m(),
                      pose.T_map_body.yaw_rad(), position_sigma_m(pose.from_start),
                      position_sigma_m(pose.from_surroundings), pose.state});
-  if (evaluation.batch)
-    json["batch"] = {{"moments", evaluation.batch->moments},
-                     {"rms_m", evaluation.batch->rms_m},
-                     {"share_off", evaluation.batch->share_off},
-                     {"live_rms_m", evaluation.batch->live_rms_m},
-                     {"live_share_off", evaluation.batch->live_share_off}};
+  if (evaluation.batch) json["batch"] = batch_json(*evaluation.batch);
   // Names of files may hold any bytes: what is not UTF-8 is replaced.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -8,15 +8,17 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "firmware_link/file/gzip_lines.hpp"
+#include "firmware_link/sample_table/table_fields.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::size_t kMaxQuote = 40;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors begin UTF-8 with it
 
 std::vector<std::string_view> columns_of(std::string_view line) {
   std::vector<std::string_view> columns;
@@ -30,25 +32,33 @@ std::vector<std::string_view> columns_of(std::string_view line) {
   return columns;
 }
 
-/// Fit for a message, whatever the file holds.
-std::string quoted(std::string_view text) {
-  std::string quote(text.substr(0, kMaxQuote));
-  std::replace_if(
-      quote.begin(), quote.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return quote;
+/// Also with a plus sign, which numpy.savetxt("%+.6e") writes. Nothing where the text is no finite number.
+std::optional<double> finite_number_in(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc{} && rest == text.data() + text.size() && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
 }
 
 /// What is wrong with the columns, or nothing.
 std::string parse(const std::vector<std::string_view>& columns, NumberRow& row) {
   for (std::size_t i = 0; i < std::min(columns.size(), kRowColumns); ++i) {
-    const std::string_view text = columns[i];
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), row.value[i]);
-    if (error != std::errc{} || rest != text.data() + text.size() || !std::isfinite(row.value[i]))
-      return fmt::format("column {}, '{}', is no finite number", i + 1, quoted(text));
+    const std::optional<double> value = finite_number_in(columns[i]);
+    if (!value) return fmt::format("column {}, '{}', is no finite number", i + 1, quoted(columns[i]));
+    row.value[i] = *value;
   }
   if (columns.size() == kRowColumns) return {};
   return fmt::format("has {} column{}, not {} separated by blanks", columns.size(),
                      columns.size() == 1 ? "" : "s", kRowColumns);
+}
+
+/// Half a reference gives the figures of half a run: it is refused, unlike half a capture.
+Error cut_or_garbled(const std::string& path, std::uint64_t lines) {
+  return {ErrorCode::kDamaged,
+          fmt::format("{}: the gzip stream is cut off or garbled behind line {}, and nothing of it is used; "
+                      "take a whole copy",
+                      path, lines)};
 }
 
 }  // namespace
@@ -63,6 +73,8 @@ Result<std::vector<NumberRow>> read_number_rows(const std::string& path) {
   std::vector<NumberRow> rows;
   Result<std::string_view> line = lines->next();
   for (; line; line = lines->next()) {
+    if (lines->line_number() == 1 && line->starts_with(kByteOrderMark))
+      line->remove_prefix(kByteOrderMark.size());
     const std::vector<std::string_view> columns = columns_of(*line);
     if (columns.empty() || columns.front().starts_with('#')) continue;
     NumberRow row{.line = lines->line_number()};
@@ -70,6 +82,7 @@ Result<std::vector<NumberRow>> read_number_rows(const std::string& path) {
       return error_in_line(path, row.line, fault);
     rows.push_back(row);
   }
+  if (line.error().code == ErrorCode::kDamaged) return cut_or_garbled(path, lines->line_number());
   if (line.error().code != ErrorCode::kEndOfRecording) return line.error();
   if (rows.empty()) return Error{ErrorCode::kInvalidInput, path + ": holds no line of numbers"};
   return rows;

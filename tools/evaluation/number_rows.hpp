@@ -22,8 +22,9 @@ struct NumberRow {
 };
 
 /// Reads a text file, plain or gzip; empty lines and those that begin with # are skipped, columns are
-/// separated by blanks. Errors: kNotFound, kInvalidInput: no such file, a line of other than eight finite
-/// numbers (by file, line and column), or no line at all. kDamaged: a damaged gzip stream.
+/// separated by blanks. A byte order mark at the beginning and plus signs are accepted. Errors: kNotFound,
+/// kInvalidInput: no such file, a line of other than eight finite numbers (by file, line and column), or no
+/// line at all. kDamaged: a damaged gzip stream, of which nothing is used.
 [[nodiscard]] Result<std::vector<NumberRow>> read_number_rows(const std::string& path);
 
 /// A column in seconds as a stamp, to the microsecond: that undoes the rounding of the binary number. Errors:

@@ -52,6 +52,20 @@ void check_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// Names of files and what is quoted of a damaged one need not be UTF-8: other bytes become U+FFFD.
+py::str text_of(const std::string& bytes) {
+  const auto size = static_cast<py::ssize_t>(bytes.size());
+  PyObject* const text = PyUnicode_DecodeUTF8(bytes.data(), size, "replace");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
+py::list texts_of(const std::vector<std::string>& lines) {
+  py::list out;
+  for (const std::string& line : lines) out.append(text_of(line));
+  return out;
+}
+
 /// An array that takes the numbers over.
 template <typename Number>
 py::array_t<Number> array_of(std::vector<Number> numbers, const std::vector<py::ssize_t>& shape) {
@@ -105,9 +119,9 @@ py::dict dict_of(MappedInput run) {
   py::dict grids;
   for (auto& [storey, grid] : arrays.grids) grids[py::int_(index_of(storey))] = grid_of(std::move(grid));
   out["grids"] = grids;
-  out["report"] = run.report_json;
-  out["notes"] = run.notes;
-  out["problems"] = run.problems;
+  out["report"] = text_of(run.report_json);
+  out["notes"] = texts_of(run.notes);
+  out["problems"] = texts_of(run.problems);
   return out;
 }
 
@@ -266,7 +280,7 @@ py::list queues_of(const status_t& message) {
   using py::literals::operator""_a;
   py::list out;
   for (const queue_status_t& queue : message.queues)
-    out.append(py::dict("name"_a = queue.name, "capacity"_a = queue.capacity,
+    out.append(py::dict("name"_a = text_of(queue.name), "capacity"_a = queue.capacity,
                         "high_water"_a = queue.high_water, "refused"_a = queue.refused));
   return out;
 }
@@ -275,7 +289,7 @@ py::list stages_of(const status_t& message) {
   using py::literals::operator""_a;
   py::list out;
   for (const stage_time_t& stage : message.stages)
-    out.append(py::dict("name"_a = stage.name, "count"_a = stage.count, "mean_ms"_a = stage.mean,
+    out.append(py::dict("name"_a = text_of(stage.name), "count"_a = stage.count, "mean_ms"_a = stage.mean,
                         "p50_ms"_a = stage.p50, "p99_ms"_a = stage.p99, "p999_ms"_a = stage.p999,
                         "max_ms"_a = stage.max));
   return out;
@@ -349,9 +363,13 @@ class PythonListener {
   std::unique_ptr<MessageListener> listener_;
 };
 
-std::string default_lcm_url() {
-  const char* const url = std::getenv("LCM_DEFAULT_URL");
-  return url == nullptr || *url == '\0' ? kDefaultLcmUrl : url;
+/// May hold the name of a file: decoded as Python's os.environ is.
+py::str default_lcm_url() {
+  const char* const named = std::getenv("LCM_DEFAULT_URL");
+  PyObject* const url =
+      PyUnicode_DecodeFSDefault(named == nullptr || *named == '\0' ? kDefaultLcmUrl : named);
+  if (url == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(url);
 }
 
 void define_functions(py::module_& m) {
@@ -397,7 +415,7 @@ void define_error(py::module_& m) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const PythonError& e) {
-      PyErr_SetString(error, e.what());
+      PyErr_SetObject(error, text_of(e.what()).ptr());
     }
   });
 }

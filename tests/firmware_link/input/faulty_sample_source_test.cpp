@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/input/faulty_sample_source.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -93,6 +94,17 @@ TEST(FaultySampleSource, ATeleportTellsNothing) {
   EXPECT_FALSE(flown.samples[50].starts_segment);
   EXPECT_NEAR(at_s(flown.samples[50]), 5.0, 1e-9);
   EXPECT_TRUE(poses_near(flown.samples[50].T_odom_body, Pose2(4.9, 0.0, 0.0), 1e-9, 1e-9));
+}
+
+TEST(FaultySampleSource, AFaultThatTheFlightDoesNotComeToIsANote) {
+  FaultySampleSource source(std::make_unique<StraightFlight>(),
+                            parse_motion_faults("reset@5,slip@9.8:20,jump@10.5:90,slip@3000:20").value());
+  while (source.next()) continue;
+  EXPECT_TRUE(source.report().notes.empty()) << "it has not ended";
+  source.end();
+  EXPECT_THAT(source.report().notes,
+              testing::ElementsAre("the fault after 10.5 s never began: the flight ended before",
+                                   "the fault after 3000 s never began: the flight ended before"));
 }
 
 TEST(FaultySampleSource, ASlipHidesTheWayAndAJumpTurnsIt) {

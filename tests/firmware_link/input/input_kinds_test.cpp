@@ -38,7 +38,7 @@ TEST(InputForms, ListTheKindsAskedFor) {
   EXPECT_TRUE(
       input_forms({InputNature::kVehicle}).starts_with("radio://DONGLE/CHANNEL/RATE/ADDRESS, usb://N"));
   EXPECT_EQ(input_forms({InputNature::kFile, InputNature::kSimulation}),
-            "sim://WORLD?seed=N&laps=N, replay:FILE or a path (.pcap or .clf, also in gzip)");
+            "sim://WORLD?seed=N&laps=N, replay:FILE or a path (.pcap, .csv or .clf, also in gzip)");
 }
 
 TEST(InputKinds, UdpReceivesTheVehicleInTheTimeOfItsClock) {

@@ -104,6 +104,25 @@ TEST(OpenSampleSource, AppliesOptionsAndReportsWhenOneHasNoEffect) {
   EXPECT_EQ((*source)->sensor().min_range_m, 0.2);
 }
 
+TEST(OpenSampleSource, NotesThatTablesHaveBeamsOfTheirOwn) {
+  const TemporaryFile samples(
+      "samples.csv",
+      "# swiftlet samples 1\n# sensor flow min_range_m=0.05 max_range_m=3 range_age_s=0.1\n"
+      "# bearings_rad 0,1.5\n"
+      "stamp_ns,measured_at_ns,odom_x_m,odom_y_m,odom_yaw_rad,segment,range_0_m,range_1_m\n");
+  const TemporaryFile flight("flight.csv", "# block,host_time_s,device_ms\n");
+  for (const std::string& path : {samples.path(), flight.path()}) {
+    const auto plain = open_sample_source(path, {});
+    ASSERT_TRUE(plain.ok()) << plain.error().message;
+    EXPECT_TRUE((*plain)->report().notes.empty());
+    SampleSourceOptions options;
+    options.beam_count = 5;
+    const auto source = open_sample_source(path, options);
+    ASSERT_TRUE(source.ok()) << source.error().message;
+    EXPECT_THAT((*source)->report().notes, testing::ElementsAre(HasSubstr("--beams is ignored")));
+  }
+}
+
 TEST(OpenSampleSource, RefusesImpossibleOptions) {
   for (const int beams : {-1, 0, 1, 65}) {
     SampleSourceOptions options;
@@ -146,7 +165,7 @@ TEST(OpenSampleSource, RefusesAnInvalidInputWithOneLine) {
       {"/nonexistent/flight.pcap", "/nonexistent/flight.pcap: no such file"},
       {testing::TempDir(), "is a directory"},
       {empty.path(), "is empty"},
-      {text.path(), "neither a capture (pcap) nor a CARMEN laser log"},
+      {text.path(), "neither a capture (pcap) nor a table (.csv) nor a CARMEN laser log"},
       {fake.path(), "not a classic pcap"},
       {"http://example.org/a.pcap", "unknown scheme 'http'"},
       {"sim://nowhere", "nowhere"},

@@ -66,10 +66,19 @@ TEST(FlightTableSource, RangesGoToTheBeamsThatMeasuredThem) {
   EXPECT_EQ(samples[1].status[2], RangeStatus::kNoReturn);
 }
 
+TEST(FlightTableSource, SkipsEmptyLines) {
+  const TemporaryFile file("a.csv", kFlightHead + "\n" + kFlight + "\n\r\n");
+  const auto source = open_sample_source(file.path(), {});
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_EQ(samples_of(**source).size(), 2U);
+  EXPECT_TRUE((*source)->report().problems.empty());
+  EXPECT_EQ((*source)->report().counters.frames, 7U);
+}
+
 TEST(FlightTableSource, IsUsedUpToARowThatCannotBe) {
   for (const std::string& row :
        {std::string("3,1600000000.3,15300,1\n"), std::string("2,1600000000.3,15300,1,0,0\n"),
-        std::string("1,1600000000.3,x,0,0\n"), std::string("\n")}) {
+        std::string("1,1600000000.3,x,0,0\n"), std::string(" \n")}) {
     const TemporaryFile file("a.csv", kFlightHead + kFlight + row + kFlight);
     const auto source = open_sample_source(file.path(), {});
     ASSERT_TRUE(source.ok());

@@ -86,6 +86,25 @@ TEST(CalibrationRounds, AVehicleThatStoodIsReadOnceAndTellsNothing) {
     EXPECT_EQ(finding.verdict, CalibrationFinding::Verdict::kNotObservable);
 }
 
+TEST(CalibrationRounds, ARunThatShowsNoAgeIsEstimatedOnceAndItsAgeIsNotObservable) {
+  std::vector<std::optional<Duration>> asked;
+  const ReadRun read = [&](std::optional<Duration> range_age) -> Result<PairedRun> {
+    asked.push_back(range_age);
+    Result<PairedRun> run = simulated_flight(std::nullopt);  // its age is 0.07 s off, and stays so
+    if (run) run->shows_age = false;
+    return run;
+  };
+  const Result<CalibrationReport> report = calibrate_in_rounds("a table", read, go_on);
+  ASSERT_TRUE(report) << report.error().message;
+  const CalibrationFinding& age = report->findings[0];
+  EXPECT_EQ(age.verdict, CalibrationFinding::Verdict::kNotObservable);
+  EXPECT_THAT(age.reason, HasSubstr("have one stamp, which shows no age"));
+  EXPECT_NE(report->findings[1].verdict, CalibrationFinding::Verdict::kNotObservable) << "the forward scale";
+  EXPECT_FALSE(asked.at(0));
+  ASSERT_EQ(asked.size(), report->check ? 2U : 1U) << "once, and where something matters once with it";
+  EXPECT_TRUE(!report->check || asked.at(1) == SensorModel::crazyflie().range_age);
+}
+
 TEST(CalibrationRounds, OneSampleIsNoRun) {
   const Result<CalibrationReport> report = calibrate_in_rounds(
       "a blink", [](std::optional<Duration>) { return Result<PairedRun>(standing(1)); }, go_on);

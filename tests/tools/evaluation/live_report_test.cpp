@@ -60,5 +60,31 @@ TEST(LiveReport, TellsProgramsAllOfIt) {
   EXPECT_EQ(report["poses"], json::array({{7.0, 1.5, -2.0, 0.25, 3.0, 1.0, "lost"}}));
 }
 
+TEST(LiveReport, OfNoKnownPlaceNothingIsKnown) {
+  LiveEvaluation evaluation{"hall.pcap", {}, {}, {}};
+  evaluation.batch = BatchError{};
+  const std::string text = live_evaluation_text(evaluation);
+  EXPECT_THAT(text, HasSubstr("hall.pcap: 0 poses at known places\n"));
+  EXPECT_THAT(text,
+              HasSubstr("rms unknown, p95 unknown, max unknown; beyond 0.3 m for unknown % of the time\n"));
+  EXPECT_THAT(text, HasSubstr("off at first: 0, those below 0.2 m after unknown s (p50)\n"));
+  EXPECT_THAT(text, HasSubstr("runs that end at 0 of the poses: rms unknown m, beyond 0.3 m unknown %; live "
+                              "there unknown m, unknown %\n"));
+  const json report = json::parse(live_evaluation_json(evaluation));
+  EXPECT_EQ(report["live"]["moments"], 0);
+  for (const char* key : {"rms_m", "p95_m", "max_m", "share_off", "settled_p50_s"})
+    EXPECT_EQ(report["live"].at(key), nullptr) << key;
+  EXPECT_EQ(report["batch"]["moments"], 0);
+  for (const char* key : {"rms_m", "share_off", "live_rms_m", "live_share_off"})
+    EXPECT_EQ(report["batch"].at(key), nullptr) << key;
+}
+
+TEST(LiveReport, TellsProgramsWhatIsWrongWithTheInput) {
+  LiveEvaluation evaluation = some_flight();
+  EXPECT_EQ(json::parse(live_evaluation_json(evaluation))["problems"], json::array());
+  evaluation.report.problems = {"hall.pcap: damaged"};
+  EXPECT_EQ(json::parse(live_evaluation_json(evaluation))["problems"], json({"hall.pcap: damaged"}));
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -3,8 +3,10 @@
 #include "tools/evaluation/number_rows.hpp"
 
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "tests/support/temporary_file.hpp"
 
@@ -50,6 +52,52 @@ TEST(NumberRows, NameLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(refusal_of("nan 2 3 4 5 6 7 8\n"), ":1: column 1, 'nan', is no finite number");
   EXPECT_EQ(refusal_of("1 2 3 4 5 6 7 1e999\n"), ":1: column 8, '1e999', is no finite number");
   EXPECT_EQ(refusal_of("\x1b[31mred 2 3 4 5 6 7 8\n"), ":1: column 1, '?[31mred', is no finite number");
+}
+
+TEST(NumberRows, MayHavePlusSigns) {
+  const TemporaryFile file("rows.txt", "+1.5 -2 +3e+02 4 5 6 7 +8\n");
+  const Result<std::vector<NumberRow>> rows = read_number_rows(file.path());
+  ASSERT_TRUE(rows.ok()) << rows.error().message;
+  EXPECT_THAT(rows->front().value, ElementsAre(1.5, -2.0, 300.0, 4.0, 5.0, 6.0, 7.0, 8.0));
+  EXPECT_EQ(refusal_of("+-1 2 3 4 5 6 7 8\n"), ":1: column 1, '+-1', is no finite number");
+  EXPECT_EQ(refusal_of("1 ++2 3 4 5 6 7 8\n"), ":1: column 2, '++2', is no finite number");
+  EXPECT_EQ(refusal_of("1 2 + 4 5 6 7 8\n"), ":1: column 3, '+', is no finite number");
+  EXPECT_EQ(refusal_of("1 2 3 +inf 5 6 7 8\n"), ":1: column 4, '+inf', is no finite number");
+}
+
+TEST(NumberRows, MayBeginWithAByteOrderMark) {
+  for (const char* const text : {"\xEF\xBB\xBF"
+                                 "1 2 3 4 5 6 7 8\n",
+                                 "\xEF\xBB\xBF# stamp and so on\n1 2 3 4 5 6 7 8\n"}) {
+    const TemporaryFile file("rows.txt", text);
+    const Result<std::vector<NumberRow>> rows = read_number_rows(file.path());
+    ASSERT_TRUE(rows.ok()) << rows.error().message;
+    ASSERT_EQ(rows->size(), 1U);
+    EXPECT_EQ(rows->front().value[0], 1.0);
+  }
+  EXPECT_EQ(refusal_of("1 2 3 4 5 6 7 8\n\xEF\xBB\xBF"
+                       "1 2 3 4 5 6 7 8\n"),
+            ":2: column 1, '???1', is no finite number");
+}
+
+void write_cut_gzip(const std::string& path, const std::string& text) {
+  gzFile packed = gzopen(path.c_str(), "wb");
+  ASSERT_NE(packed, nullptr);
+  gzwrite(packed, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(packed);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 8);  // its end, checksum and length
+}
+
+TEST(NumberRows, OfADamagedFileAreNotUsed) {
+  const TemporaryFile file("rows.gz");
+  ASSERT_NO_FATAL_FAILURE(write_cut_gzip(file.path(), "1 2 3 4 5 6 7 8\n2 2 3 4 5 6 7 8\n"));
+  const Result<std::vector<NumberRow>> rows = read_number_rows(file.path());
+  ASSERT_FALSE(rows.ok());
+  EXPECT_EQ(rows.error().code, ErrorCode::kDamaged);
+  EXPECT_EQ(rows.error().message,
+            file.path() +
+                ": the gzip stream is cut off or garbled behind line 2, and nothing of it is used; "
+                "take a whole copy");
 }
 
 TEST(NumberRows, AreAtLeastOne) {

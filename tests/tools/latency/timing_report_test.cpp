@@ -55,13 +55,14 @@ TEST_F(TimingReportTest, LeavesOutStagesThatNeverRanAndQueuesThatNobodyUsed) {
 }
 
 TEST_F(TimingReportTest, RefusesWhatIsNoSuchReport) {
-  for (const char* text : {"", "no json", "[]", "{}", R"({"stage_times": {"map": {"count": 1}}})",
+  for (const char* text : {"no json", "[]", "{}", R"({"stage_times": {"map": {"count": 1}}})",
                            R"({"stage_times": 3, "histograms_ns": {}})"}) {
     const Result<TimingReport> report = read(text);
     ASSERT_FALSE(report.ok()) << text;
     EXPECT_EQ(report.error().code, ErrorCode::kInvalidInput);
     EXPECT_THAT(report.error().message, HasSubstr("report.json: not a report.json with the times of a run"));
   }
+  EXPECT_THAT(read("").error().message, HasSubstr("report.json: is empty"));
   EXPECT_EQ(read_timing_report("/nowhere/report.json").error().code, ErrorCode::kNotFound);
 }
 

@@ -4,6 +4,7 @@
 """swiftlet.listen() on what swiftletd publishes. listening_test.py SWIFTLET SWIFTLETD"""
 
 import dataclasses
+import os
 import re
 import subprocess
 import sys
@@ -156,6 +157,17 @@ class PublishedRun(unittest.TestCase):
         followed = list(swiftlet.listen(self.url, messages=[swiftlet.Status], follow=True))
         self.assertEqual([status.state for status in followed].count("finished"), 3)
 
+    def test_nothing_is_received_once_the_run_has_finished(self):
+        for kind in (swiftlet.Status, swiftlet.Tile):
+            listener = swiftlet.listen(self.url, messages=[kind])
+            received = []
+            while (message := listener.receive()) is not None:
+                received.append(message)
+            self.assertGreater(len(received), 0)
+            self.assertIsNone(listener.receive())
+            if kind is swiftlet.Status:
+                self.assertEqual([status.state for status in received].count("finished"), 1)
+
     def test_what_was_not_asked_for_is_not_yielded(self):
         kinds = {type(message) for message in swiftlet.listen(self.url, messages=[swiftlet.Tile])}
         self.assertEqual(kinds, {swiftlet.Tile})
@@ -186,6 +198,17 @@ class Waiting(unittest.TestCase):
             next(listener)
         with self.assertRaises(TimeoutError):
             next(listener)
+
+    def test_a_timeout_is_a_number(self):
+        nan = float("nan")
+        with self.assertRaisesRegex(swiftlet.Error, "timeout = nan"):
+            swiftlet.listen("memq://", timeout=nan)
+        with self.assertRaisesRegex(swiftlet.Error, "timeout = nan"):
+            swiftlet.listen("memq://").receive(nan)
+
+    def test_an_address_need_not_be_utf_8(self):
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(swiftlet.Error, "no\ufffd\\.lcm"):
+            swiftlet.listen(f"file://{folder}/" + os.fsdecode(b"no\xff.lcm?mode=r"))
 
     def test_an_address_that_cannot_be_used_is_one_line(self):
         for options in ({"url": "http://127.0.0.1"}, {"url": "memq://", "messages": [int]},

@@ -211,6 +211,41 @@ class Options(unittest.TestCase):
                 self.assertLess(len(run.trajectory), len(swiftlet.map(whole, calibrate=False).trajectory))
 
 
+class Names(unittest.TestCase):
+    """Of files, which are bytes, and what is quoted of damaged ones."""
+
+    def test_what_is_not_utf_8_is_replaced_in_messages(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = Path(folder, os.fsdecode(b"b\xff.csv"))
+            subprocess.run([SWIFTLET, "convert", INPUT, table], check=True, capture_output=True)
+            whole = swiftlet.map(table, calibrate=False)
+            self.assertEqual(whole.problems, ())
+            with open(table, "ab") as file:
+                file.write(b"\xff\xfe no row \xc3\n")
+            with self.assertWarnsRegex(swiftlet.DamagedInputWarning, "b\ufffd\\.csv, line "):
+                run = swiftlet.map(os.fspath(table), calibrate=False)
+            np.testing.assert_array_equal(run.trajectory, whole.trajectory)
+            self.assertEqual(list(run.problems), run.report["input"]["problems"])
+            with self.assertRaisesRegex(swiftlet.Error, "c\ufffd\\.csv: no such file"):
+                swiftlet.map(Path(folder, os.fsdecode(b"c\xff.csv")))
+            with self.assertRaisesRegex(swiftlet.Error, "c\ufffd\\.toml: no such configuration file"):
+                swiftlet.map(INPUT, config=Path(folder, os.fsdecode(b"c\xff.toml")))
+            out = Path(folder, os.fsdecode(b"out\xff"))
+            swiftlet.map(INPUT, output=out, calibrate=False)
+            self.assertTrue((out / "map.png").exists())
+
+    def test_what_is_no_name_is_one_line(self):
+        for line, options in {
+                "is no name of a file": {"input": "\ud800.csv"},
+                "config names no file": {"config": ""},
+                "-o names no directory": {"output": ""},
+                "holds what is not UTF-8": {"settings": {"record.directory": "\udcff"}}}.items():
+            with self.subTest(line), self.assertRaises(swiftlet.Error) as refused:
+                swiftlet.map(**{"input": INPUT, **options})
+            self.assertIn(line, str(refused.exception))
+            self.assertNotIn("\n", str(refused.exception))
+
+
 class Running(unittest.TestCase):
     def test_other_threads_run_meanwhile(self):
         begun, over = threading.Event(), threading.Event()

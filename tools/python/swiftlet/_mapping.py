@@ -120,6 +120,22 @@ class Run:
                 f"{self.grid!r}>")
 
 
+def _name_of_file(option: str, name: Union[str, os.PathLike[str]]) -> bytes:
+    """In the system's own bytes, which need be no text."""
+    try:
+        return os.fsencode(name)
+    except UnicodeEncodeError:
+        raise _native.Error(f"{option} = {name!r}: is no name of a file") from None
+
+
+def _toml_text(key: str, text: str) -> str:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise _native.Error(f"settings: {key} = {text!r}: holds what is not UTF-8; name it otherwise") from None
+    return json.dumps(text, ensure_ascii=False)
+
+
 def _toml_value(key: str, value: object) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
@@ -128,7 +144,7 @@ def _toml_value(key: str, value: object) -> str:
     if isinstance(value, numbers.Real):
         return repr(float(value))
     if isinstance(value, (str, os.PathLike)):
-        return json.dumps(os.fspath(value), ensure_ascii=False)
+        return _toml_text(key, os.fspath(value))
     raise _native.Error(f"settings: {key} = {value!r}: must be true or false, a number or a text")
 
 
@@ -173,10 +189,13 @@ def map(input: Union[str, os.PathLike[str]], *, output: Union[str, os.PathLike[s
     """
     if odometry_only and frontend_only:
         raise _native.Error("odometry_only excludes frontend_only")
+    if config is not None and not os.fspath(config):
+        raise _native.Error("config names no file; leave it out for the defaults")
     mapped = _native.map_input(
-        input=os.fspath(input), output=None if output is None else os.fspath(output),
-        config_file="" if config is None else os.fspath(config), settings=_toml(settings or {}), beams=beams,
-        calibrate=calibrate, odometry_only=odometry_only, frontend_only=frontend_only, on_progress=on_progress)
+        input=_name_of_file("input", input), output=None if output is None else _name_of_file("output", output),
+        config_file=b"" if config is None else _name_of_file("config", config), settings=_toml(settings or {}),
+        beams=beams, calibrate=calibrate, odometry_only=odometry_only, frontend_only=frontend_only,
+        on_progress=on_progress)
     report = json.loads(mapped.pop("report"))
     if output is None:
         del report["files"]

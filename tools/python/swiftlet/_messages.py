@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import math
+import os
 import time
 from dataclasses import dataclass
 from types import TracebackType
@@ -303,6 +305,12 @@ def _channels(messages: Iterable[Type[Message]], frames: Iterable[str]) -> List[
     return channels
 
 
+def _checked(timeout: Optional[float]) -> Optional[float]:
+    if timeout is not None and math.isnan(timeout):
+        raise _native.Error("timeout = nan: must be seconds, or None to wait for as long as it takes")
+    return timeout
+
+
 class Listener:
     """Receives the messages of swiftletd, from the moment it is made: iterate over it, or call receive(). Up to 1000
     of a channel wait for whoever is slow. One thread at a time."""
@@ -313,19 +321,23 @@ class Listener:
         """As listen()."""
         self.url = _native.default_lcm_url() if url is None else url
         prefix = _native.default_channel_prefix() if channel_prefix is None else channel_prefix
-        self._timeout = timeout
+        self._timeout = _checked(timeout)
         self._follow = follow
         wanted = set(messages)
         self._yields_status = Status in wanted
         channels = _channels(sorted(wanted | {Status}, key=str), tuple(frames))
-        self._native: Optional[_native.Listener] = _native.Listener(self.url, prefix, channels)
+        self._native: Optional[_native.Listener] = _native.Listener(os.fsencode(self.url), prefix, channels)
         self._has_ended = False
 
     def receive(self, timeout: Optional[float] = None) -> Optional[Message]:
-        """The next message; None when none came within `timeout` seconds, or none will come any more. Without a
-        timeout it waits for as long as it takes."""
+        """The next message; None when none came within `timeout` seconds, or none will come any more: a log was read
+        to its end, or the run has finished and the listener does not follow the next one. Without a timeout it waits
+        for as long as it takes."""
         if self._native is None:
             raise _native.Error(f"{self.url}: this listener was closed")
+        if self._has_ended and not self._follow:
+            return None
+        timeout = _checked(timeout)
         end = None if timeout is None else time.monotonic() + timeout
         while True:
             left = None if end is None else max(end - time.monotonic(), 0.0)
