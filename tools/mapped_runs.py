@@ -178,6 +178,13 @@ def execute(run, swiftlet, picture=None, copied=changed_copy, known=lambda diges
     return {"report": report, "digest": digest, **judged}
 
 
+def modules_of(run):
+    """Those of ours that change its log, and that judge it where the program does not."""
+    changing = [] if run.change is None else [changed_log, changed_capture]
+    judging = [changed_log, log_sharpness] if is_laser_log(run.log.reference) else []
+    return list(dict.fromkeys(changing + judging))
+
+
 class Results:
     """The results of the runs of one build of the program, one file for each."""
 
@@ -187,11 +194,10 @@ class Results:
         self.program = hashlib.sha256(Path(swiftlet).read_bytes()).hexdigest()[:12]
 
     def file(self, run):
-        """Its name depends on everything that decides the result: the program, the run, its data and, for a changed
-        log, the code that changes it."""
-        changer = "" if run.change is None else "".join(
-            Path(module.__file__).read_text(encoding="utf-8") for module in (changed_log, changed_capture))
-        made_of = "\n".join([self.program, repr(run), run.log.stand(), changer])
+        """Its name depends on everything that decides the result: the program, the run, its data and the code of ours
+        that has a part in it."""
+        code = "".join(Path(module.__file__).read_text(encoding="utf-8") for module in modules_of(run))
+        made_of = "\n".join([self.program, repr(run), run.log.stand(), code])
         name = re.sub("[^A-Za-z0-9]+", "-", run.title())
         return self.folder / f"{name}_{hashlib.sha256(made_of.encode()).hexdigest()[:12]}.json"
 

@@ -117,6 +117,29 @@ class AccuracyRuns(unittest.TestCase):
             self.assertNotEqual(self.results().file(runs.Run(log)), before)
         self.assertEqual(len(files), 3)
 
+    def test_results_by_other_code_of_ours_are_not_taken(self):
+        code = Path(self.folder.name, "code.py")
+        code.write_text("as it was")
+        by_cells = mapped.Log("a log", "log.clf", "log.clf")
+        by_relations = mapped.Log("a log", "log.clf", "log.relations")
+
+        def files(module):
+            wanted = [runs.Run(by_cells), runs.Run(by_relations),
+                      runs.Run(by_relations, change=runs.Change("worse", metres=1.1))]
+            with mock.patch.object(module, "__file__", str(code)), \
+                    mock.patch.object(mapped, "DATASETS", Path(self.folder.name)):
+                return [self.results().file(run) for run in wanted]
+
+        def differ(module):
+            code.write_text("as it was")
+            before = files(module)
+            code.write_text("changed")
+            return [old != new for old, new in zip(before, files(module))]
+
+        self.assertEqual(differ(mapped.log_sharpness), [True, False, False])
+        self.assertEqual(differ(mapped.changed_log), [True, False, True])
+        self.assertEqual(differ(mapped.changed_capture), [False, False, True])
+
     def test_a_simulation_needs_no_data_and_a_log_names_what_is_not_there(self):
         self.assertEqual(OFFICE.missing(), [])
         elsewhere = mapped.Log("nowhere", "no/such.clf", "no/such.relations")
