@@ -62,10 +62,11 @@ Status convert_to_csv(const ConvertCommand& command) {
   Status written = write_file(command.output, [&](const FileSink& write) -> Status {
     Result<ReceivedSample> next = source.next();
     std::string text = sample_table_head({.beams = source.beams(), .sensor = source.sensor()});
-    for (; next || next.error().code == ErrorCode::kTimeout; next = source.next()) {
+    bool goes_on = true;
+    for (; goes_on && (next || next.error().code == ErrorCode::kTimeout); next = source.next()) {
       if (!next) continue;
       append_sample_row(text, next->sample, storey);
-      write(text);
+      goes_on = write(text);
       text.clear();
       ++samples;
     }
@@ -100,6 +101,15 @@ void print_messages(const ConvertCommand& command, std::uint64_t messages) {
   std::printf("%llu messages: %s\n", static_cast<unsigned long long>(messages), command.output.c_str());
 }
 
+/// Asks for a stop once the disk takes no more.
+FileSink sink_that_stops(const FileSink& write, std::stop_source& over) {
+  return [&](std::string_view bytes) {
+    const bool goes_on = write(bytes);
+    if (!goes_on) over.request_stop();
+    return goes_on;
+  };
+}
+
 /// Maps the recording into an MCAP file; `report` is of the input.
 Status write_mcap(const ConvertCommand& command, const FileSink& write, InputReport& report,
                   std::uint64_t& messages) {
@@ -109,7 +119,8 @@ Status write_mcap(const ConvertCommand& command, const FileSink& write, InputRep
   Result<PrunedScans> pruned = PrunedScans::open(folder_of(command.output));
   if (!pruned) return pruned.error();
   SharedRunHistory shared;
-  McapRun mcap(write);
+  std::stop_source full;
+  McapRun mcap(sink_that_stops(write, full));
   bool is_complete = false;
   ProgressBar bar(stderr, ProgressBar::Clock::now());
   const auto after_sample = [&] {
@@ -126,7 +137,7 @@ Status write_mcap(const ConvertCommand& command, const FileSink& write, InputRep
     is_complete = true;
     return {};
   };
-  Status mapped = map_recording(*run, shared, std::stop_token(),
+  Status mapped = map_recording(*run, shared, full.get_token(),
                                 {.after_sample = after_sample, .at_end = at_end, .pruned = &*pruned});
   if (!mapped && !is_complete) return mapped;
   if (!mapped && report.problems.empty()) report.problems.push_back(mapped.error().message);
@@ -158,11 +169,7 @@ Status record_mcap(const ConvertCommand& command) {
   std::uint64_t messages = 0;
   Status written = record_file(command.output, [&](const FileSink& write) -> Status {
     SharedRunHistory shared;
-    McapRun mcap([&](std::string_view bytes) {
-      const bool goes_on = write(bytes);
-      if (!goes_on) over.request_stop();
-      return goes_on;
-    });
+    McapRun mcap(sink_that_stops(write, over));
     const auto after_message = [&] {
       mcap.add_news(shared.history);
       if (has_finished(shared.history)) over.request_stop();

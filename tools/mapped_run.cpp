@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/mapped_run.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -12,7 +11,6 @@
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
 #include "firmware_link/input/input_uri.hpp"
-#include "tools/calibration/input_calibration.hpp"
 #include "tools/evaluation/confidence_history.hpp"
 #include "tools/evaluation/live_observer.hpp"
 #include "tools/progress_bar.hpp"
@@ -70,19 +68,12 @@ Status MappedRun::State::run(const MappingWatch& watch) {
     look();
     if (watch.after_sample) watch.after_sample(prepared.source->progress());
   }
-  report = prepared.source->report();
-  if (!more) {
-    const std::string& reason = more.error().message;
-    if (std::find(report.problems.begin(), report.problems.end(), reason) == report.problems.end())
-      report.problems.push_back(reason);
-  }
+  report = report_of(prepared, more ? Status() : more.error());
   return {};
 }
 
 /// Before the outputs take their room.
 void MappedRun::State::conclude() {
-  report.notes.insert(report.notes.end(), prepared.notes.begin(), prepared.notes.end());
-  if (prepared.calibration) report.notes.push_back(calibration_note(*prepared.calibration));
   peak_memory_mb = swiftlet::peak_memory_mb();
   truth = prepared.source->ground_truth();
   if (!observer) return;

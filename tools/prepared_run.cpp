@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/prepared_run.hpp"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -154,6 +156,16 @@ Status check_usable(const MapCommand& command, const InputReport& report, const 
   const std::string reason =
       report.problems.empty() ? "it ended before the first one" : report.problems.front();
   return Error{ErrorCode::kInvalidInput, command.input + " holds no usable sample: " + reason};
+}
+
+InputReport report_of(const PreparedRun& run, const Status& ended) {
+  InputReport report = run.source->report();
+  std::vector<std::string>& problems = report.problems;
+  if (!ended && std::find(problems.begin(), problems.end(), ended.error().message) == problems.end())
+    problems.push_back(ended.error().message);
+  report.notes.insert(report.notes.end(), run.notes.begin(), run.notes.end());
+  if (run.calibration) report.notes.push_back(calibration_note(*run.calibration));
+  return report;
 }
 
 Error stopped_error(const std::string& input) {

@@ -47,6 +47,9 @@ struct PreparedRun {
 [[nodiscard]] Status check_usable(const MapCommand& command, const InputReport& report,
                                   const Backend& backend);
 
+/// What its input says at the end, with the notes of the run; what ended it early is damage, too.
+[[nodiscard]] InputReport report_of(const PreparedRun& run, const Status& ended);
+
 /// What a run that was stopped returns: kTimeout.
 [[nodiscard]] Error stopped_error(const std::string& input);
 

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostUnfinished = 100;
+constexpr int kMostLinks = 40;  // as the kernel follows
 
 std::error_code last_failure() { return {errno, std::generic_category()}; }
 
@@ -28,15 +29,36 @@ Error cannot_be_output(const fs::path& file, const std::string& reason) {
   return {ErrorCode::kInvalidInput, file.string() + ": " + reason};
 }
 
+/// Where links lead, whether anything is there yet or not.
+fs::path target_of(fs::path path) {
+  std::error_code failure;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(path, failure); ++links)
+    path = path.parent_path() / fs::read_symlink(path, failure);
+  return path;
+}
+
+fs::path folder_of(const fs::path& file) {
+  std::error_code failure;
+  return fs::absolute(file, failure).parent_path();
+}
+
+/// False for a pipe or a device, which is written to as it is.
+bool is_replaced(const fs::path& target) {
+  std::error_code failure;
+  const fs::file_status there = fs::status(target, failure);
+  return !fs::exists(there) || fs::is_regular_file(there);
+}
+
 /// A file beside `path` that was not there: another program, or an earlier one, may have left some.
 Result<fs::path> created_beside(const fs::path& path, std::FILE*& file) {
   for (int i = 0; i < kMostUnfinished; ++i) {
     const fs::path unfinished = path.string() + ".unfinished" + (i == 0 ? "" : std::to_string(i));
     file = std::fopen(unfinished.c_str(), "wbx");
     if (file != nullptr) return unfinished;
-    if (errno != EEXIST) break;
+    if (errno != EEXIST) return not_written(path, last_failure());
   }
-  return not_written(path, last_failure());
+  return Error{ErrorCode::kOutOfSpace, path.string() + " was not written: " + path.string() +
+                                           ".unfinished and many like it are there already; remove them"};
 }
 
 /// Until all bytes have reached the disk. Closes the file.
@@ -81,11 +103,8 @@ Status write_beside(const fs::path& path, const FileContent& content, IfItFails 
 }
 
 Status write_however(const fs::path& path, const FileContent& content, IfItFails then) {
-  std::error_code failure;
-  const fs::file_status there = fs::status(path, failure);
-  if (fs::exists(there) && !fs::is_regular_file(there)) return write_directly(path, content);
-  const fs::path target = fs::is_symlink(path, failure) ? fs::weakly_canonical(path, failure) : path;
-  return write_beside(target.empty() ? path : target, content, then);
+  const fs::path target = target_of(path);
+  return is_replaced(target) ? write_beside(target, content, then) : write_directly(target, content);
 }
 
 }  // namespace
@@ -109,11 +128,12 @@ Status check_output_file(const fs::path& file, std::span<const fs::path> inputs)
   for (const fs::path& input : inputs)
     if (fs::equivalent(file, input, failure))
       return cannot_be_output(file, "this is the input; name another output");
-  const fs::path folder = fs::absolute(file, failure).parent_path();
-  if (!fs::is_directory(folder, failure))
-    return cannot_be_output(file, "there is no directory " + folder.string());
-  if (!fs::exists(file, failure) && ::access(folder.c_str(), W_OK | X_OK) != 0)
-    return cannot_be_output(file, folder.string() + " cannot be written: " + last_failure().message());
+  const fs::path target = target_of(file);
+  const fs::path written = is_replaced(target) ? folder_of(target) : target;
+  if (written != target && !fs::is_directory(written, failure))
+    return cannot_be_output(file, "there is no directory " + written.string());
+  if (::access(written.c_str(), W_OK) != 0)
+    return cannot_be_output(file, written.string() + " cannot be written: " + last_failure().message());
   return {};
 }
 

@@ -25,7 +25,7 @@ namespace swiftlet {
 /// a device is written to. kOutOfSpace: writing failed; the old file is untouched.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Takes the next bytes of a file. False: the disk takes no more, and the rest is not asked for.
+/// Takes the next bytes of a file. False: the disk takes no more, and the rest may be left out.
 using FileSink = std::function<bool(std::string_view)>;
 /// Hands a file's bytes to the sink, piece by piece. An error of its own means that there is no file.
 using FileContent = std::function<Status(const FileSink& write)>;

@@ -19,7 +19,7 @@ Result<std::uint64_t> size_of_input_file(const std::string& path) {
     return Error{ErrorCode::kNotFound, path + ": no such file"};
   if (error) return Error{ErrorCode::kInvalidInput, path + ": " + error.message()};
   if (status.type() == std::filesystem::file_type::directory)
-    return Error{ErrorCode::kInvalidInput, path + ": is a directory; name the recording inside it"};
+    return Error{ErrorCode::kInvalidInput, path + ": is a directory; name a file in it"};
   if (status.type() != std::filesystem::file_type::regular)
     return Error{ErrorCode::kInvalidInput, path + ": is not a regular file"};
   const std::uintmax_t size = std::filesystem::file_size(path, error);

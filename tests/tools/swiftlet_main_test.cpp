@@ -200,9 +200,12 @@ TEST_F(SwiftletCommand, MapsNoLiveVehicleAndNamesWhatDoes) {
 
 TEST_F(SwiftletCommand, TakesNoNumberThatIsNone) {
   for (const std::string number : {"nan", "-nan", "inf", "-inf"}) {
-    for (const std::string option : {"--battery", "--clock-start", "--loss", "--delay", "--duplicates"})
-      EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, "sim --udp 127.0.0.1:0 " + option + " " + number),
-                  refuses_with("sim: " + option + ": " + number + " is no number from "));
+    for (const std::string option : {"--battery", "--clock-start", "--loss", "--delay", "--duplicates"}) {
+      std::string command = "sim --udp 127.0.0.1:0 ";
+      std::string refusal = "sim: ";
+      EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, command.append(option).append(" ").append(number)),
+                  refuses_with(refusal.append(option).append(": ").append(number) + " is no number from "));
+    }
     EXPECT_THAT(run("record sim://loop -o {}/a.pcap --seconds " + number), refuses_with("--seconds: "));
     EXPECT_THAT(run("eval --live sim://patrol --batch " + number), refuses_with("--batch: "));
   }

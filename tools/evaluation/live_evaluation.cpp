@@ -2,15 +2,14 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "tools/evaluation/live_evaluation.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "daemon/workers/pipeline.hpp"
 #include "daemon/workers/pruned_scans.hpp"
-#include "tools/calibration/input_calibration.hpp"
 #include "tools/evaluation/common_time.hpp"
 #include "tools/evaluation/live_observer.hpp"
 #include "tools/evaluation/tum_file.hpp"
@@ -131,17 +130,6 @@ Result<BatchError> batch_error(const MapCommand& map, const PreparedRun& run, do
   if (batch.count() == 0) return BatchError{};
   return BatchError{batch.count(), batch.rms_m(), batch.share_off(), published.rms_m(),
                     published.share_off()};
-}
-
-/// As `swiftlet map` has it: what ended the run early is damage, too.
-InputReport report_of(const PreparedRun& run, const Status& ended) {
-  InputReport report = run.source->report();
-  std::vector<std::string>& problems = report.problems;
-  if (!ended && std::find(problems.begin(), problems.end(), ended.error().message) == problems.end())
-    problems.push_back(ended.error().message);
-  report.notes.insert(report.notes.end(), run.notes.begin(), run.notes.end());
-  if (run.calibration) report.notes.push_back(calibration_note(*run.calibration));
-  return report;
 }
 
 LiveEvaluation evaluation_of(const std::string& input, const LiveObserver& observer, const StampedPath& truth,

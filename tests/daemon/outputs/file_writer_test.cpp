@@ -74,6 +74,20 @@ TEST(WriteFile, FollowsALink) {
   ASSERT_TRUE(write_file(directory.path() / "link", "new").ok());
   EXPECT_TRUE(fs::is_symlink(directory.path() / "link"));
   EXPECT_EQ(text_of(directory.path() / "file"), "new");
+  fs::create_symlink("link to come", directory.path() / "first");
+  fs::create_symlink(directory.path() / "to come", directory.path() / "link to come");
+  ASSERT_TRUE(write_file(directory.path() / "first", "here").ok());
+  EXPECT_EQ(text_of(directory.path() / "to come"), "here");
+}
+
+TEST(CheckOutputFile, AsksTheDirectoryThatALinkLeadsTo) {
+  const TemporaryDirectory directory;
+  fs::create_symlink("nowhere/file", directory.path() / "link");
+  const Status status = check_output_file(directory.path() / "link", {});
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().message,
+              testing::HasSubstr("there is no directory " + (directory.path() / "nowhere").string()));
+  EXPECT_TRUE(check_output_file("/dev/null", {}).ok());
 }
 
 TEST(RecordFile, KeepsWhatWasWrittenAndTellsWhere) {

@@ -211,7 +211,7 @@ class Waiting(unittest.TestCase):
             swiftlet.listen(f"file://{folder}/" + os.fsdecode(b"no\xff.lcm?mode=r"))
 
     def test_an_address_that_cannot_be_used_is_one_line(self):
-        for options in ({"url": "http://127.0.0.1"}, {"url": "memq://", "messages": [int]},
+        for options in ({"url": "http://127.0.0.1"}, {"url": "\ud800"}, {"url": "memq://", "messages": [int]},
                         {"url": "memq://", "frames": ["world"]}, {"url": "file:///nowhere/run.lcm?mode=r"}):
             with self.subTest(options), self.assertRaises(swiftlet.Error) as refused:
                 swiftlet.listen(**options)

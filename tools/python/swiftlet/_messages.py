@@ -311,6 +311,13 @@ def _checked(timeout: Optional[float]) -> Optional[float]:
     return timeout
 
 
+def _in_bytes(url: str) -> bytes:
+    try:
+        return os.fsencode(url)
+    except UnicodeEncodeError:
+        raise _native.Error(f"url = {url!r}: holds what no address has") from None
+
+
 class Listener:
     """Receives the messages of swiftletd, from the moment it is made: iterate over it, or call receive(). Up to 1000
     of a channel wait for whoever is slow. One thread at a time."""
@@ -326,7 +333,7 @@ class Listener:
         wanted = set(messages)
         self._yields_status = Status in wanted
         channels = _channels(sorted(wanted | {Status}, key=str), tuple(frames))
-        self._native: Optional[_native.Listener] = _native.Listener(os.fsencode(self.url), prefix, channels)
+        self._native: Optional[_native.Listener] = _native.Listener(_in_bytes(self.url), prefix, channels)
         self._has_ended = False
 
     def receive(self, timeout: Optional[float] = None) -> Optional[Message]:
