@@ -55,7 +55,8 @@ bool is_settled(const PosesAndWalls& problem, const JointProblemTuning& tuning) 
   return (problem.change().array().abs() < tuning.settled * sigma.array()).all();
 }
 
-/// Ascending, for each scan. A segment begins another one: so the vehicle's clock may begin anew with it.
+/// Ascending, for each scan. A segment begins another stretch, because the vehicle's clock may begin anew
+/// there.
 std::vector<std::size_t> stretch_of_scans(std::span<const CalibrationScan> scans, Duration stretch) {
   std::vector<std::size_t> numbers;
   std::size_t number = 0;

@@ -33,7 +33,7 @@ class LcmServer {
   [[nodiscard]] bool is_there();
   /// It has gone: the next look is due.
   void mark_lost() { is_there_ = false; }
-  /// What LCM reaches the server by, which takes a name for this machine; empty before it was there.
+  /// What LCM reaches the server by, which takes a name for this machine. Empty before its name was resolved.
   [[nodiscard]] const std::string& numeric_url() const { return numeric_url_; }
 
  private:

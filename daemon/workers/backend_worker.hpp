@@ -17,9 +17,10 @@
 
 namespace swiftlet {
 
-/// Adds each frontend step to the backend, draws the map at keyframes, and passes corrections to the frontend
-/// and changes to the publisher. Without a publisher the map is drawn once, at the end. After the last step
-/// comes the final pass. One thread at a time; may allocate and may be slow.
+/// Adds each frontend step to the backend, draws the map at keyframes, and between them while it is behind,
+/// and passes corrections to the frontend and changes to the publisher. Without a publisher the map is drawn
+/// once, at the end. After the last step comes the final pass. One thread at a time; may allocate and may be
+/// slow.
 class BackendWorker {
  public:
   /// References must outlive the worker.

@@ -15,10 +15,10 @@
 
 namespace swiftlet {
 
-/// When readings of dead reckoning belong to one motion.
 /// Logs of wheels come in bunches, and their stamps are not those of the wheels.
 inline constexpr double kWheelsJumpSlackM = 2.0;
 
+/// When readings of dead reckoning belong to one motion.
 struct ContinuityLimits {
   Duration longest_interpolation{};  ///< no value between readings further apart than this
   Duration longest_silence{};        ///< after a longer one the dead reckoning counts as restarted

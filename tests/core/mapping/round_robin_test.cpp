@@ -85,6 +85,16 @@ TEST(RoundRobin, TheSameStayDueAcrossTheEnd) {
   EXPECT_THAT(take_all(turns, map), ElementsAre(7, 0, 3, 4));
 }
 
+TEST(RoundRobin, WhatWasAddedMeanwhileIsNotDueWhenOthersAreErased) {
+  RoundRobin<KeyframeId> turns;
+  turns.begin(map_of(5));
+  take(turns, 3, map_of(5));
+  turns.begin(map_of(5));  // due are 3 and 4, and 0 to 2
+  Map map = map_of(8);
+  erase(turns, {range(1, 2), range(4, 7)}, map);
+  EXPECT_THAT(take_all(turns, map), ElementsAre(3, 0, 2));
+}
+
 TEST(RoundRobin, WithNothingDueNothingBecomesDue) {
   RoundRobin<KeyframeId> turns;
   Map map = map_of(3);

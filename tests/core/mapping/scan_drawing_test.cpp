@@ -96,6 +96,13 @@ TEST(ScanDrawing, ClearsUpToItsRangeAndMarksHitsBeyond) {
   EXPECT_THAT(picture(drawing.store(), 8, 1), testing::ElementsAre("...   # "));
 }
 
+TEST(ScanDrawing, ALongBeamEndsInItsPlaceHoweverLittleIsCleared) {
+  ScanDrawing drawing(metre_cells(), 0.1, 6.0);
+  drawing.draw(ScanId{0}, {0.5, 0.5, 0.5}, {std::vector<BeamEnd>{{{6, 0}, true}}});
+  drawing.store().publish();
+  EXPECT_EQ(picture(drawing.store(), 7, 4).front(), "     # ");
+}
+
 TEST(ScanDrawing, MovingAScanLeavesNoTraceOfWhereItWas) {
   ScanDrawing drawing(metre_cells(), 10.0, 10.0);
   const std::vector<BeamEnd> beams = {{{3, 0}, true}};
