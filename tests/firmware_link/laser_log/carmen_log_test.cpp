@@ -101,7 +101,7 @@ TEST(CarmenLog, ReportsMalformedLinesAndContinues) {
 TEST(CarmenLog, ReportsWhyThereIsNothingToRead) {
   const TemporaryFile other("a.clf", "hello\n");
   EXPECT_THAT(read_carmen_log(other.path(), 4).error().message,
-              HasSubstr("neither a capture (pcap) nor a CARMEN laser log"));
+              HasSubstr("neither a capture (pcap) nor a table (.csv) nor a CARMEN"));
   const TemporaryFile odd("b.clf", flaser_line(90, 0.0, "1"));
   EXPECT_THAT(read_carmen_log(odd.path(), 4).error().message, HasSubstr(":1: FLASER with another number"));
   EXPECT_EQ(read_carmen_log("/nonexistent/a.clf", 4).error().code, ErrorCode::kNotFound);
