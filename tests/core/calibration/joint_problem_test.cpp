@@ -80,9 +80,11 @@ TEST(JointProblem, FindsNoAgeWhereStampsComeInBunches) {
   RoomFlight flight;
   flight.age_s = 0.06;
   FlownScans flown = fly(flight);
-  for (std::size_t i = 0; i < flown.scans.size(); ++i)
+  for (std::size_t i = 0; i < flown.scans.size(); ++i) {
+    const std::size_t bunch = i / 3;
     flown.scans[i].measured_at =
-        DeviceTime(from_seconds(0.3 * static_cast<double>(i / 3) + 0.001 * static_cast<double>(i % 3)));
+        DeviceTime(from_seconds(0.3 * static_cast<double>(bunch) + 0.001 * static_cast<double>(i % 3)));
+  }
   const Result<JointEstimate> estimate =
       estimate_jointly(flown.scans, SensorModel::crazyflie(), flown.T_map_body, go_on);
   ASSERT_TRUE(estimate) << estimate.error().message;
