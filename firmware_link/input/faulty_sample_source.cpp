@@ -69,11 +69,10 @@ std::vector<StampedPose> FaultySampleSource::ground_truth() const {
 
 void FaultySampleSource::end() {
   flight_->end();
-  report_ = flight_->report();
-  ended_ = true;
+  report_at_end_ = flight_->report();
   for (std::size_t i = next_fault_; i < faults_.size(); ++i)
-    report_.notes.push_back("the fault after " + shortest_text(to_seconds(faults_[i].after)) +
-                            " s never began: the flight ended before");
+    report_at_end_->notes.push_back("the fault after " + shortest_text(to_seconds(faults_[i].after)) +
+                                    " s never began: the flight ended before");
 }
 
 Result<ReceivedSample> FaultySampleSource::next() {

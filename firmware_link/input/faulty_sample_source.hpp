@@ -24,7 +24,9 @@ class FaultySampleSource final : public SampleSource {
   [[nodiscard]] Result<ReceivedSample> next() override;
   [[nodiscard]] const BeamLayout& beams() const override { return flight_->beams(); }
   [[nodiscard]] const SensorModel& sensor() const override { return flight_->sensor(); }
-  [[nodiscard]] const InputReport& report() const override { return ended_ ? report_ : flight_->report(); }
+  [[nodiscard]] const InputReport& report() const override {
+    return report_at_end_ ? *report_at_end_ : flight_->report();
+  }
   [[nodiscard]] std::optional<double> progress() const override { return flight_->progress(); }
   [[nodiscard]] bool is_live() const override { return flight_->is_live(); }
   [[nodiscard]] std::optional<LiveStatus> live_status() const override { return flight_->live_status(); }
@@ -50,8 +52,7 @@ class FaultySampleSource final : public SampleSource {
   std::vector<Delivered> delivered_;
   Pose2 T_fault_odom_;  // what faults have done to the estimate
   Pose2 T_odom_last_;   // of the last sample, before faults
-  bool ended_ = false;
-  InputReport report_;  // once ended
+  std::optional<InputReport> report_at_end_;
 };
 
 }  // namespace swiftlet

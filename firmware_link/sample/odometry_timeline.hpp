@@ -15,7 +15,7 @@
 
 namespace swiftlet {
 
-/// Logs of wheels come in bunches, and their stamps are not those of the wheels.
+/// Stamps of laser logs come in bunches, and are not those of the wheels.
 inline constexpr double kWheelsJumpSlackM = 2.0;
 
 /// When readings of dead reckoning belong to one motion.

@@ -94,9 +94,8 @@ struct BackendConfig {
       {"map_again", &BackendConfig::map_again, "",
        "at the end of a run map it again with other noise of the heading, and keep the best map"},
       {"max_scans", &BackendConfig::max_scans, "",
-       "with more than these that have returns, scans of space that others cover as well are pruned; 600 are "
-       "a "
-       "minute at 10 Hz",
+       "with more than these that have returns, scans of space that others cover as well are pruned; "
+       "600 are a minute at 10 Hz",
        1000, 100000000},
   };
 
