@@ -14,6 +14,7 @@ import robustness_runs as runs
 OVER_QUARTER = 1.5  # times the error below which the best quarter of a group lies
 OVER_QUARTER_CELLS = 1.25  # the same of cells over those of dead reckoning
 OVER_ODOMETRY = 1.02
+TOLERANCE = f"{100 * (OVER_ODOMETRY - 1):.0f} %"
 CONFIDENCE_Z = 1.96  # 95 %
 PICTURES = 12
 NONE = "–"

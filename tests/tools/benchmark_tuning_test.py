@@ -65,7 +65,8 @@ class BenchmarkTuning(unittest.TestCase):
         self.measure()
         self.assertEqual(self.counted("map "), 3 * (1 + 4))
         self.assertIn("2 constants: 1 islands, 1 that change nothing.", said)
-        self.assertIn("| **`part.steep`** | 4 |  | 2 | 0.0 (+0) | 1.000 | 0.100 | 8 | **100.0 (+3)** | 20.000 |", said)
+        self.assertIn("| **`part.steep`** | 4 |  | 2 | 0.0 (+0 -0) | 1.000 | 0.100 | 8 | **100.0 (+3 -0)** | 20.000 |",
+                      said)
         self.assertIn("| `part.calm` | 2.0 |", said)
 
     def test_output_that_is_known_is_not_judged_again(self):

@@ -46,15 +46,25 @@ class TuningPage(unittest.TestCase):
     def test_an_island_breaks_runs_at_half_or_double(self):
         self.assertEqual([one.is_island() for one in self.swept], [True, False, False])
         effect = self.swept[0].effects[page.DOUBLE]
-        self.assertEqual((effect.out, effect.more), (1, 1))
+        self.assertEqual((effect.out, effect.broken, effect.mended), (1, 1, 0))
         self.assertAlmostEqual(self.swept[1].effects[page.HALF].error, 1.1)
+
+    def test_a_run_that_is_mended_hides_none_that_breaks(self):
+        def trades(run):
+            breaks = "building 3" if "calm" in run.settings else "building 5"
+            return result(1.1 if run.log.name == breaks else 0.1, breaks)
+
+        default = page.yardstick(ENSEMBLE, trades)
+        [calm] = page.swept(runs.variants_of(CONSTANTS[:1]), ENSEMBLE, default, trades)
+        self.assertTrue(calm.is_island())
+        self.assertIn("**10.0 (+1 -1)**", page.body([calm], default))
 
     def test_what_changes_no_byte_stands_apart(self):
         self.assertEqual([one.changes_nothing() for one in self.swept], [False, False, True])
         text = page.body(self.swept, self.default)
         self.assertIn("3 constants: 1 islands, 1 that change nothing. With the defaults 0 of 10", text)
-        self.assertIn("| **`part.steep`** | 2.0 | what steep is | 1.0 | 0.0 (+0) | 1.000 | 0.100 | 4.0 "
-                      "| **10.0 (+1)** |", text)
+        self.assertIn("| **`part.steep`** | 2.0 | what steep is | 1.0 | 0.0 (+0 -0) | 1.000 | 0.100 | 4.0 "
+                      "| **10.0 (+1 -0)** |", text)
         self.assertIn("Neither half nor double changes a byte of any output.", text)
         self.assertIn("| `part.idle` | 2.0 | what idle is |", text)
 
@@ -64,7 +74,7 @@ class TuningPage(unittest.TestCase):
 
         [calm] = page.swept(runs.variants_of(CONSTANTS[:1]), ENSEMBLE, self.default, fails)
         self.assertEqual(calm.effects[page.HALF].out, 10)
-        self.assertIn("100.0 (+10)", page.body([calm], self.default))
+        self.assertIn("100.0 (+10 -0)", page.body([calm], self.default))
 
     def test_nothing_is_compared_without_the_default(self):
         with self.assertRaises(LookupError):
@@ -74,6 +84,12 @@ class TuningPage(unittest.TestCase):
         text = page.document(self.swept, self.default, 10, {"date": "2026-11-22", "commit": "abc", "machine": "some"})
         self.assertIn("10 simulated buildings and 0 short real runs", text)
         self.assertIn("commit abc", text)
+
+    def test_the_page_says_what_breaks_out(self):
+        text = " ".join(page.document(self.swept, self.default, 10, {"date": "", "commit": "", "machine": ""}).split())
+        self.assertIn("exceeds that of dead reckoning by more than 2 %", text)
+        self.assertIn("Each log has one real run, whose error is its own best quarter: with the defaults it breaks out "
+                      "only by dead reckoning, or by an error known to be attainable.", text)
 
 
 if __name__ == "__main__":
