@@ -13,6 +13,7 @@ import wheels_by_relations
 NONE = "–"
 TELLING_SIGMAS = 2.0
 WIDTH = 120  # of a line of text
+WAYS = ("without", "with", "default")  # a map is made
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,13 +74,14 @@ def agreement(flights):
 
 
 def offices_table(rows):
-    figures = [[row[how][which]["rmse_m"] for which in ("live", "final") for how in ("without", "with")]
+    figures = [[row[how][which]["rmse_m"] for which in ("live", "final") for how in WAYS]
                for row in rows]
     names = [row["input"] for row in rows]
     if figures:
         names.append("mean")
         figures.append([statistics.mean(column) for column in zip(*figures)])
-    return page.table(["flight", "live, m:", "with the file:", "final, m:", "with the file:"],
+    return page.table(["flight", "live, m, `--no-calibrate`:", "and the file:", "by default:",
+                       "final, m, `--no-calibrate`:", "and the file:", "by default:"],
                       [[name, *(f"{value:.3f}" for value in values)] for name, values in zip(names, figures)])
 
 
@@ -109,9 +111,10 @@ def gains_table(rows):
         check = row["calibration"]["check"]
         held_out = [NONE, NONE] if check is None else [f"{1e3 * check['held_out_before_m']:.1f} mm",
                                                         f"{1e3 * check['held_out_after_m']:.1f} mm"]
-        return [row["input"], *held_out, *(judged_text(row[how]["final"]) for how in ("without", "with"))]
+        return [row["input"], *held_out, *(judged_text(row[how]["final"]) for how in WAYS)]
 
-    return page.table(["input", "held-out:", "with the file:", "map:", "with the file:"], [cells(row) for row in rows])
+    return page.table(["input", "held-out:", "with the file:", "map, `--no-calibrate`:", "and the file:",
+                       "by default:"], [cells(row) for row in rows])
 
 
 def wheels_text(rows):
@@ -148,15 +151,15 @@ Bold: matters, and is in the file. Learnt: estimated in every run.
 
 {findings_table(report['logs'])}
 
-What a map gains from the file. "Held-out": mean distance of held-out returns from the walls, by `swiftlet calibrate`.
-"Map": mean errors by relations, or the distinct cells of 0.2 m that a flight's map covers, by `swiftlet eval`. Cells
-shrink with the metre, too, so they compare ages but not scales.
+What a map gains from the file, and by default. "Held-out": mean distance of held-out returns from the walls, by
+`swiftlet calibrate`. "Map": mean errors by relations, or the distinct cells of 0.2 m that a flight's map covers, by
+`swiftlet eval`. Cells shrink with the metre, too, so they compare ages but not scales.
 
 {gains_table(report['logs'])}
 {wheels_text(report['logs'])}
 ## The age alone
 
-Final trajectories of the same inputs with `range_age_s` set and nothing else:
+Final trajectories of the same inputs with `--no-calibrate` and `range_age_s` set:
 
 {ages_table(report['ages'])}
 """ if report["logs"] else ""
@@ -177,7 +180,8 @@ the scales of flow and gyro are off by up to 10 and 5 % in place of 0.8 and 1 % 
 
 ## What simulated flights gain from the file
 
-RMSE of the path against the true one, of the flights with the usual sensors:
+RMSE of the path against the true one, of the flights with the usual sensors. By default `swiftlet map` estimates age
+and scales itself ([before every map](../calibration_evidence.md#before-every-map)); `--no-calibrate` switches that off.
 
 {offices_table(report['offices'])}
 {logs}"""

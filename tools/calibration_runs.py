@@ -53,26 +53,31 @@ def fly(flight, program):
     return json.loads(said(program, flight.seed, *flight.sensors))
 
 
-def mapped(swiftlet, wanted, config, output):
+def mapped(swiftlet, wanted, options, output):
     """Live and final trajectory, evaluated by the reference. Raises as said() does, or ValueError."""
-    arguments = [*wanted.arguments(), "--no-calibrate", *([] if config is None else ["--config", str(config)])]
-    whole_runs.run(swiftlet, arguments, output)
+    whole_runs.run(swiftlet, [*wanted.arguments(), *options], output)
     reference = output / "ground_truth.tum" if wanted.log.reference is None else (
         mapped_runs.DATASETS / wanted.log.reference)
     return {which: mapped_runs.judge(swiftlet, output / mapped_runs.TRAJECTORIES[which], reference)
             for which in ("live", "final")}
 
 
+def as_set(config):
+    """Options that map with these settings and estimate nothing before."""
+    return ["--no-calibrate", "--config", str(config)]
+
+
 def calibrate(wanted, swiftlet, folder):
-    """The findings and the seconds they took, the maps without and with the file written, and the wheels by relations.
-    `folder`: is filled. Raises as mapped() does."""
+    """The findings and the seconds they took, the maps without and with the file written and by default, and the
+    wheels by relations. `folder`: is filled. Raises as mapped() does."""
     found = folder / "found.toml"
     begun = time.monotonic()
     calibration = json.loads(said(swiftlet, "calibrate", *wanted.arguments(), "--json", "-o", found))
     result = {"calibration": calibration,
               "seconds": time.monotonic() - begun,
-              "without": mapped(swiftlet, wanted, None, folder / "without"),
-              "with": mapped(swiftlet, wanted, found, folder / "with"),
+              "without": mapped(swiftlet, wanted, ["--no-calibrate"], folder / "without"),
+              "with": mapped(swiftlet, wanted, as_set(found), folder / "with"),
+              "default": mapped(swiftlet, wanted, [], folder / "default"),
               "wheels": None}
     if wanted.log in accuracy_runs.LASER_LOGS:
         result["wheels"] = wheels_by_relations.estimate(mapped_runs.DATASETS / wanted.log.reference,
@@ -84,4 +89,4 @@ def map_at(age_s, wanted, swiftlet, folder):
     """The map with this age of the ranges. Otherwise as calibrate()."""
     config = folder / "age.toml"
     config.write_text(mapped_runs.configuration({"sensor": {"range_age_s": age_s}}), encoding="utf-8")
-    return mapped(swiftlet, wanted, config, folder / "out")
+    return mapped(swiftlet, wanted, as_set(config), folder / "out")

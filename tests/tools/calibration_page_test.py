@@ -44,17 +44,17 @@ def relations(metres, degrees):
 
 def office(name, live, final):
     return {"input": name, **{how: {"live": {"rmse_m": live * share}, "final": {"rmse_m": final * share}}
-                              for how, share in (("without", 1.0), ("with", 0.5))}}
+                              for how, share in (("without", 1.0), ("with", 0.5), ("default", 0.8))}}
 
 
 LOG = {"input": "a log", "calibration": {"findings": FINDINGS, "check": None}, "without": relations(0.0298, 0.799),
-       "with": relations(0.029, 0.796),
+       "with": relations(0.029, 0.796), "default": relations(0.0285, 0.79),
        "seconds": 29.6,
        "wheels": {"relations": 900, "scale": (0.98, 0.004), "missed_yaw_per_metre_rad": None}}
 HALL = {"input": "a hall", "calibration": {"findings": FINDINGS, "check": {"held_out_before_m": 0.0638,
                                                                          "held_out_after_m": 0.0608}},
-        "without": {"final": {"cells_20_cm": 1760}}, "with": {"final": {"cells_20_cm": 1630}}, "seconds": 4.2,
-        "wheels": None}
+        "without": {"final": {"cells_20_cm": 1760}}, "with": {"final": {"cells_20_cm": 1630}},
+        "default": {"final": {"cells_20_cm": 1700}}, "seconds": 4.2, "wheels": None}
 REPORT = {"date": "2026-01-02", "commit": "abc", "machine": "a machine", "missing": [], "flights": [flight(1)],
           "others": [flight(11)], "offices": [office("one", 0.4, 0.2), office("two", 0.6, 0.1)], "logs": [LOG, HALL],
           "ages": [{"input": "a hall", "age_s": age_s, "final": {"cells_20_cm": cells}}
@@ -72,7 +72,14 @@ class CalibrationPage(unittest.TestCase):
                          "forward scale of seed 1, by 3.0.")
 
     def test_flights_are_averaged(self):
-        self.assertIn("| mean | 0.500 | 0.250 | 0.150 | 0.075 |", page.offices_table(REPORT["offices"]))
+        self.assertIn("| mean | 0.500 | 0.250 | 0.400 | 0.150 | 0.075 | 0.120 |", page.offices_table(REPORT["offices"]))
+
+    def test_gains_are_held_against_no_estimate_at_all_and_against_the_program_as_it_runs(self):
+        for table in (page.offices_table(REPORT["offices"]), page.gains_table([LOG])):
+            heading = table.splitlines()[0]
+            self.assertIn("`--no-calibrate`", heading)
+            self.assertIn("by default", heading)
+        self.assertIn("`--no-calibrate`", page.tables(REPORT).split("## The age alone")[1])
 
     def test_what_matters_is_bold_and_what_is_learnt_says_so(self):
         self.assertIn("| a log | 0.089 ± 0.008 | **0.963 ± 0.003** | – | – | +3.20 ± 0.05, learnt | – | 30 |",
@@ -80,8 +87,9 @@ class CalibrationPage(unittest.TestCase):
 
     def test_gains_are_told_by_what_there_is_to_judge_by(self):
         table = page.gains_table([LOG, HALL])
-        self.assertIn("| a log | – | – | 0.0298 m, 0.799 deg | 0.0290 m, 0.796 deg |", table)
-        self.assertIn("| a hall | 63.8 mm | 60.8 mm | 1760 cells | 1630 cells |", table)
+        self.assertIn("| a log | – | – | 0.0298 m, 0.799 deg | 0.0290 m, 0.796 deg | "
+                      "0.0285 m, 0.790 deg |", table)
+        self.assertIn("| a hall | 63.8 mm | 60.8 mm | 1760 cells | 1630 cells | 1700 cells |", table)
 
     def test_wheels_are_told_of_logs_only(self):
         text = page.wheels_text([LOG, HALL])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
-"""tools/calibration_runs.py calibrates, and maps without the file, with it, and at an age."""
+"""tools/calibration_runs.py calibrates, and maps without the file, with it, by default, and at an age."""
 
 import subprocess
 import sys
@@ -65,15 +65,17 @@ class CalibrationRuns(unittest.TestCase):
             runs.fly(runs.Flight(7), self.program)
         self.assertEqual(caught.exception.stderr, "no flight of seed 7\n")
 
-    def test_a_simulated_flight_is_mapped_without_the_file_and_with_it_and_judged_by_the_truth(self):
+    def test_a_simulated_flight_is_mapped_without_the_file_with_it_and_by_default_and_judged_by_the_truth(self):
         result = runs.calibrate(runs.OFFICES[1], self.program, self.folder)
         uri = "sim://office?seed=2"
         self.assertEqual([call for call in self.calls() if not call.startswith("eval")],
                          [f"calibrate {uri} --json -o HERE/found.toml",
                           f"map {uri} --no-calibrate -o HERE/without",
-                          f"map {uri} --no-calibrate --config HERE/found.toml -o HERE/with"])
-        self.assertEqual(result["with"], {"live": {"of": "live.tum", "by": "ground_truth.tum"},
-                                          "final": {"of": "trajectory.tum", "by": "ground_truth.tum"}})
+                          f"map {uri} --no-calibrate --config HERE/found.toml -o HERE/with",
+                          f"map {uri} -o HERE/default"])
+        for how in ("without", "with", "default"):
+            self.assertEqual(result[how], {"live": {"of": "live.tum", "by": "ground_truth.tum"},
+                                           "final": {"of": "trajectory.tum", "by": "ground_truth.tum"}})
         self.assertEqual(result["calibration"], {"findings": []})
         self.assertGreater(result["seconds"], 0.0)
         self.assertIsNone(result["wheels"])
@@ -90,10 +92,9 @@ class CalibrationRuns(unittest.TestCase):
         self.assertEqual(result["wheels"], ["log.relations", "odometry.tum"])
 
     def test_an_age_is_set_by_a_configuration_that_sets_nothing_else(self):
-        written = []
-        with mock.patch.object(runs, "mapped", lambda *given: written.append(given[2].read_text()) or "a map"):
-            self.assertEqual(runs.map_at(0.08, runs.OFFICES[0], self.program, self.folder), "a map")
-        self.assertEqual(written, ["[sensor]\nrange_age_s = 0.08\n"])
+        runs.map_at(0.08, runs.OFFICES[0], self.program, self.folder)
+        self.assertEqual(self.calls()[0], "map sim://office?seed=1 --no-calibrate --config HERE/age.toml -o HERE/out")
+        self.assertEqual((self.folder / "age.toml").read_text(), "[sensor]\nrange_age_s = 0.08\n")
 
 
 if __name__ == "__main__":
