@@ -41,6 +41,9 @@ class Outcome:
 def outcome(run, result):
     if "failed" in result:
         return Outcome(run, None, None, False, result["failed"])
+    for which, what in (("final", "final trajectory"), ("odometry", "dead reckoning")):
+        if result[which] is None:
+            return Outcome(run, None, None, False, f"no {what}")
     error, odometry = runs.error_of(result["final"]), runs.error_of(result["odometry"])
     ratio = error / odometry if odometry else math.inf
     in_cells = runs.is_in_cells(result["final"])
@@ -138,8 +141,8 @@ def groups_table(all_outcomes, limits):
     def cells(name, group):
         errors = sorted(one.error for one in group if one.error is not None)
         unit = "" if group[0].is_in_cells else " m"
-        return [name, str(len(group)), f"{limits[name]:.4f}{unit}" if name in limits else NONE,
-                *(f"{value:.4f}{unit}" for value in ((statistics.median(errors), errors[-1]) if errors else ()))]
+        known = [limits.get(name), *((statistics.median(errors), errors[-1]) if errors else (None, None))]
+        return [name, str(len(group)), *(NONE if value is None else f"{value:.4f}{unit}" for value in known)]
 
     return page.table(["log, beams", "runs:", "best quarter:", "median:", "worst:"],
                       [cells(name, group) for name, group in grouped(all_outcomes, runs.Run.group).items()])
@@ -282,11 +285,12 @@ def pictures_text(shown):
                        f"![map](robustness/{name})" for name, one in shown) or "None."
 
 
-def document(real, plain, buildings, shown, circumstances):
-    """`shown`: [(file name, outcome)] of the pictures."""
+def document(real, plain, buildings, shown, report):
+    """`shown`: [(file name, outcome)] of the pictures. `report`: circumstances and what is missing."""
     limits = quarters(real)
     simulated = f"\n## Simulated buildings\n\n{buildings_text(buildings)}\n" if buildings else ""
-    return f"""{page.head("Robustness", "benchmark-robustness", circumstances)}
+    missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
+    return f"""{page.head("Robustness", "benchmark-robustness", report)}{missing}
 Each log and flight is mapped many times, each time changed otherwise: with 4 to 6 or 9 to 13 beams (some with
 {runs.DENSE_BEAMS}), dead reckoning moved against the ranges by up to {runs.LEAD_MAX_S * 1e3:g} ms, the start cut off by
 up to {runs.CUT_MAX:.0%}, mirrored, played backwards, with noise or systematic errors added to the dead reckoning. The

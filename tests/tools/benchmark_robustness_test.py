@@ -3,15 +3,27 @@
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """tools/benchmark-robustness, with a program that answers at once: what it runs, keeps, repeats and compares."""
 
+import argparse
+import importlib.machinery
 import json
 import subprocess
+import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from pretended_report import REPORT
 
 TOOL = Path(__file__).parents[2] / "tools/benchmark-robustness"
+sys.path.insert(0, str(TOOL.parent))
+sys.dont_write_bytecode = True
+import mapped_runs  # noqa: E402
+import robustness_runs  # noqa: E402
+
+tool = types.ModuleType("benchmark_robustness")
+importlib.machinery.SourceFileLoader(tool.__name__, str(TOOL)).exec_module(tool)
 # Stands in for swiftlet. Its error is that of the second seed's odometry where the first argument says seed=2.
 PRETENDS = """#!/bin/sh
 echo "$@" >> "{calls}"
@@ -92,6 +104,44 @@ class BenchmarkRobustness(unittest.TestCase):
 
     def test_a_program_that_is_missing_is_named(self):
         self.assertIn("no such", self.measure("--swiftlet", "/no such/program", expected=2).stderr)
+
+
+class RecordedPage(unittest.TestCase):
+    """Of buildings 1 to 3, a log, and one whose data are missing."""
+
+    def setUp(self):
+        BenchmarkRobustness.setUp(self)
+        for name in ("made.clf", "made.tum"):
+            (self.folder / name).write_text("data\n")
+        logs = [mapped_runs.Log(name, f"{name}.clf", f"{name}.tum") for name in ("made", "lost")]
+        runs = [robustness_runs.Run(log, 4, None) for log in logs]
+        for where, name, value in ((tool, "RECORDED_BUILDINGS", (1, 3)), (mapped_runs, "DATASETS", self.folder),
+                                   (robustness_runs, "ensemble_runs", lambda: runs),
+                                   (robustness_runs, "plain_runs", lambda: runs),
+                                   (tool.page, "RESULTS", self.folder / "results")):
+            patch = mock.patch.object(where, name, value)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    program = BenchmarkRobustness.program
+
+    def record(self, kept=False):
+        """The page."""
+        options = argparse.Namespace(output=self.folder / "kept", jobs=1, kept=kept, record=True, buildings=None,
+                                     plain=False, screen=False, only=None)
+        circumstances = {"date": "2026-11-22", "commit": "abc", "machine": "some"}
+        with mock.patch.object(tool.page, "record") as written, mock.patch("sys.stdout"), mock.patch("sys.stderr"):
+            tool.record(options, self.bad, circumstances, mock.MagicMock())
+        return written.call_args.args[1]
+
+    def test_it_names_the_data_that_were_missing(self):
+        self.assertIn("Left out, for lack of data: lost.clf; lost.tum.", self.record())
+
+    def test_kept_runs_are_recorded_only_where_all_exist(self):
+        with self.assertRaisesRegex(LookupError, "1 of 1 runs are missing: record them without --kept"):
+            self.record(kept=True)
+        self.assertFalse((self.folder / "results").exists())
+        self.assertEqual(self.record(), self.record(kept=True))
 
 
 if __name__ == "__main__":

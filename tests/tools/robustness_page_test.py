@@ -16,6 +16,7 @@ from changed_log import Change  # noqa: E402
 LOG, FR079, FHW = (next(ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name == name)
                    for name in ("Robot 4", "FR079", "FHW"))
 REPORT = {"mean_per_scan_ms": 0.2, "backend_max_ms": 30.0}
+PAGE = {"date": "2026-11-22", "commit": "abc", "machine": "some", "missing": []}
 
 
 def run(number, beams=4, log=LOG):
@@ -70,6 +71,15 @@ class RobustnessPage(unittest.TestCase):
         self.assertTrue(rates.breaks_out(one, {}))
         self.assertIn("exit code 2: no sample", rates.tables([one]))
 
+    def test_a_run_without_a_trajectory_failed(self):
+        for lacks, said in (("final", "no final trajectory"), ("odometry", "no dead reckoning")):
+            one = rates.outcome(run(0), {**result(0.1, 1.0), lacks: None})
+            self.assertEqual((one.failed, one.error, one.ratio), (said, None, None))
+
+    def test_a_group_of_runs_that_all_failed_has_a_whole_row(self):
+        one = rates.outcome(run(0), {"failed": "exit code 2: no sample"})
+        self.assertIn(f"| Robot 4{runs.FEW} | 1 | – | – | – |", rates.groups_table([one], {}))
+
     def test_cells_are_held_against_those_of_dead_reckoning(self):
         one = rates.outcome(run(0), {**result(1.0, 1.0), "final": {"cells_10_cm": 80}, "odometry": {"cells_10_cm": 100}})
         self.assertEqual((one.error, one.ratio), (0.8, 0.8))
@@ -117,11 +127,16 @@ class RobustnessPage(unittest.TestCase):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
         shown = [("robot_4.png", one) for one in rates.pictured(group, rates.quarters(group))]
         self.assertEqual([one.error for _, one in shown], [0.9])
-        text = rates.document(group, [], [], shown, {"date": "2026-11-22", "commit": "abc", "machine": "some"})
+        text = rates.document(group, [], [], shown, PAGE)
         self.assertIn("commit abc", text)
+        self.assertNotIn("Left out", text)
         self.assertIn("![map](robustness/robot_4.png)", text)
         self.assertNotIn("## Simulated buildings", text)
         self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
+
+    def test_the_page_names_the_data_that_were_missing(self):
+        text = rates.document(made([0.1]), [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})
+        self.assertIn("\nLeft out, for lack of data: a.clf; b.tum.\n", text)
 
 
 if __name__ == "__main__":
