@@ -5,6 +5,7 @@ and docs/results/robustness.md."""
 
 import dataclasses
 import math
+import random
 import statistics
 
 import accuracy_page
@@ -16,6 +17,8 @@ OVER_QUARTER_CELLS = 1.25  # the same of cells over those of dead reckoning
 OVER_ODOMETRY = 1.02
 TOLERANCE = f"{100 * (OVER_ODOMETRY - 1):.0f} %"
 CONFIDENCE_Z = 1.96  # 95 %
+CONFIDENCE = 0.025, 0.975
+DRAWS = 10000  # of the bootstrap
 PICTURES = 12
 NONE = "–"
 
@@ -99,26 +102,57 @@ def interval(count, of):
     return max(middle - half, 0.0), min(middle + half, 1.0)
 
 
+def percentile(values, share):
+    ordered = sorted(values)
+    return ordered[min(round(share * (len(ordered) - 1)), len(ordered) - 1)]
+
+
+def interval_over_logs(logs):
+    """Of the rate of all runs: a bootstrap that draws whole logs. `logs`: [(break-outs, runs)]. None where all logs
+    have one rate."""
+    if len({count / of for count, of in logs}) < 2:
+        return None
+    chance = random.Random(runs.SEED)
+    drawn = [chance.choices(logs, k=len(logs)) for _ in range(DRAWS)]
+    rates = [sum(count for count, _ in some) / sum(of for _, of in some) for some in drawn]
+    low, high = (percentile(rates, share) for share in CONFIDENCE)
+    return low, high
+
+
 def percent(share):
     return f"{100 * share:.1f}"
 
 
-def rate_cells(count, of):
-    low, high = interval(count, of)
-    return [str(of), str(count), percent(count / of), f"{percent(low)} to {percent(high)}"]
+def rate_cells(count, of, bounds):
+    return [str(of), str(count), percent(count / of),
+            NONE if bounds is None else f"{percent(bounds[0])} to {percent(bounds[1])}"]
 
 
-def rates_row(name, group, limits):
-    out = sum(breaks_out(one, limits) for one in group)
+def counts(group, limits):
+    """Break-outs and runs."""
+    return sum(breaks_out(one, limits) for one in group), len(group)
+
+
+def rates_row(name, group, limits, bounds):
     ratios = [one.ratio for one in group if one.ratio is not None]
-    return [name, *rate_cells(out, len(group)), str(sum(one.exceeds(limits.get(one.run.group())) for one in group)),
+    return [name, *rate_cells(*counts(group, limits), bounds),
+            str(sum(one.exceeds(limits.get(one.run.group())) for one in group)),
             str(sum(one.is_worse_than_odometry() for one in group)), str(sum(bool(one.failed) for one in group)),
             f"{statistics.median(ratios):.3f}" if ratios else NONE, f"{max(ratios):.2f}" if ratios else NONE]
 
 
+def by_log(all_outcomes):
+    return grouped(all_outcomes, lambda run: run.log.name)
+
+
 def rates_table(all_outcomes, limits):
-    rows = [rates_row(name, group, limits) for name, group in grouped(all_outcomes, lambda run: run.log.name).items()]
-    rows.append(rates_row("**all**", all_outcomes, limits))
+    rows = [rates_row(name, group, limits, interval(*counts(group, limits)))
+            for name, group in by_log(all_outcomes).items()]
+    true = [one for one in all_outcomes if runs.has_truth(one.run.log)]
+    for name, several in (("**with truth**", true), ("**all**", all_outcomes)):
+        if several:
+            logs = [counts(group, limits) for group in by_log(several).values()]
+            rows.append(rates_row(name, several, limits, interval_over_logs(logs)))
     return page.table(["log", "runs:", "break-outs:", "%:", "95 %:", "over quarter:", "over odometry:", "failed:",
                        "median ratio:", "worst ratio:"], rows)
 
@@ -133,7 +167,7 @@ def kinds_table(all_outcomes, limits):
     for one in all_outcomes:
         kinds.setdefault(kind_of(one), []).append(one)
     return page.table(["change", "runs:", "break-outs:", "%:", "95 %:"],
-                      [[name, *rate_cells(sum(breaks_out(one, limits) for one in group), len(group))]
+                      [[name, *rate_cells(*counts(group, limits), interval(*counts(group, limits)))]
                        for name, group in sorted(kinds.items())])
 
 
@@ -253,11 +287,6 @@ def changed_pairs(pairs, limits):
                        for a, b in sorted(changed, key=lambda pair: (pair[1].run.log.name, pair[1].run.title()))])
 
 
-def percentile(values, share):
-    ordered = sorted(values)
-    return ordered[min(round(share * (len(ordered) - 1)), len(ordered) - 1)]
-
-
 def buildings_text(all_outcomes):
     """Figures of the simulated buildings."""
     done = [one for one in all_outcomes if not one.failed]
@@ -298,11 +327,17 @@ choices are drawn once, by a fixed seed. All runs have the default settings.
 
 A run **breaks out** if its error exceeds {OVER_QUARTER:g} times the error that a quarter of the runs of its log and
 numbers of beams stay below (or with fewer beams, or that is known to be attainable), or if it is worse than dead
-reckoning by more than {OVER_ODOMETRY - 1:.0%}. Errors are those of [evaluation](../evaluation.md): the mean
-translational error of relations, the RMSE against a true path; where there is no truth, the number of distinct cells
-with returns over that of dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). The reference of
+reckoning by more than {TOLERANCE}. Errors are those of [evaluation](../evaluation.md): the mean translational error of
+relations, the RMSE against a true path; where there is no truth, the number of distinct cells with returns over that of
+dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). The reference of
 {" and ".join(sorted(runs.WITHOUT_TRUTH))} is another program's estimate: there a run breaks out only where dead
-reckoning is nearer to it. "Ratio" is the error over that of dead reckoning in the same run. The interval is Wilson's.
+reckoning is nearer to it by as much. "Ratio" is the error over that of dead reckoning in the same run.
+
+A map that lays two corridors on each other covers fewer cells, so logs without truth
+({", ".join(sorted(runs.IN_CELLS))}) do not show it. "With truth" are neither these nor those with an estimate.
+
+Intervals are Wilson's, as of independent runs; those of the rows in bold are a bootstrap over whole logs ({DRAWS}
+draws, a fixed seed), because runs of one log are alike.
 
 ## Break-outs
 

@@ -80,6 +80,11 @@ ENSEMBLES = [
     laser("Acapulco", "more/kf_acapulco.clf.gz", "more/kf_acapulco_gfs.tum", NO_LOOPS, 20, 3, is_true=False),
 ]
 WITHOUT_TRUTH = {ensemble.log.name for ensemble in ENSEMBLES if not ensemble.is_true}
+IN_CELLS = {ensemble.log.name for ensemble in ENSEMBLES if ensemble.log.reference == ensemble.log.source}
+
+
+def has_truth(log):
+    return log.name not in WITHOUT_TRUTH | IN_CELLS
 
 
 @dataclasses.dataclass(frozen=True)

@@ -13,8 +13,8 @@ import robustness_page as rates  # noqa: E402
 import robustness_runs as runs  # noqa: E402
 from changed_log import Change  # noqa: E402
 
-LOG, FR079, FHW = (next(ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name == name)
-                   for name in ("Robot 4", "FR079", "FHW"))
+LOG, FR079, FHW, RICE = (next(ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name == name)
+                   for name in ("Robot 4", "FR079", "FHW", "Rice Hall"))
 REPORT = {"mean_per_scan_ms": 0.2, "backend_max_ms": 30.0}
 PAGE = {"date": "2026-11-22", "commit": "abc", "machine": "some", "missing": []}
 
@@ -93,6 +93,24 @@ class RobustnessPage(unittest.TestCase):
         self.assertEqual(rates.interval(0, 50)[0], 0.0)
         self.assertEqual(rates.interval(0, 0), (0.0, 1.0))
 
+    def test_runs_of_one_log_count_together_in_the_interval_of_all(self):
+        logs = [(0, 10), (0, 10), (0, 10), (5, 10)]
+        low, high = rates.interval_over_logs(logs)
+        self.assertEqual(low, 0.0)
+        self.assertGreater(high, rates.interval(5, 40)[1])
+        self.assertEqual((low, high), rates.interval_over_logs(logs))
+
+    def test_logs_that_all_have_one_rate_show_no_interval(self):
+        for logs in ([], [(3, 10)], [(0, 10), (0, 10)]):
+            self.assertIsNone(rates.interval_over_logs(logs))
+
+    def test_runs_without_truth_stand_apart(self):
+        group = made([0.1, 0.1, 0.1, 0.9]) + made([0.1] * 4, beams=None, log=RICE) + made([0.1] * 4, log=FHW)
+        text = rates.rates_table(group, rates.quarters(group))
+        self.assertIn("| **with truth** | 4 | 1 | 25.0 | – | 1 |", text)
+        self.assertIn("| **all** | 12 | 1 | 8.3 | 0.0 to 25.0 | 1 |", text)
+        self.assertNotIn("with truth", rates.rates_table(made([0.1], log=FHW), {}))
+
     def test_a_comparison_lists_what_was_mended_and_what_broke(self):
         before, after = made([0.1, 0.1, 0.1, 0.5]), made([0.1, 0.1, 0.4, 0.1])
         text = rates.comparison(before, after)
@@ -133,6 +151,13 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("![map](robustness/robot_4.png)", text)
         self.assertNotIn("## Simulated buildings", text)
         self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
+
+    def test_the_page_says_what_its_figures_cannot_show(self):
+        text = " ".join(rates.document(made([0.1]), [], [], [], PAGE).split())
+        self.assertIn("A map that lays two corridors on each other covers fewer cells, so logs without truth "
+                      "(Duke loop, Malaga, Mines 1, Mines 2, Mines 3, Mines 4, Olsson Hall, Rice Hall) do not show it.", text)
+        self.assertIn("Intervals are Wilson's, as of independent runs; those of the rows in bold are a bootstrap over "
+                      "whole logs", text)
 
     def test_the_page_names_the_data_that_were_missing(self):
         text = rates.document(made([0.1]), [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})
