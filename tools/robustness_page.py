@@ -20,6 +20,7 @@ CONFIDENCE_Z = 1.96  # 95 %
 CONFIDENCE = 0.025, 0.975
 DRAWS = 10000  # of the bootstrap
 PICTURES = 12
+PICTURES_OF_BUILDINGS = 8
 NONE = "–"
 
 
@@ -213,6 +214,25 @@ def pictured(all_outcomes, limits):
     return list(chosen.values())[:PICTURES]
 
 
+def building_kind(one):
+    """A building that failed has none."""
+    return one.figures.get("kind") or NONE
+
+
+def most_over_odometry(all_outcomes):
+    """Those worse than dead reckoning, worst first."""
+    worse = [one for one in all_outcomes if one.is_worse_than_odometry()]
+    return sorted(worse, key=lambda one: one.ratio, reverse=True)
+
+
+def pictured_buildings(all_outcomes):
+    """The worst of each kind, at most PICTURES_OF_BUILDINGS."""
+    chosen = {}
+    for one in most_over_odometry(all_outcomes):
+        chosen.setdefault(building_kind(one), one)
+    return list(chosen.values())[:PICTURES_OF_BUILDINGS]
+
+
 def tables(all_outcomes):
     limits = quarters(all_outcomes)
     return "\n\n".join(table(all_outcomes, limits)
@@ -287,37 +307,87 @@ def changed_pairs(pairs, limits):
                        for a, b in sorted(changed, key=lambda pair: (pair[1].run.log.name, pair[1].run.title()))])
 
 
+def bad_buildings(all_outcomes):
+    """How many are worse than dead reckoning or failed."""
+    return sum(one.is_worse_than_odometry() or bool(one.failed) for one in all_outcomes)
+
+
+def median_and_p95(all_outcomes):
+    """Of the ratios to dead reckoning."""
+    ratios = [one.ratio for one in all_outcomes if not one.failed]
+    return [f"{statistics.median(ratios):.3f}", f"{percentile(ratios, 0.95):.3f}"] if ratios else [NONE, NONE]
+
+
+def building_kinds_table(all_outcomes):
+    kinds = {}
+    for one in all_outcomes:
+        kinds.setdefault(building_kind(one), []).append(one)
+
+    def cells(name, group):
+        bad = bad_buildings(group)
+        return [name, *rate_cells(bad, len(group), interval(bad, len(group))), *median_and_p95(group)]
+
+    return page.table(["kind", "buildings:", f"over {OVER_ODOMETRY:g} times or failed:", "%:", "95 %:", "median ratio:",
+                       "p95:"], [cells(name, group) for name, group in sorted(kinds.items())])
+
+
+def named_buildings(intro, texts):
+    """`texts`: [(outcome, what is said of it)]."""
+    seeds = (f"{one.run.log.name.removeprefix('building ')} ({text})" for one, text in texts)
+    return [f"{intro}: {', '.join(seeds)}."] if texts else []
+
+
 def buildings_text(all_outcomes):
     """Figures of the simulated buildings."""
-    done = [one for one in all_outcomes if not one.failed]
-    if not done:
+    if not all_outcomes:
         return "No run."
-    worse = [one for one in done if one.is_worse_than_odometry()]
-    bad = len(worse) + len(all_outcomes) - len(done)
+    done = [one for one in all_outcomes if not one.failed]
+    failed = [one for one in all_outcomes if one.failed]
+    bad = bad_buildings(all_outcomes)
     low, high = interval(bad, len(all_outcomes))
-    ratios = [one.ratio for one in done]
-    rows = [["buildings", str(len(all_outcomes))], ["failed", str(len(all_outcomes) - len(done))],
-            ["final error worse than dead reckoning, %",
+    median, p95 = median_and_p95(all_outcomes)
+    rows = [["buildings", str(len(all_outcomes))], ["failed", str(len(failed))],
+            [f"final error over {OVER_ODOMETRY:g} times that of dead reckoning, %",
              f"{percent(bad / len(all_outcomes))} ({percent(low)} to {percent(high)})"],
-            ["median ratio to dead reckoning", f"{statistics.median(ratios):.3f}"],
-            ["p95 of the ratio", f"{percentile(ratios, 0.95):.3f}"],
-            ["mean time per sample, ms", f"{statistics.mean(one.figures['mean_per_scan_ms'] for one in done):.3f}"],
-            ["runs at once", ", ".join(map(str, sorted({one.figures["at_once"] for one in done})))],
-            ["longest call of the backend, ms", f"{max(one.figures['backend_max_ms'] for one in done):.1f}"]]
-    named = ", ".join(f"{one.run.log.name.removeprefix('building ')} ({one.ratio:.2f})"
-                      for one in sorted(worse, key=lambda one: one.ratio, reverse=True))
-    return page.table(["", ":"], rows) + (f"\n\nWorse than dead reckoning, seed (ratio): {named}." if named else "")
+            ["median ratio to dead reckoning", median], ["p95 of the ratio", p95]]
+    if done:
+        per_sample_ms = statistics.mean(one.figures["mean_per_scan_ms"] for one in done)
+        rows += [["mean time per sample, ms", f"{per_sample_ms:.3f}"],
+                 ["runs at once", ", ".join(map(str, sorted({one.figures["at_once"] for one in done})))],
+                 ["longest call of the backend, ms", f"{max(one.figures['backend_max_ms'] for one in done):.1f}"]]
+    worse = [(one, f"{building_kind(one)}, {one.ratio:.2f}") for one in most_over_odometry(done)]
+    return "\n\n".join([page.table(["", ":"], rows), building_kinds_table(all_outcomes),
+                        *named_buildings(f"Over {OVER_ODOMETRY:g} times, seed (kind, ratio)", worse),
+                        *named_buildings("Failed, seed (why)", [(one, one.failed) for one in failed])])
 
 
 def pictures_text(shown):
-    return "\n\n".join(f"{one.run.title()}: error {one.error:.3f}, {one.ratio:.2f} of dead reckoning.\n\n"
+    def title(one):
+        return one.run.title() if one.run.log.files() else f"{one.run.title()}, {building_kind(one)}"
+
+    return "\n\n".join(f"{title(one)}: error {one.error:.3f}, {one.ratio:.2f} of dead reckoning.\n\n"
                        f"![map](robustness/{name})" for name, one in shown) or "None."
+
+
+def simulated_text(buildings, shown):
+    if not buildings:
+        return ""
+    return f"""
+## Simulated buildings
+
+{buildings_text(buildings)}
+
+The map of the worst of each kind, of at most {PICTURES_OF_BUILDINGS} kinds:
+
+{pictures_text(shown)}
+"""
 
 
 def document(real, plain, buildings, shown, report):
     """`shown`: [(file name, outcome)] of the pictures. `report`: circumstances and what is missing."""
     limits = quarters(real)
-    simulated = f"\n## Simulated buildings\n\n{buildings_text(buildings)}\n" if buildings else ""
+    of_logs = [(name, one) for name, one in shown if one.run.log.files()]
+    of_buildings = [(name, one) for name, one in shown if not one.run.log.files()]
     missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
     return f"""{page.head("Robustness", "benchmark-robustness", report)}{missing}
 Each log and flight is mapped many times, each time changed otherwise: with 4 to 6 or 9 to 13 beams (some with
@@ -357,14 +427,14 @@ draws, a fixed seed), because runs of one log are alike.
 
 ## Logs as they are
 
-Error, and its ratio to that of dead reckoning; the ratio alone where there is no truth. **Bold**: worse than dead
-reckoning.
+Error, and its ratio to that of dead reckoning; the ratio alone where there is no truth. **Bold**: over
+{OVER_ODOMETRY:g} times that of dead reckoning.
 
 {plain_table(plain)}
-{simulated}
+{simulated_text(buildings, of_buildings)}
 ## Pictures
 
 The map of the worst break-out of each log.
 
-{pictures_text(shown)}
+{pictures_text(of_logs)}
 """

@@ -23,6 +23,7 @@ STOPPED = [-signal.SIGINT, -signal.SIGTERM, -signal.SIGKILL]  # exit codes of a 
 LEAD_MAX_S = 0.02
 PLAIN_BEAMS = [4, 11, DENSE_BEAMS]
 CUT_MAX = 0.3  # of the start
+KIND = "kind of building: "  # a note of the report
 
 PLAIN = [Change("as recorded")]
 MIRRORED = [Change("mirrored", mirrored=True)]
@@ -183,7 +184,14 @@ def with_settings(run, settings):
 
 
 class Results(mapped_runs.Results):
-    """With the pictures of the maps. A run that fails is a result, too, but not one that was ended from outside."""
+    """With the pictures of the maps and the kinds of buildings. A run that fails is a result, too, but not one that was
+    ended from outside."""
+
+    def get(self, run):
+        """None also of a building whose kind was not kept."""
+        result = super().get(run)
+        is_kept = result is None or run.log.files() or "failed" in result or "kind" in result["report"]
+        return result if is_kept else None
 
     def picture(self, run):
         return self.file(run).with_suffix(".png")
@@ -204,7 +212,9 @@ class Results(mapped_runs.Results):
 
 def figures_of(report):
     """What the page needs of a run's report."""
-    return {**whole_runs.figures_of(report), "closures": report["backend"]["closures"]}
+    kinds = [note.removeprefix(KIND) for note in report["input"]["notes"] if note.startswith(KIND)]
+    return {**whole_runs.figures_of(report), "closures": report["backend"]["closures"],
+            "kind": kinds[0] if kinds else None}
 
 
 def error_of(judged):

@@ -121,12 +121,14 @@ def varied(runs, variant):
 
 
 class Results(robustness_runs.Results):
-    """Keeps no pictures. What cannot differ from the run with the default settings is not judged again: dead reckoning,
+    """Keeps no pictures, nor kinds of buildings. What cannot differ from the run with the default settings is not judged again: dead reckoning,
     and output that is the same."""
 
     def __init__(self, folder, swiftlet, copies):
         super().__init__(folder, swiftlet)
         self.copies = mapped_runs.Copies(copies)
+
+    get = mapped_runs.Results.get
 
     def mapped(self, run):
         default = (self.get(robustness_runs.with_settings(run, "")) or {}) if run.settings else {}

@@ -70,8 +70,8 @@ class BenchmarkRobustness(unittest.TestCase):
 
     def test_each_building_is_flown_once_and_its_picture_kept(self):
         said = self.measure("--swiftlet", self.bad, "--jobs", 2).stdout
-        self.assertIn("| final error worse than dead reckoning, % | 33.3", said)
-        self.assertIn("seed (ratio): 2 (2.00).", said)
+        self.assertIn("| final error over 1.02 times that of dead reckoning, % | 33.3", said)
+        self.assertIn("seed (kind, ratio): 2 (maze, 2.00).", said)
         self.assertEqual(len(list((self.folder / "kept").glob("building*.png"))), 3)
         self.measure("--swiftlet", self.bad)
         self.assertEqual(self.runs_of("bad"), 3)
@@ -127,15 +127,21 @@ class RecordedPage(unittest.TestCase):
 
     def record(self, kept=False):
         """The page."""
+        self.image = mock.MagicMock()
         options = argparse.Namespace(output=self.folder / "kept", jobs=1, kept=kept, record=True, buildings=None,
                                      plain=False, screen=False, only=None)
         circumstances = {"date": "2026-11-22", "commit": "abc", "machine": "some"}
         with mock.patch.object(tool.page, "record") as written, mock.patch("sys.stdout"), mock.patch("sys.stderr"):
-            tool.record(options, self.bad, circumstances, mock.MagicMock())
+            tool.record(options, self.bad, circumstances, self.image)
         return written.call_args.args[1]
 
     def test_it_names_the_data_that_were_missing(self):
         self.assertIn("Left out, for lack of data: lost.clf; lost.tum.", self.record())
+
+    def test_it_has_a_picture_of_a_building_of_a_kind_that_breaks(self):
+        self.assertIn("![map](robustness/building_2.png)", self.record())
+        [call] = self.image.open.call_args_list
+        self.assertEqual(call.args[0].read_text(), "picture\n")
 
     def test_kept_runs_are_recorded_only_where_all_exist(self):
         with self.assertRaisesRegex(LookupError, "1 of 1 runs are missing: record them without --kept"):

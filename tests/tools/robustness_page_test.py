@@ -31,6 +31,15 @@ def made(errors, beams=4, odometry=10.0, log=LOG):
     return [rates.outcome(run(number, beams, log), result(error, odometry)) for number, error in enumerate(errors)]
 
 
+def buildings(others):
+    """20 buildings, all of them offices of ratio 0.1 but for `others`: {seed: (ratio, kind)}."""
+    found = []
+    for one in runs.building_runs(1, 20):
+        ratio, kind = others.get(int(one.log.name.split()[1]), (0.1, "offices"))
+        found.append(rates.outcome(one, {**result(ratio, 1.0), "report": {**REPORT, "kind": kind}}))
+    return found
+
+
 class RobustnessPage(unittest.TestCase):
     def test_a_run_far_over_the_best_quarter_breaks_out(self):
         group = made([0.1, 0.1, 0.1, 0.14, 0.16])
@@ -127,13 +136,40 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("| **all** | 1 | 0 | 0 |", rates.comparison(made([0.1]), other))
 
     def test_buildings_are_summed_up(self):
-        built = [rates.outcome(one, result(0.1 if one.log.name != "building 7" else 2.0, 1.0))
-                 for one in runs.building_runs(1, 20)]
+        built = buildings({7: (2.0, "maze")})
         text = rates.buildings_text(built)
-        self.assertIn("| final error worse than dead reckoning, % | 5.0 (0.9 to 23.6) |", text)
+        self.assertIn("| final error over 1.02 times that of dead reckoning, % | 5.0 (0.9 to 23.6) |", text)
         self.assertIn("| median ratio to dead reckoning | 0.100 |", text)
-        self.assertIn("seed (ratio): 7 (2.00).", text)
+        self.assertIn("Over 1.02 times, seed (kind, ratio): 7 (maze, 2.00).", text)
         self.assertIn("No run", rates.buildings_text([]))
+
+    def test_buildings_are_told_by_kind(self):
+        text = rates.buildings_text(buildings({3: (1.5, "maze"), 4: (0.5, "maze"), 5: (1.01, "maze")}))
+        self.assertIn("| maze | 3 | 1 | 33.3 | 6.1 to 79.2 | 1.010 | 1.500 |\n", text)
+        self.assertIn("| offices | 17 | 0 | 0.0 | 0.0 to 18.4 | 0.100 | 0.100 |", text)
+
+    def test_buildings_that_failed_are_named(self):
+        built = [*buildings({}), rates.outcome(*runs.building_runs(30, 30), {"failed": "exit code 3: it broke"})]
+        text = rates.buildings_text(built)
+        self.assertIn("| – | 1 | 1 | 100.0 | 20.7 to 100.0 | – | – |", text)
+        self.assertIn("Failed, seed (why): 30 (exit code 3: it broke).", text)
+        self.assertIn("| median ratio to dead reckoning | – |", rates.buildings_text(built[-1:]))
+
+    def test_the_worst_building_of_each_kind_is_pictured(self):
+        built = buildings({2: (1.5, "maze"), 3: (2.0, "maze"), 4: (3.0, "wings"), 5: (1.01, "outdoors")})
+        self.assertEqual([one.run.log.name for one in rates.pictured_buildings(built)], ["building 4", "building 3"])
+        many = buildings({seed: (1.0 + seed, f"kind {seed}") for seed in range(1, 13)})
+        self.assertEqual(len(rates.pictured_buildings(many)), 8)
+
+    def test_pictures_of_buildings_stand_beside_their_kinds(self):
+        [one] = rates.pictured_buildings(buildings({3: (2.0, "maze")}))
+        [log] = made([0.5])
+        text = rates.document([log], [], [one], [("log.png", log), ("building_3.png", one)], PAGE)
+        of_buildings, of_logs = text.split("## Simulated buildings")[1].split("## Pictures")
+        self.assertIn("building 3, maze: error 2.000, 2.00 of dead reckoning.\n\n![map](robustness/building_3.png)",
+                      of_buildings)
+        self.assertIn("![map](robustness/log.png)", of_logs)
+        self.assertNotIn("building_3", of_logs)
 
     def test_logs_as_they_are_have_a_column_for_each_number_of_beams(self):
         plain = [rates.outcome(one, result(1.0, 2.0 if one.beams == 4 else 0.5)) for one in runs.plain_runs()]
@@ -154,8 +190,9 @@ class RobustnessPage(unittest.TestCase):
 
     def test_the_page_says_what_its_figures_cannot_show(self):
         text = " ".join(rates.document(made([0.1]), [], [], [], PAGE).split())
-        self.assertIn("A map that lays two corridors on each other covers fewer cells, so logs without truth "
-                      "(Duke loop, Malaga, Mines 1, Mines 2, Mines 3, Mines 4, Olsson Hall, Rice Hall) do not show it.", text)
+        self.assertIn("A map that lays two corridors on each other covers fewer cells, so logs without truth (Duke "
+                      "loop, Malaga, Mines 1, Mines 2, Mines 3, Mines 4, Olsson Hall, Rice Hall) do not show it.",
+                      text)
         self.assertIn("Intervals are Wilson's, as of independent runs; those of the rows in bold are a bootstrap over "
                       "whole logs", text)
 

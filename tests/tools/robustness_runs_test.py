@@ -9,9 +9,13 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
+
+from pretended_report import REPORT
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
+import mapped_runs  # noqa: E402
 import robustness_runs as runs  # noqa: E402
 
 
@@ -57,6 +61,23 @@ class RobustnessRuns(unittest.TestCase):
             results.make(run, at_once=1)
             self.assertEqual(results.get(run)["failed"], "exit code 3: it broke")
             self.assertIsNone(results.get(runs.with_settings(run, "[map]\n")))
+
+    def test_the_kind_of_a_building_is_kept(self):
+        self.assertEqual(runs.figures_of(REPORT)["kind"], "maze")
+        self.assertIsNone(runs.figures_of({**REPORT, "input": {"notes": []}})["kind"])
+
+    def test_a_building_whose_kind_was_not_kept_is_run_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            swiftlet = Path(folder, "swiftlet")
+            swiftlet.write_text("")
+            results = runs.Results(Path(folder, "kept"), swiftlet)
+            [building] = runs.building_runs(7, 7)
+            log = runs.Run(mapped_runs.Log("a log", "a.clf", "a.tum"), 4, None)
+            for run in (building, log):
+                with mock.patch.object(results, "executed", lambda run: {"report": {"closures": 1}}):
+                    results.make(run, at_once=1)
+            self.assertIsNone(results.get(building))
+            self.assertEqual(results.get(log)["report"], {"closures": 1})
 
     def test_a_run_that_is_ended_from_outside_is_none(self):
         with tempfile.TemporaryDirectory() as folder:
