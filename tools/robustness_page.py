@@ -7,6 +7,7 @@ import dataclasses
 import math
 import random
 import statistics
+import textwrap
 
 import accuracy_page
 import benchmark_page as page
@@ -22,6 +23,7 @@ DRAWS = 10000  # of the bootstrap
 PICTURES = 12
 PICTURES_OF_BUILDINGS = 8
 NONE = "–"
+WIDTH = 120  # of a line of text
 
 
 @dataclasses.dataclass(frozen=True)
@@ -253,7 +255,7 @@ def plain_table(all_outcomes):
 
     rows = [[name, *(cell(by_beams.get(beams)) for beams in runs.PLAIN_BEAMS), cell(by_beams.get(None))]
             for name, by_beams in logs.items()]
-    captured = [one for one in all_outcomes if one.run.log.name.startswith("Vicon") and not one.failed]
+    captured = [one for one in all_outcomes if runs.is_captured(one.run.log) and not one.failed]
     if captured:
         mean_m = statistics.mean(one.error for one in captured)
         odometry_m = statistics.mean(one.error / one.ratio for one in captured)
@@ -334,7 +336,7 @@ def building_kinds_table(all_outcomes):
 def named_buildings(intro, texts):
     """`texts`: [(outcome, what is said of it)]."""
     seeds = (f"{one.run.log.name.removeprefix('building ')} ({text})" for one, text in texts)
-    return [f"{intro}: {', '.join(seeds)}."] if texts else []
+    return [textwrap.fill(f"{intro}: {', '.join(seeds)}.", WIDTH, break_on_hyphens=False)] if texts else []
 
 
 def buildings_text(all_outcomes):
@@ -383,6 +385,12 @@ The map of the worst of each kind, of at most {PICTURES_OF_BUILDINGS} kinds:
 """
 
 
+def captured_text(all_outcomes):
+    """How little is known of the true paths of some flights."""
+    poses = [runs.true_poses(log) for log in {one.run.log for one in all_outcomes} if runs.is_captured(log)]
+    return f"\nEach flight of Vicon has {min(poses)} to {max(poses)} true poses, at its stops.\n" if poses else ""
+
+
 def document(real, plain, buildings, shown, report):
     """`shown`: [(file name, outcome)] of the pictures. `report`: circumstances and what is missing."""
     limits = quarters(real)
@@ -404,8 +412,9 @@ dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). The refer
 reckoning is nearer to it by as much. "Ratio" is the error over that of dead reckoning in the same run.
 
 A map that lays two corridors on each other covers fewer cells, so logs without truth
-({", ".join(sorted(runs.IN_CELLS))}) do not show it. "With truth" are neither these nor those with an estimate.
-
+({", ".join(sorted(runs.IN_CELLS))}) do not show it.
+"With truth" are neither these nor those with an estimate.
+{captured_text(real)}
 Intervals are Wilson's, as of independent runs; those of the rows in bold are a bootstrap over whole logs ({DRAWS}
 draws, a fixed seed), because runs of one log are alike.
 

@@ -88,6 +88,17 @@ def has_truth(log):
     return log.name not in WITHOUT_TRUTH | IN_CELLS
 
 
+def is_captured(log):
+    """By cameras."""
+    return log.name.startswith("Vicon")
+
+
+def true_poses(log):
+    """How many its reference has, a TUM file. Raises OSError."""
+    lines = (mapped_runs.DATASETS / log.reference).read_text(encoding="utf-8").splitlines()
+    return sum(bool(line.strip()) and not line.startswith("#") for line in lines)
+
+
 @dataclasses.dataclass(frozen=True)
 class Run:
     log: Log

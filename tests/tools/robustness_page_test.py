@@ -6,6 +6,7 @@
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
@@ -195,6 +196,19 @@ class RobustnessPage(unittest.TestCase):
                       text)
         self.assertIn("Intervals are Wilson's, as of independent runs; those of the rows in bold are a bootstrap over "
                       "whole logs", text)
+
+    def test_the_page_says_how_many_poses_motion_capture_has(self):
+        flights = [ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name.startswith("Vicon")][:3]
+        real = [one for log in flights for one in made([0.1], beams=None, log=log)]
+        with mock.patch.object(runs, "true_poses", lambda log: 9 if log == flights[1] else 16):
+            text = rates.document(real, [], [], [], PAGE)
+            self.assertIn("Each flight of Vicon has 9 to 16 true poses, at its stops.", text)
+            self.assertNotIn("true poses", rates.document(made([0.1]), [], [], [], PAGE))
+
+    def test_lines_are_not_too_long(self):
+        built = buildings({seed: (1.0 + seed, "symmetrical") for seed in range(1, 20)})
+        for line in rates.document(made([0.1]), [], built, [], PAGE).splitlines():
+            self.assertTrue(len(line) <= 120 or line.startswith("|"), line)
 
     def test_the_page_names_the_data_that_were_missing(self):
         text = rates.document(made([0.1]), [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})

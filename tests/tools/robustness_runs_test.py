@@ -62,6 +62,11 @@ class RobustnessRuns(unittest.TestCase):
             self.assertEqual(results.get(run)["failed"], "exit code 3: it broke")
             self.assertIsNone(results.get(runs.with_settings(run, "[map]\n")))
 
+    def test_true_poses_are_counted(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(mapped_runs, "DATASETS", Path(folder)):
+            Path(folder, "a.tum").write_text("# stamp x y z qx qy qz qw\n1.0 0 0 0 0 0 0 1\n\n2.0 1 0 0 0 0 0 1\n")
+            self.assertEqual(runs.true_poses(mapped_runs.Log("a flight", "a.pcap", "a.tum")), 2)
+
     def test_the_kind_of_a_building_is_kept(self):
         self.assertEqual(runs.figures_of(REPORT)["kind"], "maze")
         self.assertIsNone(runs.figures_of({**REPORT, "input": {"notes": []}})["kind"])
