@@ -40,7 +40,9 @@ std::vector<Alarm> alarms_of(std::span<const DoubtedPose> poses) {
   return alarms;
 }
 
-bool is_false(const Alarm& alarm, std::span<const StampedError> errors, const AlarmTuning& tuning) {
+/// Nothing where no place was known.
+std::optional<bool> is_false(const Alarm& alarm, std::span<const StampedError> errors,
+                             const AlarmTuning& tuning) {
   const HostTime since = alarm.begin - from_seconds(tuning.grace_s);
   bool is_known = false;
   for (const StampedError& e : errors) {
@@ -48,7 +50,7 @@ bool is_false(const Alarm& alarm, std::span<const StampedError> errors, const Al
     if (e.error_m > tuning.right_m) return false;
     is_known = true;
   }
-  return is_known;
+  return is_known ? std::optional(true) : std::nullopt;
 }
 
 /// From the error's passing off_m until it is below right_m again.
@@ -89,7 +91,9 @@ AlarmCounts count_alarms(std::span<const DoubtedPose> poses, std::span<const Sta
   counts.alarms = alarms.size();
   for (const Alarm& alarm : alarms) {
     counts.seconds_doubted += to_seconds(alarm.end - alarm.begin);
-    counts.false_alarms += static_cast<std::size_t>(is_false(alarm, errors, tuning));
+    const std::optional<bool> judged = is_false(alarm, errors, tuning);
+    if (!judged) ++counts.unjudged_alarms;
+    if (judged.value_or(false)) ++counts.false_alarms;
   }
   for (const Alarm& off : times_off(errors, tuning)) {
     ++counts.times_off;

@@ -60,6 +60,7 @@ struct AlarmCounts {
   double seconds_doubted = 0.0;
   std::size_t alarms = 0;
   std::size_t false_alarms = 0;     ///< of those: the pose was right all the time
+  std::size_t unjudged_alarms = 0;  ///< of those: no place was known, nobody can tell
   std::size_t times_off = 0;        ///< that the error passed AlarmTuning::off_m at a known place
   std::vector<double> noticed_s{};  ///< after how long each of those was noticed; without those that were not
                                     ///< before the pose was right again or the run ended

@@ -24,6 +24,7 @@ nlohmann::ordered_json consistency_json(const RunConsistency& consistency) {
           {"seconds_doubted", alarms.seconds_doubted},
           {"alarms", alarms.alarms},
           {"false_alarms", alarms.false_alarms},
+          {"unjudged_alarms", alarms.unjudged_alarms},
           {"times_off", alarms.times_off},
           {"noticed_s", alarms.noticed_s}};
 }

@@ -25,10 +25,11 @@ std::string consistency_text(const RunConsistency& consistency) {
           "{:.2f} (3 on average where they are right)\n",
           at->path_m, at->error_m, at->error_yaw_rad, at->sigma_m, at->sigma_yaw_rad, at->nees);
   const AlarmCounts& alarms = consistency.alarms;
-  return text +
-         fmt::format("  in doubt {} times, {:.1f} % of the time; {} times while off by less than {} m\n",
-                     alarms.alarms, 100.0 * alarms.seconds_doubted / std::max(1.0, alarms.seconds),
-                     alarms.false_alarms, AlarmTuning{}.right_m);
+  return text + fmt::format(
+                    "  in doubt {} times, {:.1f} % of the time; {} times while off by less than {} m, "
+                    "{} times where no place was known\n",
+                    alarms.alarms, 100.0 * alarms.seconds_doubted / std::max(1.0, alarms.seconds),
+                    alarms.false_alarms, AlarmTuning{}.right_m, alarms.unjudged_alarms);
 }
 
 /// In the worst direction: the square root of the greater eigenvalue.

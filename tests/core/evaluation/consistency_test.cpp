@@ -80,13 +80,25 @@ TEST(CountAlarms, AnAlarmWhileThePoseIsRightIsFalse) {
   const AlarmCounts counts = count_alarms(poses_with_doubt(100, 50, 60), errors_with_fault(100, 0, 0, 0.0));
   EXPECT_EQ(counts.alarms, 1U);
   EXPECT_EQ(counts.false_alarms, 1U);
+  EXPECT_EQ(counts.unjudged_alarms, 0U);
   EXPECT_EQ(counts.seconds, 100.0);
   EXPECT_EQ(counts.seconds_doubted, 10.0);
+}
+
+TEST(CountAlarms, AnAlarmAtNoKnownPlaceCannotBeJudged) {
+  std::vector<StampedError> errors = errors_with_fault(100, 0, 0, 0.0);
+  std::erase_if(errors, [](const StampedError& e) { return e.stamp >= at_s(45) && e.stamp <= at_s(60); });
+  const AlarmCounts counts = count_alarms(poses_with_doubt(100, 50, 60), errors);
+  EXPECT_EQ(counts.alarms, 1U);
+  EXPECT_EQ(counts.false_alarms, 0U);
+  EXPECT_EQ(counts.unjudged_alarms, 1U);
+  EXPECT_EQ(count_alarms(poses_with_doubt(100, 50, 61), errors).unjudged_alarms, 0U) << "known at its end";
 }
 
 TEST(CountAlarms, OfAFaultTellHowLongItTookToNotice) {
   const AlarmCounts counts = count_alarms(poses_with_doubt(100, 43, 70), errors_with_fault(100, 40, 65, 2.0));
   EXPECT_EQ(counts.false_alarms, 0U);
+  EXPECT_EQ(counts.unjudged_alarms, 0U);
   EXPECT_EQ(counts.times_off, 1U);
   EXPECT_THAT(counts.noticed_s, ElementsAre(3.0));
 }

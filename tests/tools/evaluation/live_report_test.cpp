@@ -17,6 +17,8 @@ LiveEvaluation some_flight() {
   LiveEvaluation evaluation{"hall.pcap", {}, {}, {}};
   evaluation.consistency.at[1] = {.path_m = 20.25, .nees = 3.5, .error_m = 0.125, .sigma_m = 0.25};
   evaluation.consistency.alarms.alarms = 4;
+  evaluation.consistency.alarms.false_alarms = 1;
+  evaluation.consistency.alarms.unjudged_alarms = 2;
   KnownPlaceError& live = evaluation.live;
   live.moments = 2;
   live.rms_m = 0.25;
@@ -42,6 +44,7 @@ TEST(LiveReport, TellsPeopleWhatIsKnownAndWhatIsNot) {
   EXPECT_THAT(text, HasSubstr("after 20 m: off by 0.125 m and 0.000 rad, standard deviations 0.250 m"));
   EXPECT_THAT(text, HasSubstr("NEES 3.50"));
   EXPECT_THAT(text, HasSubstr("in doubt 4 times"));
+  EXPECT_THAT(text, HasSubstr("1 times while off by less than 0.5 m, 2 times where no place was known\n"));
 }
 
 TEST(LiveReport, TellsProgramsAllOfIt) {
@@ -57,6 +60,7 @@ TEST(LiveReport, TellsProgramsAllOfIt) {
   EXPECT_EQ(report["batch"]["live_rms_m"], 0.2);
   EXPECT_EQ(report["consistency"]["after"][0]["nees"], 3.5);
   EXPECT_EQ(report["consistency"]["alarms"], 4);
+  EXPECT_EQ(report["consistency"]["unjudged_alarms"], 2);
   EXPECT_EQ(report["poses"], json::array({{7.0, 1.5, -2.0, 0.25, 3.0, 1.0, "lost"}}));
 }
 
