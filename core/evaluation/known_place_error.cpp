@@ -81,6 +81,7 @@ class WayBack {
   void write(KnownPlaceError& error) const {
     error.contacts = contacts_;
     error.contacts_off = took_s_.size();
+    error.settled_s = took_s_;
     if (!took_s_.empty()) error.settled_p50_s = quantile(took_s_, 0.5);
   }
 
@@ -133,6 +134,8 @@ class Evaluator {
     error.share_off = static_cast<double>(off) / static_cast<double>(errors_m_.size());
     if (!across_m_.empty()) error.across_p95_m = quantile(across_m_, 0.95);
     if (!along_m_.empty()) error.along_p95_m = quantile(along_m_, 0.95);
+    error.across_m = std::move(across_m_);
+    error.along_m = std::move(along_m_);
     return error;
   }
 

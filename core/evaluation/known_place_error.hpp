@@ -66,6 +66,9 @@ struct KnownPlaceError {
   double greatest_jump_m = 0.0;
   std::array<std::optional<double>, 3> map_rms_m{};  ///< of old ground at distances_m as seen from the pose
   std::vector<StampedError> errors{};                ///< of each moment
+  std::vector<double> across_m{};                    ///< of each with a wall near
+  std::vector<double> along_m{};                     ///< likewise
+  std::vector<double> settled_s{};                   ///< of each contact that began off
 };
 
 /// The published pose at each moment against older keyframes nearby as they were published then, which are

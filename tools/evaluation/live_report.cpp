@@ -75,6 +75,9 @@ Json live_json(const KnownPlaceError& live) {
   Json& errors = json["errors_m"] = Json::array();
   for (const StampedError& at : live.errors)
     errors.push_back({to_seconds(at.stamp.time_since_epoch()), at.error_m});
+  json["across_m"] = live.across_m;
+  json["along_m"] = live.along_m;
+  json["settled_s"] = live.settled_s;
   return json;
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <numeric>
 
 namespace swiftlet {
 namespace {
@@ -51,6 +52,17 @@ TEST(KnownPlaceError, IsThatOfThePoseBesideTheOlderMap) {
   EXPECT_EQ(error.contacts_off, 1U);
   EXPECT_NEAR(error.settled_p50_s, 60 - 39, 1e-9) << "never: to the end";
   EXPECT_NEAR(error.map_rms_m[1].value(), 0.5, 1e-9) << "at 5 m";
+}
+
+TEST(KnownPlaceError, KeepsWhatItsFiguresAreOf) {
+  OutAndBack run(0.5);
+  run.moments.back().wall_normal_world.reset();
+  const KnownPlaceError error = run.error();
+  EXPECT_EQ(error.errors.size(), 22U);
+  ASSERT_EQ(error.across_m.size(), 21U) << "the last has no wall near";
+  EXPECT_EQ(error.along_m.size(), 21U);
+  EXPECT_NEAR(std::reduce(error.across_m.begin(), error.across_m.end()), 21 * 0.5, 1e-9);
+  EXPECT_EQ(error.settled_s, std::vector{21.0});
 }
 
 TEST(KnownPlaceError, HoldsThePoseAgainstTheMapOfThatMoment) {

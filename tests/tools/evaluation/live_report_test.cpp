@@ -24,6 +24,8 @@ LiveEvaluation some_flight() {
   live.rms_m = 0.25;
   live.share_off = 0.5;
   live.across_p95_m = 0.125;
+  live.across_m = {0.125};
+  live.settled_s = {2.5, 7.0};
   live.contacts = 3;
   live.map_rms_m[0] = 0.375;
   evaluation.poses = {{.stamp = HostTime(std::chrono::seconds(7)),
@@ -57,6 +59,9 @@ TEST(LiveReport, TellsProgramsAllOfIt) {
   EXPECT_EQ(report["live"]["along_p95_m"], nullptr);
   EXPECT_EQ(report["live"]["map_rms_m"], json({0.375, nullptr, nullptr}));
   EXPECT_EQ(report["live"]["errors_m"], json({{7.0, 0.125}, {8.0, 0.375}}));
+  EXPECT_EQ(report["live"]["across_m"], json({0.125}));
+  EXPECT_EQ(report["live"]["along_m"], json::array());
+  EXPECT_EQ(report["live"]["settled_s"], json({2.5, 7.0}));
   EXPECT_EQ(report["batch"]["live_rms_m"], 0.2);
   EXPECT_EQ(report["consistency"]["after"][0]["nees"], 3.5);
   EXPECT_EQ(report["consistency"]["alarms"], 4);
