@@ -5,6 +5,7 @@ commit and machine."""
 
 import datetime
 import json
+import math
 import os
 import re
 import subprocess
@@ -62,6 +63,11 @@ def table(columns, rows):
     lines = [[column.rstrip(":") for column in columns], *rows]
     texts = ["| " + " | ".join(line) + " |" for line in lines]
     return "\n".join([texts[0], "|" + "|".join(marks) + "|", *texts[1:]])
+
+
+def quantile(values, share):
+    """The greatest of the lowest share of them, as `swiftlet eval` has it. `values`: at least one."""
+    return sorted(values)[max(math.ceil(share * len(values)), 1) - 1]
 
 
 def record(name, text, folder=RESULTS):

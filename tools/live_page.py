@@ -3,7 +3,6 @@
 """docs/results/live.md: the pose as published beside the map as published."""
 
 import math
-import statistics
 
 import benchmark_page as page
 
@@ -17,17 +16,16 @@ def number(value, form=".2f"):
 
 
 def percent(share):
-    return f"{100 * share:.1f} %"
+    return NONE if share is None else f"{100 * share:.1f} %"
 
 
 def cells(live):
     if live["moments"] == 0:
         return [NONE] * len(HEADINGS)
-    settled = live["settled_p50_s"] if live["contacts_off"] else None
     return [number(live["rms_m"], ".3f"), number(live["p95_m"]), number(live["max_m"]), percent(live["share_off"]),
             number(live["across_p95_m"]), number(live["along_p95_m"]), str(live["contacts"]),
-            str(live["contacts_off"]), number(settled, ".1f"), str(live["jumps"]), number(live["greatest_jump_m"]),
-            *(number(off) for off in live["map_rms_m"])]
+            str(live["contacts_off"]), number(live["settled_p50_s"], ".1f"), str(live["jumps"]),
+            number(live["greatest_jump_m"]), *(number(off) for off in live["map_rms_m"])]
 
 
 def _pooled(lives, key, moments):
@@ -37,19 +35,29 @@ def _pooled(lives, key, moments):
     return math.sqrt(sum(value ** 2 * count for value, count in known) / sum(count for _, count in known))
 
 
+def _quantile(values, share):
+    return page.quantile(values, share) if values else None
+
+
 def combined(lives):
-    """The figures of several flights as those of one: of p95 and map the root mean square, of the times the median."""
+    """The figures of several flights as those of one, that of the map by the flights' moments."""
     lives = [live for live in lives if live["moments"]]
     if not lives:
         return {"moments": 0}
     moments = [live["moments"] for live in lives]
-    off = [live["settled_p50_s"] for live in lives if live["contacts_off"]]
+
+    def values(key):
+        return [value for live in lives for value in live[key]]
+
     return {"moments": sum(moments),
-            **{key: _pooled(lives, key, moments) for key in ("rms_m", "p95_m", "across_p95_m", "along_p95_m")},
+            "rms_m": _pooled(lives, "rms_m", moments),
+            "p95_m": _quantile([error_m for _, error_m in values("errors_m")], 0.95),
+            "across_p95_m": _quantile(values("across_m"), 0.95),
+            "along_p95_m": _quantile(values("along_m"), 0.95),
             "max_m": max(live["max_m"] for live in lives),
             "share_off": sum(live["share_off"] * count for live, count in zip(lives, moments)) / sum(moments),
             **{key: sum(live[key] for live in lives) for key in ("contacts", "contacts_off", "jumps")},
-            "settled_p50_s": statistics.median(off) if off else 0.0,
+            "settled_p50_s": _quantile(values("settled_s"), 0.5),
             "greatest_jump_m": max(live["greatest_jump_m"] for live in lives),
             "map_rms_m": [_pooled([{"off": live["map_rms_m"][i]} for live in lives], "off", moments)
                           for i in range(3)]}
@@ -70,7 +78,7 @@ def batch_of(rows):
     """The figures of several flights as those of one."""
     batches = [row["batch"] for row in rows if row["batch"]["moments"]]
     moments = [batch["moments"] for batch in batches]
-    shares = {key: sum(batch[key] * count for batch, count in zip(batches, moments)) / max(sum(moments), 1)
+    shares = {key: sum(batch[key] * count for batch, count in zip(batches, moments)) / sum(moments) if moments else None
               for key in ("share_off", "live_share_off")}
     return {"moments": sum(moments), **shares,
             **{key: _pooled(batches, key, moments) for key in ("rms_m", "live_rms_m")}}
@@ -113,6 +121,7 @@ as it stood at that moment, aligned locally to the truth; of recorded flights to
 share of the time. "Across" and "along" are the parts of the error to the nearest wall. "Off" are contacts with old
 ground that begin with more than 0.2 m; the time is that until below, half of them. "Jumps" are corrections of the
 published pose by more than 0.3 m. The last columns: how far off old ground lies 2, 5 and 10 m away, as seen from the
-pose. [evaluation.md](../evaluation.md#known-places) defines the figures.
+pose. [evaluation.md](../evaluation.md#known-places) defines the figures. Of flights together
+they are of all their moments and contacts; in the last columns each flight counts by its moments.
 
 {tables(report)}"""

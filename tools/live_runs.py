@@ -40,6 +40,5 @@ def evaluate(flight, swiftlet, config=None):
     settings = [] if config is None else ["--config", str(config)]
     command = [str(swiftlet), "eval", "--live", *flight.arguments(), *settings, "--json", "-"]
     figures = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-    figures["live"].pop("errors_m", None)
     figures.pop("poses", None)
     return {"world": flight.world, "is_recorded": flight.is_recorded, **figures}
