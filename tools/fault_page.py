@@ -13,7 +13,7 @@ GOOD_M = 0.15
 WRONG_M = fault_runs.WRONG_M
 SURE_M = 1.0  # a wrong place counts as believed when a pose on it is published as good for this way
 HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", f"over {WRONG_M:g} m:", "found back:",
-            "way p50, m:", "p90, m:", "wrongly sure:", "in doubt:", "after p90, s:"]
+            "way p50, m:", "p90, m:", "wrongly sure:", "in doubt:", "after p50, s:", "p90, s:"]
 
 
 def percent(flags):
@@ -21,8 +21,7 @@ def percent(flags):
 
 
 def p90(values):
-    """The smallest of them that no more than a tenth exceed."""
-    return sorted(values)[math.ceil(0.9 * len(values)) - 1]
+    return page.quantile(values, 0.9)
 
 
 def reached_cells(values):
@@ -32,17 +31,27 @@ def reached_cells(values):
     return [percent(value is not None for value in values), *figures] if values else [NONE] * 3
 
 
+def doubt_cells(values):
+    """`values`: None where a run did not doubt. The share that did, the median and p90 of all."""
+    if not values:
+        return [NONE] * 3
+    seconds = [math.inf if value is None else value for value in values]
+    figures = [figure(seconds) for figure in (statistics.median, p90)]
+    return [percent(value is not None for value in values),
+            *("never" if math.isinf(figure) else f"{figure:.1f}" for figure in figures)]
+
+
 def cells(results):
     """Of the runs of one world and fault."""
     def having(key):
         return [result[key] for result in results if key in result]
 
     finals, believed = having("final_m"), having("believed_m")
-    doubted, _, doubt_p90 = reached_cells(having("noticed_s"))
     return [str(len(finals)), f"{statistics.median(finals):.3f}", f"{max(finals):.3f}",
             percent(final < GOOD_M for final in finals), percent(final > WRONG_M for final in finals),
             *reached_cells(having("way_back_m")),
-            percent(way > SURE_M for way in believed) if believed else NONE, doubted, doubt_p90]
+            percent(way > SURE_M for way in believed) if believed else NONE,
+            *doubt_cells(having("noticed_s"))]
 
 
 def world_table(rows):
@@ -82,7 +91,8 @@ ground within 3 m that was flown long before; errors are against that ground. "F
 came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m; "way" is what these runs flew from the first known place
 until then. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
 {SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those
-whose state said so; "after": how long after it had passed.
+whose state said so before the error fell below {near_m} m again; "after": how long after it had passed, where a run that
+did not say so counts as longer than any ("never").
 
 {tables(report)}
 ## Known not to work

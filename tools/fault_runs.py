@@ -17,7 +17,7 @@ WORLDS = ["office", "maze"]
 STOREYS = "storeys"  # nothing breaks there: the vehicle flies up the stairs, and back
 SEEDS = 10  # of each world, from 1 on
 BREAK_S = 150  # after the first sample
-NEAR_M = 0.5  # within which a live pose counts as found back...
+NEAR_M = 0.5  # within which a live pose is right again, and counts as found back...
 STAYS_M = 5.0  # ...if it stays so for this way
 WRONG_M = 1.0
 SURE = "tracking"  # the published state of a good pose
@@ -112,12 +112,18 @@ def way_back_m(after):
     return None if back_m is None else back_m - after[0].way_m
 
 
-def noticed_s(after):
-    """From the first moment with an error beyond WRONG_M until the next that is published in doubt; 0 where it is
-    itself, None where none is. `after`: moments of which one is beyond WRONG_M."""
+def doubted_s(evaluation):
+    """The stamps of the poses published in doubt, at known places or not. `evaluation`: as for moments()."""
+    return [1e-3 * round(row[0] * 1e3) for row in evaluation["poses"] if row[6] != SURE]
+
+
+def noticed_s(after, doubted):
+    """From the first moment with an error beyond WRONG_M until the next pose in doubt; 0 where it is itself, None where
+    none is before the error has fallen below NEAR_M, as count_alarms() in core/evaluation has it. `after`: moments of
+    which one is beyond WRONG_M. `doubted`: as doubted_s() has them."""
     wrong_s = next(moment.stamp_s for moment in after if moment.error_m > WRONG_M)
-    doubted_s = (moment.stamp_s for moment in after if moment.stamp_s >= wrong_s and moment.state != SURE)
-    return next((stamp_s - wrong_s for stamp_s in doubted_s), None)
+    right_s = next((moment.stamp_s for moment in after if moment.stamp_s > wrong_s and moment.error_m < NEAR_M), math.inf)
+    return next((stamp_s - wrong_s for stamp_s in doubted if wrong_s <= stamp_s <= right_s), None)
 
 
 def believed_m(after):
@@ -126,13 +132,13 @@ def believed_m(after):
                if b.state == SURE and b.error_m > WRONG_M and b.stamp_s - a.stamp_s < GAP_S)
 
 
-def figures(fault, final_m, after):
+def figures(fault, final_m, after, doubted):
     """Of a run with these moments behind the break. Figures that mean nothing in it are absent."""
     result = {"final_m": final_m}
     if after:
         result |= {"way_back_m": way_back_m(after), "believed_m": believed_m(after)}
     if not fault.is_told() and any(moment.error_m > WRONG_M for moment in after):
-        result["noticed_s"] = noticed_s(after)
+        result["noticed_s"] = noticed_s(after, doubted)
     return result
 
 
@@ -144,4 +150,4 @@ class Results(mapped_runs.Results):
             truth = log_sharpness.poses_of(Path(name, "ground_truth.tum"))
         evaluation = json.loads(page.run(str(self.swiftlet), "eval", "--live", run.log.source, "--json", "-"))
         return figures(run.fault, report["absolute_trajectory_error"]["corrected"]["rmse_m"],
-                       moments(evaluation, truth, run.fault.end_s()))
+                       moments(evaluation, truth, run.fault.end_s()), doubted_s(evaluation))

@@ -57,15 +57,27 @@ class WayBack(unittest.TestCase):
 
 
 class Doubt(unittest.TestCase):
+    def noticed_s(self, *errors_m, states=""):
+        moments = after(*errors_m, states=states)
+        return runs.noticed_s(moments, [moment.stamp_s for moment in moments if moment.state != runs.SURE])
+
     def test_it_comes_so_long_after_the_error_has_passed_the_limit(self):
-        self.assertEqual(runs.noticed_s(after(0.2, 0.9, 1.1, 1.5, 2, states="ttttu")), 1.0)
+        self.assertEqual(self.noticed_s(0.2, 0.9, 1.1, 1.5, 2, states="ttttu"), 1.0)
 
     def test_it_may_have_begun_before_or_never_come(self):
-        self.assertEqual(runs.noticed_s(after(0.2, 0.9, 1.1, states="tuu")), 0.0)
-        self.assertIsNone(runs.noticed_s(after(0.2, 0.9, 1.1)))
+        self.assertEqual(self.noticed_s(0.2, 0.9, 1.1, states="tuu"), 0.0)
+        self.assertIsNone(self.noticed_s(0.2, 0.9, 1.1))
 
     def test_what_ended_before_does_not_count(self):
-        self.assertIsNone(runs.noticed_s(after(0.2, 0.9, 1.1, states="utt")))
+        self.assertIsNone(self.noticed_s(0.2, 0.9, 1.1, states="utt"))
+
+    def test_it_is_too_late_where_the_pose_is_right_again(self):
+        self.assertIsNone(self.noticed_s(2, 0.6, 0.4, 0.4, 2, states="ttttu"))
+        self.assertEqual(self.noticed_s(2, 0.6, 0.4, 0.4, 2, states="ttutt"), 1.0, "it came with the right pose")
+        self.assertEqual(self.noticed_s(2, 0.6, 0.9, states="ttu"), 1.0, "it was not right yet")
+
+    def test_it_may_come_where_no_place_is_known(self):
+        self.assertEqual(runs.noticed_s(after(2, 2), [39.0, 40.25, 40.5]), 0.25)
 
     def test_the_way_counts_that_is_published_as_good_far_off(self):
         self.assertEqual(runs.believed_m(after(2, 2, 2, 0.9, 2, states="utttt")), 3.0)
@@ -101,9 +113,9 @@ class FaultRuns(unittest.TestCase):
             self.assertLessEqual(figures.items(), results.get(run).items())
 
     def test_figures_that_mean_nothing_in_a_run_are_absent(self):
-        self.assertEqual(runs.figures(runs.Fault("jump", 20), 0.1, []), {"final_m": 0.1})
-        self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), 0.1, after(0.1, 0.2)))
-        self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), 0.1, after(2, 2)))
+        self.assertEqual(runs.figures(runs.Fault("jump", 20), 0.1, [], []), {"final_m": 0.1})
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), 0.1, after(0.1, 0.2), []))
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), 0.1, after(2, 2), []))
 
 
 class FaultPage(unittest.TestCase):
@@ -111,9 +123,15 @@ class FaultPage(unittest.TestCase):
         results = [{"final_m": final, "way_back_m": way, "believed_m": believed, "noticed_s": noticed}
                    for final, way, believed, noticed in
                    ((0.1, 4.0, 0.0, 1.0), (0.12, 8.0, 0.9, 0.0), (0.2, 3.0, 2.0, 7.0), (3.0, None, 9.0, None))]
-        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 %", "4.0", "8.0", "50 %", "75 %", "7.0"])
-        self.assertEqual(page.cells([{"final_m": 0.1}])[5:], ["–"] * 6)
+        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 %", "4.0", "8.0", "50 %",
+                                               "75 %", "4.0", "never"])
+        self.assertEqual(page.cells([{"final_m": 0.1}])[5:], ["–"] * 7)
         self.assertEqual(page.cells([{"final_m": 0.1, "way_back_m": None}])[5:8], ["0 %", "–", "–"])
+
+    def test_a_doubt_that_never_came_is_longer_than_any(self):
+        self.assertEqual(page.doubt_cells([3.0] * 9 + [None]), ["90 %", "3.0", "3.0"], "one in ten may be missed")
+        self.assertEqual(page.doubt_cells([3.0] * 8 + [None] * 2), ["80 %", "3.0", "never"])
+        self.assertEqual(page.doubt_cells([0.5] + [None] * 9), ["10 %", "never", "never"])
 
     def test_a_tenth_of_the_values_exceeds_p90(self):
         self.assertEqual(page.p90(range(10, 0, -1)), 9)
