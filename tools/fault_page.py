@@ -12,7 +12,7 @@ NONE = "–"
 GOOD_M = 0.15
 WRONG_M = fault_runs.WRONG_M
 SURE_M = 1.0  # a wrong place counts as believed when a pose on it is published as good for this way
-HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", f"over {WRONG_M:g} m:", "found back:",
+HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", "wrong place:", "found back:",
             "way p50, m:", "p90, m:", "wrongly sure:", "in doubt:", "after p50, s:", "p90, s:"]
 
 
@@ -41,6 +41,10 @@ def doubt_cells(values):
             *("never" if math.isinf(figure) else f"{figure:.1f}" for figure in figures)]
 
 
+def believes_wrong_place(result):
+    return result["wrong_way_m"] > fault_runs.WRONG_WAY_M
+
+
 def cells(results):
     """Of the runs of one world and fault."""
     def having(key):
@@ -48,7 +52,7 @@ def cells(results):
 
     finals, believed = having("final_m"), having("believed_m")
     return [str(len(finals)), f"{statistics.median(finals):.3f}", f"{max(finals):.3f}",
-            percent(final < GOOD_M for final in finals), percent(final > WRONG_M for final in finals),
+            percent(final < GOOD_M for final in finals), percent(map(believes_wrong_place, results)),
             *reached_cells(having("way_back_m")),
             percent(way > SURE_M for way in believed) if believed else NONE,
             *doubt_cells(having("noticed_s"))]
@@ -70,8 +74,8 @@ def tables(report):
 
 def wrong_though_told(rows):
     """Markdown: the runs whose final map believes a wrong place although the input told of the break."""
-    wrong = [f"- `{run.title()}`: {result['final_m']:.1f} m" for run, result in rows
-             if run.fault.is_told() and result["final_m"] > WRONG_M]
+    wrong = [f"- `{run.title()}`: over {result['wrong_way_m']:.0f} m" for run, result in rows
+             if run.fault.is_told() and believes_wrong_place(result)]
     return "\n".join(wrong or ["- none"])
 
 
@@ -85,10 +89,11 @@ vehicle where it is; one that was `carried` restarts where it would have been by
 heading, of a `slip` (the estimate stays while the vehicle flies on) and of a `teleport` (it is carried and the estimate
 goes on). In `{fault_runs.STOREYS}` the vehicle flies up the stairs of a house and back: the floors must not be mixed.
 
-"Final error" is the RMSE of the corrected path. "Over {WRONG_M:g} m" are the runs whose final map still believes a
-wrong place. The rest is of the live pose at [known places](live.md) behind the break: where the map as it stood then has
-ground within 3 m that was flown long before; errors are against that ground. "Found back" are the runs whose live pose
-came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m; "way" is what these runs flew from the first known place
+"Final error" is the RMSE of the corrected path after the best rigid alignment of the whole. "Wrong place" are the runs
+whose final map still believes one: put onto the truth by what was flown before the break, their corrected path is more
+than {WRONG_M:g} m off over more than {fault_runs.WRONG_WAY_M:g} m of the way behind it. The rest is of the live pose at
+[known places](live.md) behind the break: where the map as it stood then has ground within 3 m that was flown long
+before; errors are against that ground. "Found back" are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m; "way" is what these runs flew from the first known place
 until then. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
 {SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those
 whose state said so before the error fell below {near_m} m again; "after": how long after it had passed, where a run that
@@ -105,7 +110,7 @@ as the final errors show; the error of a slip also holds the stretch over which 
 The office looks nearly the same after half a turn around its middle. A vehicle that is carried to ground that it has not
 flown yet, but whose twin it has, is placed at the twin: nothing that it sees there speaks against it.
 
-Runs over {WRONG_M:g} m though the input told of the break:
+Runs that believe a wrong place though the input told of the break, and over how much way:
 
 {wrong_though_told(report['rows'])}
 """

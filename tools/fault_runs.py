@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 
 import benchmark_page as page
+import doubt_runs
 import log_sharpness
 import mapped_runs
 import whole_runs
@@ -20,6 +21,7 @@ BREAK_S = 150  # after the first sample
 NEAR_M = 0.5  # within which a live pose is right again, and counts as found back...
 STAYS_M = 5.0  # ...if it stays so for this way
 WRONG_M = 1.0
+WRONG_WAY_M = 5.0  # a final path that is beyond WRONG_M over more than this believes a wrong place
 SURE = "tracking"  # the published state of a good pose
 GAP_S = 1.0  # between moments: old ground was out of reach
 
@@ -79,6 +81,12 @@ def flown_m(truth):
     return ways
 
 
+def counted_m(samples):
+    """The way to each sample that counts from the one before. `samples`: (stamp_s, way_m, counts), in order."""
+    return sum(b_m - a_m for (a_s, a_m, _), (b_s, b_m, counts) in zip(samples, samples[1:])
+               if counts and b_s - a_s < GAP_S)
+
+
 @dataclasses.dataclass(frozen=True)
 class Moment:
     """A sample behind the break, over ground that was mapped long before."""
@@ -122,19 +130,30 @@ def noticed_s(after, doubted):
     none is before the error has fallen below NEAR_M, as count_alarms() in core/evaluation has it. `after`: moments of
     which one is beyond WRONG_M. `doubted`: as doubted_s() has them."""
     wrong_s = next(moment.stamp_s for moment in after if moment.error_m > WRONG_M)
-    right_s = next((moment.stamp_s for moment in after if moment.stamp_s > wrong_s and moment.error_m < NEAR_M), math.inf)
+    right_s = next((moment.stamp_s for moment in after if moment.stamp_s > wrong_s and moment.error_m < NEAR_M),
+                   math.inf)
     return next((stamp_s - wrong_s for stamp_s in doubted if wrong_s <= stamp_s <= right_s), None)
 
 
 def believed_m(after):
     """The way flown while a pose beyond WRONG_M was published as good."""
-    return sum(b.way_m - a.way_m for a, b in zip(after, after[1:])
-               if b.state == SURE and b.error_m > WRONG_M and b.stamp_s - a.stamp_s < GAP_S)
+    return counted_m([(moment.stamp_s, moment.way_m, moment.state == SURE and moment.error_m > WRONG_M)
+                      for moment in after])
 
 
-def figures(fault, final_m, after, doubted):
-    """Of a run with these moments behind the break. Figures that mean nothing in it are absent."""
-    result = {"final_m": final_m}
+def wrong_way_m(final, truth, fault):
+    """The way behind the break over which the final path is beyond WRONG_M, put onto the truth by what was flown
+    before: a fit of the whole would share the error out. `final`, `truth`: as log_sharpness.poses_of() has them."""
+    start, ways = min(truth), flown_m(truth)
+    pairs = {stamp: (complex(*final[stamp][:2]), complex(*truth[stamp][:2])) for stamp in sorted(final.keys() & truth)}
+    placed = doubt_runs.onto([pair for stamp, pair in pairs.items() if stamp < start + 1e3 * BREAK_S])
+    return counted_m([(1e-3 * stamp, ways[stamp], abs(placed(mapped) - true) > WRONG_M)
+                      for stamp, (mapped, true) in pairs.items() if stamp >= start + 1e3 * fault.end_s()])
+
+
+def figures(fault, after, doubted):
+    """Of the live pose in a run with these moments behind the break. Figures that mean nothing in it are absent."""
+    result = {}
     if after:
         result |= {"way_back_m": way_back_m(after), "believed_m": believed_m(after)}
     if not fault.is_told() and any(moment.error_m > WRONG_M for moment in after):
@@ -144,10 +163,11 @@ def figures(fault, final_m, after, doubted):
 
 class Results(mapped_runs.Results):
     def executed(self, run):
-        """As figures()."""
+        """The errors of the final path, and figures()."""
         with tempfile.TemporaryDirectory() as name:
             report = whole_runs.run(self.swiftlet, [run.log.source], name)
-            truth = log_sharpness.poses_of(Path(name, "ground_truth.tum"))
+            final, truth = (log_sharpness.poses_of(Path(name, file)) for file in ("trajectory.tum", "ground_truth.tum"))
         evaluation = json.loads(page.run(str(self.swiftlet), "eval", "--live", run.log.source, "--json", "-"))
-        return figures(run.fault, report["absolute_trajectory_error"]["corrected"]["rmse_m"],
-                       moments(evaluation, truth, run.fault.end_s()), doubted_s(evaluation))
+        return {"final_m": report["absolute_trajectory_error"]["corrected"]["rmse_m"],
+                "wrong_way_m": wrong_way_m(final, truth, run.fault),
+                **figures(run.fault, moments(evaluation, truth, run.fault.end_s()), doubted_s(evaluation))}

@@ -18,6 +18,7 @@ PRETENDS = """#!/bin/sh
 if [ "$1" = map ]; then
   echo '{"absolute_trajectory_error": {"corrected": {"rmse_m": 0.25}}}' > "$4/report.json"
   for i in 0 149 160 170; do echo "$i $i 0 0 0 0 0 1"; done > "$4/ground_truth.tum"
+  for i in 0 149 160 170; do echo "$i 5 $i 0 0 0 0 1"; done > "$4/trajectory.tum"
 else
   echo '{"live": {"errors_m": [[149, 0], [160, 2], [170, 0.1]]},
          "poses": [[149, 0, 0, 0, 0, 0, "tracking"], [160, 0, 0, 0, 0, 0, "lost"], [170, 0, 0, 0, 0, 0, "tracking"]]}'
@@ -40,6 +41,31 @@ class Moments(unittest.TestCase):
                       "poses": [[float(s), 0, 0, 0, 0, 0, "tracking" if s < 26 else "lost"] for s in range(5, 46)]}
         self.assertEqual(runs.moments(evaluation, self.TRUTH, end_s=20),
                          [runs.Moment(25.0, 10.0, 0.2, "tracking"), runs.Moment(27.0, 11.0, 0.3, "lost")])
+
+
+class WrongPlace(unittest.TestCase):
+    def wrong_way_m(self, off_m, fault=runs.Fault("jump", 20)):
+        """Of a flight of 300 s at 0.5 m/s whose final path is turned by 90 degrees. `off_m`: of stamp."""
+        truth = {500 * i: (0.25 * i, 0.0, 0.0) for i in range(601)}
+        final = {stamp: (-off_m(stamp / 1000) - 7.0, x_m, 0.0) for stamp, (x_m, _, _) in truth.items() if stamp != 7000}
+        return runs.wrong_way_m(final, truth, fault)
+
+    def test_a_map_that_is_only_turned_and_moved_is_right(self):
+        self.assertEqual(self.wrong_way_m(lambda s: 0.0), 0.0)
+
+    def test_a_wrong_end_is_not_levelled_out_by_the_rest(self):
+        self.assertAlmostEqual(self.wrong_way_m(lambda s: 1.5 if s >= 270 else 0.0), 15.25)
+
+    def test_a_wrong_middle_counts_though_the_end_is_right(self):
+        self.assertAlmostEqual(self.wrong_way_m(lambda s: 1.5 if 200 <= s < 220 else 0.0), 10.0)
+
+    def test_what_is_flown_before_the_break_ends_does_not_count(self):
+        self.assertEqual(self.wrong_way_m(lambda s: 1.5 if 150 <= s < 180 else 0.0, runs.Fault("silence", 30)), 0.0)
+
+    def test_a_way_that_nobody_saw_does_not_count(self):
+        truth = {500 * i: (0.25 * i, 0.0, 0.0) for i in [*range(320), *range(380, 390)]}
+        final = {stamp: (x_m, 2.0 if stamp >= 150000 else 0.0, 0.0) for stamp, (x_m, _, _) in truth.items()}
+        self.assertAlmostEqual(runs.wrong_way_m(final, truth, runs.Fault("slip", 6)), 4.75 + 2.25)
 
 
 class WayBack(unittest.TestCase):
@@ -109,24 +135,26 @@ class FaultRuns(unittest.TestCase):
             results = runs.Results(Path(name, "kept"), program)
             run = runs.run_of("maze", 3, runs.Fault("slip", 6))
             results.make(run, at_once=1)
-            figures = {"final_m": 0.25, "way_back_m": 10.0, "believed_m": 0, "noticed_s": 0.0}
+            figures = {"final_m": 0.25, "wrong_way_m": 0, "way_back_m": 10.0, "believed_m": 0, "noticed_s": 0.0}
             self.assertLessEqual(figures.items(), results.get(run).items())
 
     def test_figures_that_mean_nothing_in_a_run_are_absent(self):
-        self.assertEqual(runs.figures(runs.Fault("jump", 20), 0.1, [], []), {"final_m": 0.1})
-        self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), 0.1, after(0.1, 0.2), []))
-        self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), 0.1, after(2, 2), []))
+        self.assertEqual(runs.figures(runs.Fault("jump", 20), [], []), {})
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), after(0.1, 0.2), []))
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), after(2, 2), []))
 
 
 class FaultPage(unittest.TestCase):
     def test_a_line_has_the_runs_of_one_fault_in_one_world(self):
-        results = [{"final_m": final, "way_back_m": way, "believed_m": believed, "noticed_s": noticed}
-                   for final, way, believed, noticed in
-                   ((0.1, 4.0, 0.0, 1.0), (0.12, 8.0, 0.9, 0.0), (0.2, 3.0, 2.0, 7.0), (3.0, None, 9.0, None))]
+        keys = "final_m", "wrong_way_m", "way_back_m", "believed_m", "noticed_s"
+        results = [dict(zip(keys, figures)) for figures in
+                   ((0.1, 0, 4.0, 0.0, 1.0), (0.12, 5.0, 8.0, 0.9, 0.0), (0.2, 9.0, 3.0, 2.0, 7.0),
+                    (3.0, 2.0, None, 9.0, None))]
         self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 %", "4.0", "8.0", "50 %",
                                                "75 %", "4.0", "never"])
-        self.assertEqual(page.cells([{"final_m": 0.1}])[5:], ["–"] * 7)
-        self.assertEqual(page.cells([{"final_m": 0.1, "way_back_m": None}])[5:8], ["0 %", "–", "–"])
+        bare = {"final_m": 0.1, "wrong_way_m": 0}
+        self.assertEqual(page.cells([bare])[5:], ["–"] * 7)
+        self.assertEqual(page.cells([{**bare, "way_back_m": None}])[5:8], ["0 %", "–", "–"])
 
     def test_a_doubt_that_never_came_is_longer_than_any(self):
         self.assertEqual(page.doubt_cells([3.0] * 9 + [None]), ["90 %", "3.0", "3.0"], "one in ten may be missed")
@@ -138,7 +166,8 @@ class FaultPage(unittest.TestCase):
         self.assertEqual(page.p90([7]), 7)
 
     def test_the_page_has_a_table_for_each_world(self):
-        rows = [(runs.run_of(world, 1, runs.Fault("silence", 31)), {"final_m": final, "way_back_m": 1.0})
+        rows = [(runs.run_of(world, 1, runs.Fault("silence", 31)),
+                 {"final_m": final, "wrong_way_m": 0, "way_back_m": 1.0})
                 for world, final in (("office", 0.1), ("maze", 0.5))]
         text = page.document({"date": "2026-01-02", "commit": "abc", "machine": "a machine", "seeds": 1, "rows": rows})
         self.assertIn("`tools/benchmark-faults --record` on 2026-01-02, commit abc", text)
@@ -147,9 +176,9 @@ class FaultPage(unittest.TestCase):
         self.assertIn("| `silence@150:31` | 1 | 0.500 | 0.500 |", maze)
 
     def test_the_page_names_the_runs_that_were_told_and_are_wrong_nonetheless(self):
-        kinds = (("reset", 3.0), ("restart", 0.9), ("slip", 3.0))
-        rows = [(runs.run_of("maze", 1, runs.Fault(kind)), {"final_m": final}) for kind, final in kinds]
-        self.assertEqual(page.wrong_though_told(rows), "- `sim://maze?seed=1&fault=reset@150`: 3.0 m")
+        kinds = (("reset", 30.0), ("restart", 4.9), ("slip", 30.0))
+        rows = [(runs.run_of("maze", 1, runs.Fault(kind)), {"wrong_way_m": way}) for kind, way in kinds]
+        self.assertEqual(page.wrong_though_told(rows), "- `sim://maze?seed=1&fault=reset@150`: over 30 m")
         self.assertEqual(page.wrong_though_told(rows[1:]), "- none")
 
 
