@@ -20,6 +20,11 @@ def percent(flags):
     return f"{100 * statistics.mean(flags):.0f} %"
 
 
+def share(flags):
+    """Of the runs that can tell, and how many these are."""
+    return f"{percent(flags)} of {len(flags)}" if flags else NONE
+
+
 def p90(values):
     return page.quantile(values, 0.9)
 
@@ -28,7 +33,7 @@ def reached_cells(values):
     """`values`: None where a run did not come so far. Its share, the median and p90 of the others."""
     known = [value for value in values if value is not None]
     figures = [f"{figure(known):.1f}" for figure in (statistics.median, p90)] if known else [NONE, NONE]
-    return [percent(value is not None for value in values), *figures] if values else [NONE] * 3
+    return [share([value is not None for value in values]), *figures]
 
 
 def doubt_cells(values):
@@ -37,7 +42,7 @@ def doubt_cells(values):
         return [NONE] * 3
     seconds = [math.inf if value is None else value for value in values]
     figures = [figure(seconds) for figure in (statistics.median, p90)]
-    return [percent(value is not None for value in values),
+    return [share([value is not None for value in values]),
             *("never" if math.isinf(figure) else f"{figure:.1f}" for figure in figures)]
 
 
@@ -54,8 +59,7 @@ def cells(results):
     return [str(len(finals)), f"{statistics.median(finals):.3f}", f"{max(finals):.3f}",
             percent(final < GOOD_M for final in finals), percent(map(believes_wrong_place, results)),
             *reached_cells(having("way_back_m")),
-            percent(way > SURE_M for way in believed) if believed else NONE,
-            *doubt_cells(having("noticed_s"))]
+            share([way > SURE_M for way in believed]), *doubt_cells(having("noticed_s"))]
 
 
 def world_table(rows):
@@ -93,11 +97,13 @@ goes on). In `{fault_runs.STOREYS}` the vehicle flies up the stairs of a house a
 whose final map still believes one: put onto the truth by what was flown before the break, their corrected path is more
 than {WRONG_M:g} m off over more than {fault_runs.WRONG_WAY_M:g} m of the way behind it. The rest is of the live pose at
 [known places](live.md) behind the break: where the map as it stood then has ground within 3 m that was flown long
-before; errors are against that ground. "Found back" are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m; "way" is what these runs flew from the first known place
-until then. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
-{SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those
-whose state said so before the error fell below {near_m} m again; "after": how long after it had passed, where a run that
-did not say so counts as longer than any ("never").
+before; errors are against that ground. Shares say of how many runs they are: some hardly meet known places there. "Found back"
+are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m, or to the end of the run and
+for {fault_runs.LEAST_STAY_M:g} m at least; "way" is what these runs flew from the first known place until then. "Wrongly sure"
+are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over {SURE_M:g} m of way. "In doubt"
+are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those whose state said so before the
+error fell below {near_m} m again; "after": how long after it had passed, where a run that did not say so counts as longer
+than any ("never").
 
 {tables(report)}
 ## Known not to work

@@ -19,7 +19,8 @@ STOREYS = "storeys"  # nothing breaks there: the vehicle flies up the stairs, an
 SEEDS = 10  # of each world, from 1 on
 BREAK_S = 150  # after the first sample
 NEAR_M = 0.5  # within which a live pose is right again, and counts as found back...
-STAYS_M = 5.0  # ...if it stays so for this way
+STAYS_M = 5.0  # ...if it stays so for this way...
+LEAST_STAY_M = 1.0  # ...or to the end of the run, for this at least
 WRONG_M = 1.0
 WRONG_WAY_M = 5.0  # a final path that is beyond WRONG_M over more than this believes a wrong place
 SURE = "tracking"  # the published state of a good pose
@@ -108,7 +109,8 @@ def moments(evaluation, truth, end_s):
 
 def way_back_m(after):
     """The way flown from the first old ground behind the break until the published pose is within NEAR_M of its place
-    for STAYS_M; None where that never happens. `after`: moments, at least one."""
+    for STAYS_M, or to the end of the run for LEAST_STAY_M; None where that never happens. `after`: moments over
+    that way at least."""
     back_m = None
     for moment in after:
         if moment.error_m > NEAR_M:
@@ -117,7 +119,7 @@ def way_back_m(after):
             back_m = moment.way_m
         if back_m is not None and moment.way_m - back_m >= STAYS_M:
             break
-    return None if back_m is None else back_m - after[0].way_m
+    return None if back_m is None or moment.way_m - back_m < LEAST_STAY_M else back_m - after[0].way_m
 
 
 def doubted_s(evaluation):
@@ -154,7 +156,7 @@ def wrong_way_m(final, truth, fault):
 def figures(fault, after, doubted):
     """Of the live pose in a run with these moments behind the break. Figures that mean nothing in it are absent."""
     result = {}
-    if after:
+    if after and after[-1].way_m - after[0].way_m >= LEAST_STAY_M:
         result |= {"way_back_m": way_back_m(after), "believed_m": believed_m(after)}
     if not fault.is_told() and any(moment.error_m > WRONG_M for moment in after):
         result["noticed_s"] = noticed_s(after, doubted)

@@ -17,11 +17,12 @@ import fault_runs as runs  # noqa: E402
 PRETENDS = """#!/bin/sh
 if [ "$1" = map ]; then
   echo '{"absolute_trajectory_error": {"corrected": {"rmse_m": 0.25}}}' > "$4/report.json"
-  for i in 0 149 160 170; do echo "$i $i 0 0 0 0 0 1"; done > "$4/ground_truth.tum"
-  for i in 0 149 160 170; do echo "$i 5 $i 0 0 0 0 1"; done > "$4/trajectory.tum"
+  for i in 0 149 160 170 171; do echo "$i $i 0 0 0 0 0 1"; done > "$4/ground_truth.tum"
+  for i in 0 149 160 170 171; do echo "$i 5 $i 0 0 0 0 1"; done > "$4/trajectory.tum"
 else
-  echo '{"live": {"errors_m": [[149, 0], [160, 2], [170, 0.1]]},
-         "poses": [[149, 0, 0, 0, 0, 0, "tracking"], [160, 0, 0, 0, 0, 0, "lost"], [170, 0, 0, 0, 0, 0, "tracking"]]}'
+  echo '{"live": {"errors_m": [[149, 0], [160, 2], [170, 0.1], [171, 0.1]]},
+         "poses": [[149, 0, 0, 0, 0, 0, "tracking"], [160, 0, 0, 0, 0, 0, "lost"], [170, 0, 0, 0, 0, 0, "tracking"],
+                   [171, 0, 0, 0, 0, 0, "tracking"]]}'
 fi
 """
 
@@ -75,8 +76,10 @@ class WayBack(unittest.TestCase):
     def test_who_leaves_before_the_end_did_not_find_back(self):
         self.assertIsNone(runs.way_back_m(after(2, 0.4, 0.4, 0.4, 0.6)))
 
-    def test_who_is_near_until_the_end_did(self):
+    def test_who_is_near_until_the_end_did_if_that_is_some_way_off(self):
         self.assertEqual(runs.way_back_m(after(2, 2, 0.4, 0.4)), 2.0)
+        self.assertIsNone(runs.way_back_m(after(2, 2, 0.4)), "near at the last sample alone")
+        self.assertIsNone(runs.way_back_m(after(2, 0.4, 0.4, step_m=0.5)))
 
     def test_a_vehicle_that_was_never_lost_has_no_way(self):
         self.assertEqual(runs.way_back_m(after(0.1, 0.2, 0.3, 0.2, 0.1, 0.1, 2)), 0.0)
@@ -140,6 +143,7 @@ class FaultRuns(unittest.TestCase):
 
     def test_figures_that_mean_nothing_in_a_run_are_absent(self):
         self.assertEqual(runs.figures(runs.Fault("jump", 20), [], []), {})
+        self.assertEqual(runs.figures(runs.Fault("jump", 20), after(0.1, 0.1, step_m=0.9), []), {}, "hardly a way")
         self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), after(0.1, 0.2), []))
         self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), after(2, 2), []))
 
@@ -150,16 +154,22 @@ class FaultPage(unittest.TestCase):
         results = [dict(zip(keys, figures)) for figures in
                    ((0.1, 0, 4.0, 0.0, 1.0), (0.12, 5.0, 8.0, 0.9, 0.0), (0.2, 9.0, 3.0, 2.0, 7.0),
                     (3.0, 2.0, None, 9.0, None))]
-        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 %", "4.0", "8.0", "50 %",
-                                               "75 %", "4.0", "never"])
+        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 % of 4", "4.0", "8.0",
+                                               "50 % of 4", "75 % of 4", "4.0", "never"])
         bare = {"final_m": 0.1, "wrong_way_m": 0}
         self.assertEqual(page.cells([bare])[5:], ["–"] * 7)
-        self.assertEqual(page.cells([{**bare, "way_back_m": None}])[5:8], ["0 %", "–", "–"])
+        self.assertEqual(page.cells([{**bare, "way_back_m": None}])[5:8], ["0 % of 1", "–", "–"])
+
+    def test_shares_say_of_how_many_runs_they_are(self):
+        unknown = {"final_m": 0.1, "wrong_way_m": 0}
+        known = {**unknown, "way_back_m": 3.0, "believed_m": 2.0}
+        cells = page.cells([unknown, known, known])
+        self.assertEqual((cells[0], cells[5], cells[8]), ("3", "100 % of 2", "100 % of 2"))
 
     def test_a_doubt_that_never_came_is_longer_than_any(self):
-        self.assertEqual(page.doubt_cells([3.0] * 9 + [None]), ["90 %", "3.0", "3.0"], "one in ten may be missed")
-        self.assertEqual(page.doubt_cells([3.0] * 8 + [None] * 2), ["80 %", "3.0", "never"])
-        self.assertEqual(page.doubt_cells([0.5] + [None] * 9), ["10 %", "never", "never"])
+        self.assertEqual(page.doubt_cells([3.0] * 9 + [None]), ["90 % of 10", "3.0", "3.0"], "one in ten may be missed")
+        self.assertEqual(page.doubt_cells([3.0] * 8 + [None] * 2), ["80 % of 10", "3.0", "never"])
+        self.assertEqual(page.doubt_cells([0.5] + [None] * 9), ["10 % of 10", "never", "never"])
 
     def test_a_tenth_of_the_values_exceeds_p90(self):
         self.assertEqual(page.p90(range(10, 0, -1)), 9)
