@@ -4,6 +4,7 @@
 
 import dataclasses
 import json
+import sys
 import tempfile
 from pathlib import Path
 
@@ -62,6 +63,8 @@ def all_runs(buildings=BUILDINGS, healthy_seeds=HEALTHY_SEEDS, fault_seeds=FAULT
 
 
 class Results(mapped_runs.Results):
+    modules = (sys.modules[__name__],)
+
     def executed(self, run):
         """The object `consistency` of the report."""
         if run.kind == "flight":

@@ -5,6 +5,7 @@
 import dataclasses
 import json
 import math
+import sys
 import tempfile
 from pathlib import Path
 
@@ -164,6 +165,8 @@ def figures(fault, after, doubted):
 
 
 class Results(mapped_runs.Results):
+    modules = (sys.modules[__name__], doubt_runs, log_sharpness)
+
     def executed(self, run):
         """The errors of the final path, and figures()."""
         with tempfile.TemporaryDirectory() as name:

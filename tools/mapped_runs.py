@@ -188,6 +188,8 @@ def modules_of(run):
 class Results:
     """The results of the runs of one build of the program, one file for each."""
 
+    modules = ()  # of ours, besides modules_of(), that make the figures which executed() returns
+
     def __init__(self, folder, swiftlet):
         self.folder = folder
         self.swiftlet = swiftlet
@@ -196,7 +198,8 @@ class Results:
     def file(self, run):
         """Its name depends on everything that decides the result: the program, the run, its data and the code of ours
         that has a part in it."""
-        code = "".join(Path(module.__file__).read_text(encoding="utf-8") for module in modules_of(run))
+        modules = [*modules_of(run), *self.modules]
+        code = "".join(Path(module.__file__).read_text(encoding="utf-8") for module in modules)
         made_of = "\n".join([self.program, repr(run), run.log.stand(), code])
         name = re.sub("[^A-Za-z0-9]+", "-", run.title())
         return self.folder / f"{name}_{hashlib.sha256(made_of.encode()).hexdigest()[:12]}.json"

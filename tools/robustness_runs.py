@@ -204,6 +204,8 @@ class Results(mapped_runs.Results):
         is_kept = result is None or run.log.files() or "failed" in result or "kind" in result["report"]
         return result if is_kept else None
 
+    modules = (whole_runs,)
+
     def picture(self, run):
         return self.file(run).with_suffix(".png")
 

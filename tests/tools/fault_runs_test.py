@@ -8,11 +8,17 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 sys.dont_write_bytecode = True
+import confidence_runs  # noqa: E402
+import doubt_runs  # noqa: E402
 import fault_page as page  # noqa: E402
 import fault_runs as runs  # noqa: E402
+import log_sharpness  # noqa: E402
+import robustness_runs  # noqa: E402
+import whole_runs  # noqa: E402
 
 PRETENDS = """#!/bin/sh
 if [ "$1" = map ]; then
@@ -140,6 +146,17 @@ class FaultRuns(unittest.TestCase):
             results.make(run, at_once=1)
             figures = {"final_m": 0.25, "wrong_way_m": 0, "way_back_m": 10.0, "believed_m": 0, "noticed_s": 0.0}
             self.assertLessEqual(figures.items(), results.get(run).items())
+
+    def test_figures_by_other_code_of_ours_are_not_taken(self):
+        run = runs.run_of("maze", 3, runs.Fault("slip", 6))
+        kept = ((runs, (runs, doubt_runs, log_sharpness)), (confidence_runs, (confidence_runs,)),
+                (robustness_runs, (whole_runs,)))
+        for maker, modules in kept:
+            results = maker.Results(Path("kept"), __file__)
+            for module in modules:
+                before = results.file(run)
+                with mock.patch.object(module, "__file__", __file__):
+                    self.assertNotEqual(results.file(run), before, (maker.__name__, module.__name__))
 
     def test_figures_that_mean_nothing_in_a_run_are_absent(self):
         self.assertEqual(runs.figures(runs.Fault("jump", 20), [], []), {})
