@@ -57,6 +57,11 @@ def head(title, tool, report):
             f"Machine: {report['machine']}.\n")
 
 
+def left_out(missing):
+    """Behind the head. `missing`: names of data; nothing without any."""
+    return f"\nLeft out, for lack of data: {'; '.join(missing)}.\n" if missing else ""
+
+
 def table(columns, rows):
     """Markdown. `columns`: headings, a trailing ':' aligns right. `rows`: texts."""
     marks = ["---:" if column.endswith(":") else "---" for column in columns]

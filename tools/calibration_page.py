@@ -188,8 +188,7 @@ and scales itself ([before every map](../calibration_evidence.md#before-every-ma
 
 
 def document(report):
-    missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
-    return f"""{page.head("Calibration", "benchmark-calibration", report)}{missing}
+    return f"""{page.head("Calibration", "benchmark-calibration", report)}{page.left_out(report["missing"])}
 The estimates of `swiftlet calibrate`, with their standard deviations, beside what is known. {NONE}: not observable.
 [calibration_evidence.md](../calibration_evidence.md) describes the figures and the conclusions.
 

@@ -129,7 +129,7 @@ def tables(report):
 
 
 def document(report):
-    return f"""{page.head("Confidence", "benchmark-confidence", report)}
+    return f"""{page.head("Confidence", "benchmark-confidence", report)}{page.left_out(report["missing"])}
 What `pose_t` says of the live pose ([lcm](../lcm.md#how-far-a-pose-can-be-relied-on)), held against the truth:
 `swiftlet map 'sim://building?seed=1' -o out` has it in `report.json`, `swiftlet eval --consistency FLIGHT TRUTH` prints it
 for a recording. NEES is the normalised estimation error squared of (x, y, yaw) relative to the start: 3 on average where

@@ -114,8 +114,7 @@ reckoning for the map where the ranges do not tell that a correction is right.
 
 
 def document(report):
-    missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
-    return f"""{page.head("Right while flying", "benchmark-live", report)}{missing}
+    return f"""{page.head("Right while flying", "benchmark-live", report)}{page.left_out(report["missing"])}
 The known-place error: the published pose against the older map within 3 m (ground flown more than 20 m of travel ago)
 as it stood at that moment, aligned locally to the truth; of recorded flights to their own final path. "Over 0.3 m" is a
 share of the time. "Across" and "along" are the parts of the error to the nearest wall. "Off" are contacts with old
