@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """docs/results/confidence.md: what the program says of its own poses, against the truth."""
 
+import collections
 import math
 import statistics
 
@@ -12,6 +13,7 @@ DISTANCES_M = [10, 20, 60]
 NEES_95 = 7.815
 SOON_S = 5.0
 NONE = "–"
+HEALTHY_KINDS = ("building", "healthy")
 
 
 def rms(values):
@@ -51,7 +53,7 @@ def nees_table(rows):
 
 def sums(results):
     return {key: sum(result[key] for result in results)
-            for key in ("seconds", "seconds_doubted", "alarms", "false_alarms", "times_off")}
+            for key in ("seconds", "seconds_doubted", "alarms", "false_alarms", "unjudged_alarms", "times_off")}
 
 
 def noticed_cells(results):
@@ -62,8 +64,8 @@ def noticed_cells(results):
     return [str(off), f"{100 * len(noticed) / off:.0f} %", f"{100 * sum(s <= SOON_S for s in noticed) / off:.0f} %"]
 
 
-def alarm_table(rows):
-    lines = []
+def groups_of(rows):
+    """{name: results} of the flights without a fault, with the default threshold; the last are all of them."""
     healthy = [(run, result) for run, result in rows if run.threshold is None]
     groups = {"buildings": [r for run, r in healthy if run.kind == "building"]}
     for world in confidence_runs.HEALTHY_WORLDS:
@@ -71,16 +73,34 @@ def alarm_table(rows):
     for name in confidence_runs.UNTRUE_FLIGHTS:
         groups[name] = [r for run, r in healthy if run.log.name == name]
     groups["all of them"] = [result for results in list(groups.values()) for result in results]
-    for name, results in groups.items():
+    return groups
+
+
+def an_hour(total, *keys):
+    return f"{sum(total[key] for key in keys) / total['seconds'] * 3600:.2f}"
+
+
+def alarm_table(rows):
+    lines = []
+    for name, results in groups_of(rows).items():
         if not results:
             continue
         total = sums(results)
-        hours = total["seconds"] / 3600
-        lines.append([name, f"{hours:.1f}", str(total["alarms"]), str(total["false_alarms"]),
-                      f"{total['false_alarms'] / hours:.2f}", f"{100 * total['seconds_doubted'] / total['seconds']:.1f} %",
+        lines.append([name, f"{total['seconds'] / 3600:.1f}",
+                      *(str(total[key]) for key in ("alarms", "false_alarms", "unjudged_alarms")),
+                      an_hour(total, "false_alarms"), f"{100 * total['seconds_doubted'] / total['seconds']:.1f} %",
                       *noticed_cells(results)])
-    return page.table(["flights", "hours:", "alarms:", "false:", "false an hour:", "time in doubt:", "times off by 1 m:",
-                       "noticed:", f"within {SOON_S:g} s:"], lines)
+    return page.table(["flights", "hours:", "alarms:", "false:", "not known:", "false an hour:", "time in doubt:",
+                       "times off by 1 m:", "noticed:", f"within {SOON_S:g} s:"], lines)
+
+
+def alarm_summary(rows):
+    groups = groups_of(rows)
+    everything, buildings = sums(groups["all of them"]), sums(groups["buildings"])
+    least, most = ([an_hour(total, *keys) for total in (everything, buildings)]
+                   for keys in (["false_alarms"], ["false_alarms", "unjudged_alarms"]))
+    return (f"False alarms an hour: {least[0]} of all flights, {least[1]} of buildings alone; at most {most[0]} and "
+            f"{most[1]}\nif all that are not known were false.")
 
 
 def fault_table(rows):
@@ -93,16 +113,29 @@ def fault_table(rows):
     return page.table(["fault", "world", "flights:", "times off by 1 m:", "noticed:", f"within {SOON_S:g} s:"], lines)
 
 
-def roc_table(rows, default):
-    lines = []
+def roc_rows(rows):
+    """Those of the inputs that were run with other thresholds than the default, too."""
     names = {"building", "healthy", *(fault.text() for fault in confidence_runs.FAULTS)}
     inputs = {run.log.source for run, _ in rows if run.threshold is not None}
+    return [(run, result) for run, result in rows if run.kind in names and run.log.source in inputs]
+
+
+def roc_summary(rows):
+    runs = [run for run, _ in roc_rows(rows) if run.threshold is None]
+    healthy = collections.Counter(run.log.name for run in runs if run.kind in HEALTHY_KINDS)
+    worlds = ", ".join(f"{world}: {count}" for world, count in healthy.items())
+    return (f'"False an hour" is of flights without a fault ({worlds}), the rest of those with one above '
+            f"({len(runs) - healthy.total()}).")
+
+
+def roc_table(rows, default):
+    lines = []
     for threshold in sorted({run.threshold if run.threshold is not None else default for run, _ in rows}):
-        found = [(run, r) for run, r in rows if run.kind in names and run.log.source in inputs
-                 and (run.threshold if run.threshold is not None else default) == threshold]
-        healthy = sums([r for run, r in found if run.kind in ("building", "healthy")])
-        faulty = [r for run, r in found if run.kind not in ("building", "healthy")]
-        lines.append([f"{threshold:g}", f"{healthy['false_alarms'] / healthy['seconds'] * 3600:.2f}", *noticed_cells(faulty)])
+        found = [(run, r) for run, r in roc_rows(rows)
+                 if (run.threshold if run.threshold is not None else default) == threshold]
+        healthy = sums([r for run, r in found if run.kind in HEALTHY_KINDS])
+        faulty = [r for run, r in found if run.kind not in HEALTHY_KINDS]
+        lines.append([f"{threshold:g}", an_hour(healthy, "false_alarms"), *noticed_cells(faulty)])
     return page.table([f"`{confidence_runs.ALARM}`", "false an hour:", "times off by 1 m:", "noticed:",
                        f"within {SOON_S:g} s:"], lines)
 
@@ -116,6 +149,8 @@ def tables(report):
 
 ## Alarms in flights without a fault
 
+{alarm_summary(rows)}
+
 {alarm_table(rows)}
 
 ## Faults that nothing tells of
@@ -123,6 +158,8 @@ def tables(report):
 {fault_table(rows)}
 
 ## The threshold
+
+{roc_summary(rows)}
 
 {roc_table(rows, report['default'])}
 """
@@ -137,8 +174,9 @@ the covariance is right, below {NEES_95} in 95 % of the cases. Buildings are see
 what is added to each motion for slips was set on seeds 0 to 299.
 
 An alarm is a stretch in which the state is not `TRACKING_GOOD`. It is false if the pose was within 0.5 m of the older map
-around it all the time and for 5 s before. A pose is noticed to be off if an alarm begins before its error at a known place
-falls below 0.5 m again. Flights without truth (Olsson, Rice) are held against their own final path.
+around it all the time and for 5 s before; "not known" are those with no known place then. A pose is noticed to be off if an
+alarm begins before its error at a known place falls below 0.5 m again. Flights without truth (Olsson, Rice) are held
+against their own final path.
 
 {tables(report)}
 """

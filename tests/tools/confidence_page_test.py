@@ -33,6 +33,24 @@ def document(rows, missing=()):
 
 
 class ConfidencePage(unittest.TestCase):
+    def test_alarms_that_nobody_can_judge_have_a_column(self):
+        lines = page.alarm_table(rows_of()).splitlines()
+        self.assertIn("| alarms | false | not known | false an hour |", lines[0])
+        self.assertIn("| buildings | 2.0 | 8 | 2 | 4 | 1.00 | 1.0 % |", lines[2])
+        self.assertIn("| all of them | 4.0 | 9 | 3 | 4 | 0.75 | 0.8 % |", lines[-1])
+
+    def test_the_rate_of_buildings_stands_beside_that_of_all(self):
+        text = page.alarm_summary(rows_of())
+        self.assertIn("False alarms an hour: 0.75 of all flights, 1.00 of buildings alone", text)
+        self.assertIn("at most 1.75 and 3.00 if all that are not known were false", " ".join(text.split()))
+
+    def test_the_threshold_tells_of_which_runs_it_is(self):
+        text = page.tables({"rows": [*rows_of(), *rows_of(10.0), (runs.simulated("loop?seed=1", "healthy"), result())],
+                            "default": 19.6})
+        self.assertIn('"False an hour" is of flights without a fault (building: 2, office: 1), the rest of those with one '
+                      'above (4).', " ".join(text.split()))
+        self.assertIn("| 10 | 0.75 | 8 | 50 % | 50 % |", text)
+
     def test_the_page_names_the_data_that_were_missing(self):
         self.assertIn("Left out, for lack of data: a.pcap; b.pcap.", document([*rows_of(), *rows_of(10.0)], ["a.pcap", "b.pcap"]))
         self.assertNotIn("Left out", document([*rows_of(), *rows_of(10.0)]))
