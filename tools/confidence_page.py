@@ -173,10 +173,10 @@ for a recording. NEES is the normalised estimation error squared of (x, y, yaw) 
 the covariance is right, below {NEES_95} in 95 % of the cases. Buildings are seeds {confidence_runs.BUILDINGS[0]} to {confidence_runs.BUILDINGS[-1]};
 what is added to each motion for slips was set on seeds 0 to 299.
 
-An alarm is a stretch in which the state is not `TRACKING_GOOD`. It is false if the pose was within 0.5 m of the older map
-around it all the time and for 5 s before; "not known" are those with no known place then. A pose is noticed to be off if an
-alarm begins before its error at a known place falls below 0.5 m again. Flights without truth (Olsson, Rice) are held
-against their own final path.
+An alarm is a stretch in which the state is not `TRACKING_GOOD`. It is false if the pose was within 0.5 m of the older
+map around it all the time and for 5 s before; "not known" are those with no known place then. A pose is noticed to be
+off if an alarm begins before its error at a known place falls below 0.5 m again. Flights without truth (Olsson, Rice) are
+held against their own final path. {page.EASIER_SENSOR}
 
 {tables(report)}
 """

@@ -92,18 +92,19 @@ a `silence` nothing is received while the vehicle flies on; a `reset` restarts t
 vehicle where it is; one that was `carried` restarts where it would have been by then. Nothing tells of a `jump` of the
 heading, of a `slip` (the estimate stays while the vehicle flies on) and of a `teleport` (it is carried and the estimate
 goes on). In `{fault_runs.STOREYS}` the vehicle flies up the stairs of a house and back: the floors must not be mixed.
+{page.EASIER_SENSOR}
 
 "Final error" is the RMSE of the corrected path after the best rigid alignment of the whole. "Wrong place" are the runs
 whose final map still believes one: put onto the truth by what was flown before the break, their corrected path is more
 than {WRONG_M:g} m off over more than {fault_runs.WRONG_WAY_M:g} m of the way behind it. The rest is of the live pose at
 [known places](live.md) behind the break: where the map as it stood then has ground within 3 m that was flown long
-before; errors are against that ground. Shares say of how many runs they are: some hardly meet known places there. "Found back"
-are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m, or to the end of the run and
-for {fault_runs.LEAST_STAY_M:g} m at least; "way" is what these runs flew from the first known place until then. "Wrongly sure"
-are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over {SURE_M:g} m of way. "In doubt"
-are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those whose state said so before the
-error fell below {near_m} m again; "after": how long after it had passed, where a run that did not say so counts as longer
-than any ("never").
+before; errors are against that ground. Shares say of how many runs they are: some hardly meet known places there.
+"Found back" are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m, or to the
+end of the run and for {fault_runs.LEAST_STAY_M:g} m at least; "way" is what these runs flew from the first known place
+until then. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
+{SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m,
+those whose state said so before the error fell below {near_m} m again; "after": how long after it had passed, where a
+run that did not say so counts as longer than any ("never").
 
 {tables(report)}
 ## Known not to work

@@ -120,7 +120,8 @@ as it stood at that moment, aligned locally to the truth; of recorded flights to
 share of the time. "Across" and "along" are the parts of the error to the nearest wall. "Off" are contacts with old
 ground that begin with more than 0.2 m; the time is that until below, half of them. "Jumps" are corrections of the
 published pose by more than 0.3 m. The last columns: how far off old ground lies 2, 5 and 10 m away, as seen from the
-pose. [evaluation.md](../evaluation.md#known-places) defines the figures. Of flights together
-they are of all their moments and contacts; in the last columns each flight counts by its moments.
+pose. [evaluation.md](../evaluation.md#known-places) defines the figures. Of flights together they are of all their
+moments and contacts; in the last columns each flight counts by its moments.
+{page.EASIER_SENSOR}
 
 {tables(report)}"""

@@ -47,13 +47,17 @@ class ConfidencePage(unittest.TestCase):
     def test_the_threshold_tells_of_which_runs_it_is(self):
         text = page.tables({"rows": [*rows_of(), *rows_of(10.0), (runs.simulated("loop?seed=1", "healthy"), result())],
                             "default": 19.6})
-        self.assertIn('"False an hour" is of flights without a fault (building: 2, office: 1), the rest of those with one '
-                      'above (4).', " ".join(text.split()))
+        self.assertIn('"False an hour" is of flights without a fault (building: 2, office: 1), the rest of those with '
+                      'one above (4).', text)
         self.assertIn("| 10 | 0.75 | 8 | 50 % | 50 % |", text)
 
     def test_the_page_names_the_data_that_were_missing(self):
-        self.assertIn("Left out, for lack of data: a.pcap; b.pcap.", document([*rows_of(), *rows_of(10.0)], ["a.pcap", "b.pcap"]))
-        self.assertNotIn("Left out", document([*rows_of(), *rows_of(10.0)]))
+        rows = [*rows_of(), *rows_of(10.0)]
+        self.assertIn("Left out, for lack of data: a.pcap; b.pcap.", document(rows, ["a.pcap", "b.pcap"]))
+        self.assertNotIn("Left out", document(rows))
+
+    def test_the_page_says_that_worlds_drawn_by_hand_are_easier(self):
+        self.assertIn("have an easier sensor", document([*rows_of(), *rows_of(10.0)]))
 
 
 if __name__ == "__main__":

@@ -198,6 +198,7 @@ class FaultPage(unittest.TestCase):
                 for world, final in (("office", 0.1), ("maze", 0.5))]
         text = page.document({"date": "2026-01-02", "commit": "abc", "machine": "a machine", "seeds": 1, "rows": rows})
         self.assertIn("`tools/benchmark-faults --record` on 2026-01-02, commit abc", text)
+        self.assertIn("have an easier sensor", text)
         office, _, maze = text.partition("## office")[2].partition("## maze")
         self.assertIn("| `silence@150:31` | 1 | 0.100 | 0.100 |", office)
         self.assertIn("| `silence@150:31` | 1 | 0.500 | 0.500 |", maze)

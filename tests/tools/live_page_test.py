@@ -80,7 +80,8 @@ class LivePage(unittest.TestCase):
         text = page.document({"date": "2026-01-02", "commit": "abc", "machine": "a machine", "missing": ["b.pcap"],
                               "rows": rows})
         self.assertIn("`tools/benchmark-live --record` on 2026-01-02, commit abc", text)
-        self.assertIn("they are of all their moments and contacts", text)
+        self.assertIn("have an easier sensor", text)
+        self.assertIn("they are of all their\nmoments and contacts", text)
         self.assertIn("for lack of data: b.pcap.", text)
         self.assertIn("| Hall | 20 | 0.400 | 30.0 % | 0.200 | 10.0 % |", text)
         self.assertIn("| maze | 80 | 0.400 | 30.0 % | 0.529 | 40.0 % |", text)
