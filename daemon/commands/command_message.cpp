@@ -13,7 +13,7 @@
 
 namespace swiftlet {
 
-/// LCM's own code takes a negative length of the name for 2 GB.
+/// The length of the name.
 template <>
 bool can_hold_its_counts<command_t>(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kNameAt = 9;

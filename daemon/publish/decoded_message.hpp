@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 /// Reads the numbers of elements that a message claims, which LCM's own code makes room for before it looks
-/// whether they are there.
+/// whether they are there, and the lengths of names, of which it takes a negative one for 2 GB.
 class ClaimedCounts {
  public:
   /// The first number stands at byte `at`.
@@ -30,7 +30,16 @@ class ClaimedCounts {
     at_ += kNumberBytes;
     return number <= bytes_.size() ? std::optional<std::size_t>(number) : std::nullopt;
   }
-  void skip(std::size_t size) { at_ += size; }
+  /// Passes a list of elements that are each a name and so many bytes more. False: it cannot be there.
+  [[nodiscard]] bool skip_named(std::size_t bytes_beside_name) {
+    std::optional<std::size_t> left = next();
+    for (; left && *left > 0; --*left) {
+      const std::optional<std::size_t> name_bytes = next();
+      if (!name_bytes) return false;
+      at_ += *name_bytes + bytes_beside_name;
+    }
+    return left.has_value();
+  }
 
  private:
   std::span<const std::uint8_t> bytes_;
@@ -52,19 +61,14 @@ template <>
   constexpr std::size_t kCountAt = 32;
   return ClaimedCounts(bytes, kCountAt).next().has_value();
 }
-/// Of queues, each a name and numbers, and behind them of stages.
+/// Of queues, and behind them of stages.
 template <>
 [[nodiscard]] inline bool can_hold_its_counts<status_t>(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kCountAt = 362;
   constexpr std::size_t kBytesOfQueue = 16;  // beside its name
+  constexpr std::size_t kBytesOfStage = 48;
   ClaimedCounts counts(bytes, kCountAt);
-  std::optional<std::size_t> queues = counts.next();
-  for (; queues && *queues > 0; --*queues) {
-    const std::optional<std::size_t> name_bytes = counts.next();
-    if (!name_bytes) return false;
-    counts.skip(*name_bytes + kBytesOfQueue);
-  }
-  return queues && counts.next();
+  return counts.skip_named(kBytesOfQueue) && counts.skip_named(kBytesOfStage);
 }
 
 /// A message of the LCM type; nullopt where the bytes are not one, or one of another version.

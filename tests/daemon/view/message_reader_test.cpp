@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/sensing/range_sample.hpp"
@@ -196,6 +199,18 @@ TEST_F(MessageReaderTest, AClaimOfMoreQueuesOrStagesThanThereAreCostsNoMemory) {
     reader_.take("STATUS", bytes, MonotonicTime());
   }
   EXPECT_LT(peak_memory_kb() - before_kb, 100'000);
+  EXPECT_EQ(history_.generation(), 0U);
+}
+
+TEST_F(MessageReaderTest, ANameOfAQueueOrStageThatIsShorterThanNothingIsRefused) {
+  for (const std::string_view name : {"samples", "frame_to_pose"}) {
+    std::vector<std::uint8_t> bytes = encoded(status_with_lists());
+    const auto found = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    ASSERT_NE(found, bytes.end());
+    const std::array<std::uint8_t, 4> length{0x80, 0, 0, 0};  // big-endian
+    std::copy(length.begin(), length.end(), found - 4);
+    reader_.take("STATUS", bytes, MonotonicTime());
+  }
   EXPECT_EQ(history_.generation(), 0U);
 }
 
