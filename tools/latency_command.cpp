@@ -72,7 +72,8 @@ Status listen(const LatencyCommand& command) {
     std::fflush(stdout);
     is_over = status->state == status_t::STATE_FINISHED;
   });
-  while (!is_over && !signals.token().stop_requested()) (*lcm)->receive(std::chrono::milliseconds(100));
+  while (!is_over && !(*lcm)->has_ended() && !signals.token().stop_requested())
+    (*lcm)->receive(std::chrono::milliseconds(100));
   return {};
 }
 

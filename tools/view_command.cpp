@@ -64,11 +64,18 @@ Result<std::unique_ptr<ViewService>> open_service(const ViewCommand& command, co
   return service;
 }
 
+/// Pages may look at what there is until then.
+void wait_for(const std::stop_token& stop) {
+  while (!stop.stop_requested()) std::this_thread::sleep_for(kStopWait);
+}
+
 Status view_live(const ViewCommand& command, const std::stop_token& stop) {
   const Result<std::unique_ptr<ViewService>> service =
       open_service(command, {.title = command.lcm_url, .is_recording = false, .rate = 1.0});
   if (!service) return service.error();
-  return view_lcm(command.lcm_url, command.channel_prefix, (*service)->shared(), stop, {});
+  Status viewed = view_lcm(command.lcm_url, command.channel_prefix, (*service)->shared(), stop, {});
+  if (viewed) wait_for(stop);
+  return viewed;
 }
 
 void print_note(const std::string& note) { std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str()); }
@@ -91,7 +98,7 @@ Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
   if (damage && !mapped) damage = mapped.error();
   for (const std::string& note : run->source->report().notes) print_note(note);
   if (!damage) print_note(damage.error().message);
-  while (!stop.stop_requested()) std::this_thread::sleep_for(kStopWait);
+  wait_for(stop);
   return damage;
 }
 

@@ -70,7 +70,7 @@ Status view_lcm(const std::string& url, const std::string& channel_prefix, Share
                      reader.take(channel, message, std::chrono::steady_clock::now());
                      if (after_message) after_message();
                    });
-  while (!stop.stop_requested()) (*lcm)->receive(kStopWait);
+  while (!stop.stop_requested() && !(*lcm)->has_ended()) (*lcm)->receive(kStopWait);
   return {};
 }
 

@@ -41,8 +41,9 @@ class ViewService {
   void serve(const std::stop_token& stop);
 };
 
-/// Reads the messages of a swiftletd, until `stop` is requested, into the history; `after_message`, where it
-/// is set, is called after each, with the mutex held. Error: as LcmTransport::open().
+/// Reads the messages of a swiftletd into the history, until `stop` is requested or a log (file://) has
+/// ended; `after_message`, where it is set, is called after each, with the mutex held. Error: as
+/// LcmTransport::open().
 [[nodiscard]] Status view_lcm(const std::string& url, const std::string& channel_prefix,
                               SharedRunHistory& shared, const std::stop_token& stop,
                               const std::function<void()>& after_message);

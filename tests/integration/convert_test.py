@@ -119,6 +119,16 @@ def the_messages_of_a_daemon_become_an_mcap_until_its_run_ends(folder):
     assert last["message"].startswith("finished: "), last
 
 
+def a_log_that_breaks_off_ends_convert_and_latency(folder):
+    log = folder / "run.lcm"
+    subprocess.run([sys.argv[3], "--input", INPUT, "--rate", "1e6", "--lcm-url", f"file://{log}?mode=w", "--no-output"],
+                   capture_output=True, check=True)
+    log.write_bytes(log.read_bytes()[: log.stat().st_size // 2])
+    swiftlet("convert", "lcm:", folder / "run.mcap", "--lcm-url", f"file://{log}?speed=0")
+    assert Mcap((folder / "run.mcap").read_bytes()).messages["/pose"]
+    swiftlet("latency", "--listen", "--lcm-url", f"file://{log}?speed=0")
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         globals()[sys.argv[1]](Path(name))

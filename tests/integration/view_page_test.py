@@ -10,6 +10,7 @@ import http.client
 import os
 import re
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -115,6 +116,17 @@ class ServerTest(unittest.TestCase):
                 client.sendall(nonsense)
                 self.assertTrue(client.recv(100).startswith(b"HTTP/1.1 400"))
         self.assertEqual(self.status(), 200)
+
+    def test_a_log_that_has_ended_can_be_looked_at_and_costs_nothing(self):
+        with tempfile.NamedTemporaryFile(suffix=".lcm") as log:
+            log.write(struct.pack(">IqqII4sx", 0xEDA1DA01, 0, 0, 4, 1, b"NONE"))
+            log.flush()
+            view = View("--lcm-url", f"file://{log.name}")
+            self.addCleanup(view.end)
+            time.sleep(1)
+            times = Path(f"/proc/{view.process.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
+            self.assertIsNone(view.process.poll())
+            self.assertLess(sum(map(int, times)) / os.sysconf("SC_CLK_TCK"), 0.2)
 
     def test_bad_options_get_one_line_and_exit_code_2(self):
         for options in (["--listen", "nowhere:1"], ["--listen", "127.0.0.1:x"], ["--lcm-url", "nothing://"],
