@@ -180,7 +180,7 @@ Status record_mcap(const ConvertCommand& command) {
     mcap.add_last(shared.history);
     if (mcap.messages() == 0)
       return Error{ErrorCode::kInvalidInput,
-                   "nothing was received on " + command.lcm_url + "; swiftlet doctor checks LCM"};
+                   "no pose was received on " + command.lcm_url + "; swiftlet doctor checks LCM"};
     mcap.finish();
     messages = mcap.messages();
     return {};

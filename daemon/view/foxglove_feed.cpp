@@ -68,10 +68,12 @@ std::optional<FoxgloveMessage> FoxgloveFeed::next(const RunHistory& history,
                                                   std::optional<std::int64_t> at_us) {
   if (history.generation() == 0) return std::nullopt;
   if (history.generation() != generation_) begin_run(history);
-  const TrailPose* const newest = history.newest_pose();
+  const std::span<const TrailPose> poses = history.poses_after(0);
+  if (poses.empty()) return std::nullopt;
   at_us_ = at_us;
-  now_us_ = std::min(newest == nullptr ? 0 : newest->utime_us,
-                     at_us.value_or(std::numeric_limits<std::int64_t>::max()));
+  first_us_ = poses.front().utime_us;
+  now_us_ =
+      std::min(history.newest_pose()->utime_us, at_us.value_or(std::numeric_limits<std::int64_t>::max()));
   for (std::size_t i = 0; i < kFoxgloveTopics; ++i) {
     const auto topic = static_cast<FoxgloveTopic>(turn_);
     turn_ = (turn_ + 1) % kFoxgloveTopics;
@@ -155,9 +157,10 @@ std::optional<FoxgloveMessage> FoxgloveFeed::log_message(const RunHistory& histo
   Stream& log = stream(FoxgloveTopic::kLog);
   const std::span<const RunEvent> events = history.events_after(log.serial);
   if (events.empty() || (at_us_ && events.front().utime_us > *at_us_)) return std::nullopt;
-  log.serial = events.front().serial;
-  return FoxgloveMessage{
-      .topic = FoxgloveTopic::kLog, .utime_us = events.front().utime_us, .json = log_json(events.front())};
+  RunEvent event = events.front();
+  log.serial = event.serial;
+  event.utime_us = std::max(event.utime_us, first_us_);
+  return FoxgloveMessage{.topic = FoxgloveTopic::kLog, .utime_us = event.utime_us, .json = log_json(event)};
 }
 
 std::optional<FoxgloveMessage> FoxgloveFeed::status_message_of(const RunHistory& history) {
@@ -165,9 +168,10 @@ std::optional<FoxgloveMessage> FoxgloveFeed::status_message_of(const RunHistory&
   const auto* const entry = at_us_ ? history.statuses().at(*at_us_) : history.statuses().newest();
   if (entry == nullptr || entry->serial == status.serial) return std::nullopt;
   status.serial = entry->serial;
-  return FoxgloveMessage{.topic = FoxgloveTopic::kStatus,
-                         .utime_us = entry->value.utime_us,
-                         .json = status_log_json(entry->value)};
+  RunStatus told = entry->value;
+  told.utime_us = std::max(told.utime_us, first_us_);
+  return FoxgloveMessage{
+      .topic = FoxgloveTopic::kStatus, .utime_us = told.utime_us, .json = status_log_json(told)};
 }
 
 FoxgloveFeed::Text FoxgloveFeed::map_text(const RunHistory& history) {

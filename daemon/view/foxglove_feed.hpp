@@ -37,8 +37,8 @@ class FoxgloveFeed {
   /// From now on, beginning with what there is.
   void begin(FoxgloveTopic topic);
   void end(FoxgloveTopic topic) { stream(topic).is_wanted = false; }
-  /// The next message of the topics begun, in turn; nullopt: nothing new. `at_us`: as the run was then, not
-  /// going back; unset: the newest.
+  /// The next message of the topics begun, in turn; nullopt: nothing new, or no pose yet. What happened
+  /// before the first pose has its time. `at_us`: as the run was then, not going back; unset: the newest.
   [[nodiscard]] std::optional<FoxgloveMessage> next(const RunHistory& history,
                                                     std::optional<std::int64_t> at_us);
   /// The run has ended: what waits for its time is due.
@@ -62,6 +62,7 @@ class FoxgloveFeed {
   TrailStretch stretch_;
   std::int32_t stretch_segment_ = 0;
   bool stretch_has_news_ = false;
+  std::int64_t first_us_ = 0;          // of the first pose
   std::int64_t now_us_ = 0;            // of the data
   std::optional<std::int64_t> at_us_;  // what is told
 

@@ -25,6 +25,12 @@ def converted(folder, name="run.mcap"):
     return (folder / name).read_bytes()
 
 
+def check_that_times_begin_with_the_first_pose(mcap):
+    first_ns = mcap.messages["/pose"][0][0]
+    early = {topic: messages[0] for topic, messages in mcap.messages.items() if messages and messages[0][0] < first_ns}
+    assert not early, early
+
+
 def yaw_of(rotation):
     return 2 * math.atan2(rotation["z"], rotation["w"])
 
@@ -60,6 +66,7 @@ def an_mcap_is_what_its_schemas_say_and_the_same_each_time(folder):
     data = converted(folder)
     assert data == converted(folder, "again.mcap"), "other bytes of the same flight"
     mcap = Mcap(data)
+    check_that_times_begin_with_the_first_pose(mcap)
     for topic, schema in mcap.channels.values():
         name, content = mcap.schemas[schema]
         assert content["title"] == name
@@ -108,6 +115,7 @@ def the_messages_of_a_daemon_become_an_mcap_until_its_run_ends(folder):
     said = swiftlet("convert", "lcm:", folder / "run.mcap", "--lcm-url", log + "?speed=0")
     assert said.stdout.startswith("listening on file://"), said.stdout
     mcap = Mcap((folder / "run.mcap").read_bytes())
+    check_that_times_begin_with_the_first_pose(mcap)
     flown = [stamp for stamp, *_ in tum_lines(folder / "out" / "live.tum")]
     received = [time_ns // 1000 for time_ns, _ in mcap.messages["/pose"]]
     unpublished = sorted(set(flown) - set(received))  # a replay this fast can outrun the publisher on a busy machine
