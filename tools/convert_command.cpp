@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string_view>
 #include <system_error>
@@ -21,7 +22,6 @@
 #include "daemon/view/view_service.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/sample_table/sample_table.hpp"
-#include "swiftlet/status_t.hpp"
 #include "tools/command_end.hpp"
 #include "tools/convert/mcap_run.hpp"
 #include "tools/map_command.hpp"
@@ -154,11 +154,6 @@ Status convert_to_mcap(const ConvertCommand& command) {
   return damage_of(report);
 }
 
-bool has_finished(const RunHistory& history) {
-  const auto* const status = history.statuses().newest();
-  return status != nullptr && status->value.state == status_t::STATE_FINISHED;
-}
-
 /// What a running swiftletd publishes.
 Status record_mcap(const ConvertCommand& command) {
   const SignalWatcher signals;
@@ -172,7 +167,7 @@ Status record_mcap(const ConvertCommand& command) {
     McapRun mcap(sink_that_stops(write, over));
     const auto after_message = [&] {
       mcap.add_news(shared.history);
-      if (has_finished(shared.history)) over.request_stop();
+      if (shared.history.is_finished_at(std::nullopt)) over.request_stop();
     };
     Status listened =
         view_lcm(command.lcm_url, command.channel_prefix, shared, over.get_token(), after_message);

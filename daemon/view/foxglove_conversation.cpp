@@ -108,7 +108,9 @@ std::optional<WebMessage> FoxgloveConversation::next() {
   }
   if (!complaint_.empty()) return status(std::exchange(complaint_, {}));
   const std::lock_guard lock(shared_.mutex);
-  const std::optional<FoxgloveMessage> message = feed_.next(shared_.history, moment(shared_.history));
+  const std::optional<std::int64_t> at_us = moment(shared_.history);
+  if (shared_.history.is_finished_at(at_us)) feed_.hurry();
+  const std::optional<FoxgloveMessage> message = feed_.next(shared_.history, at_us);
   if (!message) return std::nullopt;
   return data_message(subscriptions_.at(message->topic), *message);
 }

@@ -41,7 +41,7 @@ class FoxgloveFeed {
   /// before the first pose has its time. `at_us`: as the run was then, not going back; unset: the newest.
   [[nodiscard]] std::optional<FoxgloveMessage> next(const RunHistory& history,
                                                     std::optional<std::int64_t> at_us);
-  /// The run has ended: what waits for its time is due.
+  /// The run has ended, and the time of the data stands: what waits for its time is due.
   void hurry();
 
  private:

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <utility>
 
+#include "swiftlet/status_t.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -110,6 +112,11 @@ std::vector<SeenWall> RunHistory::walls_at(std::optional<std::int64_t> at_us, St
     return wall.storey == static_cast<std::int8_t>(index_of(storey));
   });
   return walls;
+}
+
+bool RunHistory::is_finished_at(std::optional<std::int64_t> at_us) const {
+  const auto* const entry = at_us ? statuses_.at(*at_us) : statuses_.newest();
+  return entry != nullptr && entry->value.state == status_t::STATE_FINISHED;
 }
 
 std::span<const TrailPose> RunHistory::poses_after(std::uint32_t serial) const {

@@ -154,6 +154,8 @@ class RunHistory {
   [[nodiscard]] StoreyId storey_at(std::optional<std::int64_t> at_us) const;
   /// Of that storey, as of that moment.
   [[nodiscard]] std::vector<SeenWall> walls_at(std::optional<std::int64_t> at_us, StoreyId storey) const;
+  /// Whether the map is final, by the newest status that is not after `at_us`; unset: by the newest.
+  [[nodiscard]] bool is_finished_at(std::optional<std::int64_t> at_us) const;
   /// The newest pose has arrived in all its frames only when the next one is there, or odom is.
   [[nodiscard]] std::span<const TrailPose> poses_after(std::uint32_t serial) const;
   /// Those of the events after `serial`, oldest first.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "swiftlet/status_t.hpp"
 #include "tests/daemon/view/view_samples.hpp"
 
 namespace swiftlet {
@@ -167,6 +168,47 @@ TEST_F(FoxgloveConversationTest, SendsTheMapAsOneGridAndANewOneOnceItHasChanged)
   EXPECT_TRUE(all(conversation).empty()) << "nothing has changed";
   shared_.history.add_tile(2 * kSecondUs, uniform_tile({-1, 2}, 2, 0), 0.05);
   EXPECT_EQ(all(conversation).size(), 1U);
+}
+
+TEST_F(FoxgloveConversationTest, WhatTheFinalPassChangesIsSentThoughNoPoseFollows) {
+  const auto greeted_one = greeted(live_);
+  FoxgloveConversation& conversation = *greeted_one;
+  RunHistory& history = shared_.history;
+  int id = 0;
+  for (const auto topic :
+       {FoxgloveTopic::kMap, FoxgloveTopic::kWalls, FoxgloveTopic::kClosures, FoxgloveTopic::kTrail})
+    conversation.take(subscription(++id, topic));
+  add_pose(0);
+  history.add_tile(kSecondUs, uniform_tile({0, 0}, 1, 100), 0.05);
+  history.add_walls(kSecondUs, {{.id = 1, .end = {1.0F, 0.0F}}});
+  history.add_closure({.index = 0}, false, kSecondUs);
+  EXPECT_EQ(all(conversation).size(), 4U);
+  history.add_pose({.utime_us = kSecondUs + 1, .sequence = 1, .map = {5.0, 5.0, 0.0}});
+  history.add_odom(1, {});
+  history.add_tile(kSecondUs + 1, uniform_tile({0, 0}, 2, 0), 0.05);
+  history.add_walls(kSecondUs + 1, {{.id = 1, .end = {2.0F, 0.0F}}});
+  history.add_closure({.index = 0}, true, kSecondUs + 1);
+  EXPECT_TRUE(all(conversation).empty()) << "once a second while the run goes on";
+  history.add_status({.utime_us = kSecondUs + 1, .state = status_t::STATE_FINISHED});
+  EXPECT_EQ(all(conversation).size(), 4U);
+  EXPECT_TRUE(all(conversation).empty()) << "each once";
+}
+
+TEST_F(FoxgloveConversationTest, ARecordingsFinalMapIsSentOnceItHasBeenPlayed) {
+  const auto greeted_one = greeted(recording_);
+  FoxgloveConversation& conversation = *greeted_one;
+  RunHistory& history = shared_.history;
+  for (int i = 0; i < 4; ++i) add_pose(i);
+  for (std::uint32_t version = 1; version <= 4; ++version)  // at 2.5 s to 4 s
+    history.add_tile((4 + version) * kSecondUs / 2, uniform_tile({0, 0}, version, 50), 0.05);
+  history.add_status({.utime_us = 4 * kSecondUs, .state = status_t::STATE_FINISHED});
+  conversation.take(subscription(3, FoxgloveTopic::kMap));
+  EXPECT_TRUE(all(conversation).empty());
+  // At 1.5 s to 4.5 s: one a second, and the last.
+  for (const std::size_t maps : {0U, 0U, 1U, 0U, 1U, 1U, 0U}) {
+    now_ += std::chrono::milliseconds(250);
+    EXPECT_EQ(all(conversation).size(), maps);
+  }
 }
 
 TEST_F(FoxgloveConversationTest, WhatWasDrawnIsClearedWhenANewRunBegins) {

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
+
+#include "swiftlet/status_t.hpp"
 #include "tests/daemon/view/view_samples.hpp"
 
 namespace swiftlet {
@@ -30,6 +33,17 @@ TEST(RunHistory, ALateMessageOfAnOlderRunIsNotBelievedUnlessTheNewerOneIsSilent)
   EXPECT_EQ(history.map_id(), 8);
   EXPECT_TRUE(history.enter_run(7, 6.0));
   EXPECT_EQ(history.map_id(), 7);
+}
+
+TEST(RunHistory, IsFinishedFromTheStatusOnThatSaysSo) {
+  RunHistory history;
+  EXPECT_FALSE(history.is_finished_at(std::nullopt));
+  history.add_status({.utime_us = 10, .state = status_t::STATE_FINISHING});
+  history.add_status({.utime_us = 20, .state = status_t::STATE_FINISHED});
+  EXPECT_TRUE(history.is_finished_at(std::nullopt));
+  EXPECT_FALSE(history.is_finished_at(9));
+  EXPECT_FALSE(history.is_finished_at(19));
+  EXPECT_TRUE(history.is_finished_at(20));
 }
 
 TEST(RunHistory, ATileIsFoundAsItWas) {
