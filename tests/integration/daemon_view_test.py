@@ -20,7 +20,7 @@ from pathlib import Path
 PATIENCE_S = 60
 FLIGHT = "sim://loop?seed=1"
 POSES, TILES = 1, 3
-HEADER_BYTES, POSE_BYTES, TILE_BYTES = 16, 88, 12 + 64 * 64
+HEADER_BYTES, POSE_BYTES, TILE_BYTES = 16, 92, 12 + 64 * 64
 
 
 def expect(condition, why):
@@ -102,13 +102,17 @@ class SeenRun:
             self.status = message if message["type"] == "status" else self.status
             return
         kind, count, value = struct.unpack_from("<IId", message)
-        for i in range(count if kind == POSES else 0):
-            beams = int(value)
-            record = HEADER_BYTES + 4 * beams + i * (POSE_BYTES + 4 * beams)
-            self.poses_with_hits += max(struct.unpack_from(f"<{beams}f", message, record + POSE_BYTES), default=0) > 0
+        if kind == POSES:
+            self.take_poses(message, count, beams=int(value))
         for i in range(count if kind == TILES else 0):
             x, y, version = struct.unpack_from("<iiI", message, HEADER_BYTES + i * TILE_BYTES)
             self.versions[x, y] = version
+
+    def take_poses(self, message, count, beams):
+        first, record_bytes = HEADER_BYTES + 4 * beams, POSE_BYTES + 4 * beams
+        expect(len(message) == first + count * record_bytes, f"{count} poses in {len(message)} bytes")
+        for record in range(first, len(message), record_bytes):
+            self.poses_with_hits += max(struct.unpack_from(f"<{beams}f", message, record + POSE_BYTES), default=0) > 0
 
 
 def the_daemon_serves_the_page_and_the_whole_run(swiftletd, _folder):
