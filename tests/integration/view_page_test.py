@@ -178,6 +178,26 @@ class PageTest(unittest.TestCase):
         self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.isSynced")
         return view
 
+    def daemon_with_view(self, *options, port=0):
+        """A flight whose page is open."""
+        daemon = subprocess.Popen(fly(*options, "--view", f"127.0.0.1:{port}"), stderr=subprocess.PIPE, text=True)
+        self.addCleanup(daemon.stderr.close)
+        self.addCleanup(daemon.wait)
+        self.addCleanup(daemon.kill)
+        url = next(found[0] for line in daemon.stderr if (found := re.search(r"http://\S+", line)))
+        if not port:
+            self.browser.get(url)
+        self.wait_until("swiftletPage.tileMap.tiles.size > 10")
+        return daemon, int(url.rsplit(":", 1)[1])
+
+    def look_back(self):
+        """To the first pose. The tiles that were there already."""
+        tiles = self.js("swiftletPage.tileMap.tiles.size")
+        self.press(" ")
+        self.js("swiftletPage.player.seek(0)")
+        self.wait_until(f"swiftletPage.isSynced && swiftletPage.tileMap.tiles.size < {tiles}")
+        return self.js("swiftletPage.tileMap.tiles.size")
+
     def check_pgm(self, folder):
         self.assertEqual(bytes(self.browser.execute_async_script(PGM_OF_PAGE)), (folder / "map.pgm").read_bytes())
 
@@ -305,6 +325,25 @@ class PageTest(unittest.TestCase):
         texts = [text.text for text in plan.iter("{http://www.w3.org/2000/svg}text")]
         self.assertEqual(len([text for text in texts if re.fullmatch(r"\d+\.\d\d m", text)]), 2)
         self.assertTrue(any(re.search(r"UTC, .* flown, 1:\d+ on A3", text) for text in texts), texts)
+
+    def test_a_page_that_looked_back_sees_the_next_run_of_the_daemon(self):
+        daemon, port = self.daemon_with_view("--rate", 20, "--no-output")
+        self.look_back()
+        run = self.js("swiftletPage.model.run.map_id")
+        daemon.kill()
+        daemon.wait(PATIENCE_S)
+        self.daemon_with_view("--rate", 20, "--no-output", port=port)
+        self.assertNotEqual(self.js("swiftletPage.model.run.map_id"), run)
+        self.assertIsNone(self.js("swiftletPage.player.at_us"))
+
+    def test_a_page_that_looks_back_does_so_after_a_lost_connection(self):
+        self.open_finished()
+        tiles = self.look_back()
+        self.js("swiftletPage.connection.socket.close()")
+        self.wait_until("!swiftletPage.isConnected")
+        self.js("swiftletPage.tileMap.clear()")
+        self.wait_until("swiftletPage.tileMap.tiles.size > 0 && swiftletPage.isSynced")
+        self.assertEqual(self.js("swiftletPage.tileMap.tiles.size"), tiles)
 
 
 def skip(why):

@@ -11,17 +11,13 @@ export class Connection {
   constructor(onMessage, onState) {
     this.onMessage = onMessage;
     this.onState = onState;
-    this.wanted_at_us = null;
     this.open();
   }
 
   open() {
     this.socket = new WebSocket(`ws://${location.host}/live`);
     this.socket.binaryType = "arraybuffer";
-    this.socket.onopen = () => {
-      this.onState(true);
-      if (this.wanted_at_us !== null) this.lookAt(this.wanted_at_us);
-    };
+    this.socket.onopen = () => this.onState(true);
     this.socket.onmessage = (event) => this.onMessage(decodeMessage(event.data));
     this.socket.onclose = () => {
       this.onState(false);
@@ -29,9 +25,8 @@ export class Connection {
     };
   }
 
-  /// null: the newest.
+  /// null: the newest. Lost without a connection: a new one begins with the run, on which the player asks again.
   lookAt(at_us) {
-    this.wanted_at_us = at_us;
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(momentRequest(at_us));
   }
 }

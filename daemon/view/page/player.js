@@ -11,19 +11,19 @@ export class Player {
     this.at_us = null;
     this.isPlaying = true;
     this.rate = 1;
-    this.requested_us = null;
+    this.requested_us = undefined;  // nothing yet
     this.requestedAt_ms = 0;
     this.map_id = "";
   }
 
-  /// A run begins, or the same one again on a new connection.
+  /// A run begins, or the same one again on a new connection. The server does not know what is looked at.
   begin(run) {
+    this.requested_us = undefined;
     if (run.map_id === this.map_id) return;
     this.map_id = run.map_id;
     this.isPlaying = true;
     this.rate = run.is_recording ? run.rate : 1;
     this.at_us = run.is_recording ? 0 : null;
-    this.requested_us = this.at_us;
   }
 
   /// Goes on by so much of the wall's time. True when the moment has changed.
