@@ -58,6 +58,21 @@ BEAMS_AT_WALLS = """const page = swiftletPage, side = page.model.resolution_m, a
 const hits = page.model.poses.slice(0, 200).flatMap((pose) => page.model.hitsOf(pose));
 const atWall = ([x, y]) => around.some((dx) => around.some((dy) => page.tileMap.percentAt([x + dx, y + dy], side) >= 65));
 return [hits.length, hits.filter(atWall).length];"""
+# Of two runs of 1000 poses, both generation 1: paths that are drawn of both.
+PATHS_OF_BOTH_RUNS = """const done = arguments[0];
+(async () => {
+  const [{RunModel}, {TrailPaths}] = await Promise.all([import('./run_model.js'), import('./trail_paths.js')]);
+  const [model, strokes] = [new RunModel(), []];
+  const trail = new TrailPaths(model, 'map');
+  for (const map_id of ['1', '2']) {
+    model.begin({generation: 1, map_id});
+    model.addPoses(Array.from({length: 1000}, (_, i) => ({map: [i, 0, 0], odom: [i, 0, 0], segment: 0, storey: 0})), []);
+    const paths = new Set();
+    trail.stroke({stroke: (path) => paths.add(path)}, 0, 999);
+    strokes.push(paths);
+  }
+  done([...strokes[0]].filter((path) => strokes[1].has(path)).length);
+})();"""
 programs = {}
 
 
@@ -344,6 +359,10 @@ class PageTest(unittest.TestCase):
         self.js("swiftletPage.tileMap.clear()")
         self.wait_until("swiftletPage.tileMap.tiles.size > 0 && swiftletPage.isSynced")
         self.assertEqual(self.js("swiftletPage.tileMap.tiles.size"), tiles)
+
+    def test_a_new_run_has_no_trail_of_the_one_before(self):
+        self.browser.get(self.view("--lcm-url", LCM_URL).url)
+        self.assertEqual(self.browser.execute_async_script(PATHS_OF_BOTH_RUNS), 0)
 
 
 def skip(why):

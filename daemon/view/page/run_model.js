@@ -6,15 +6,16 @@ const MAX_POSES = 80_000;
 /// What the page knows of the run. Positions in metres and radians, frame map, unless named otherwise.
 export class RunModel {
   constructor() {
+    this.posesVersion = 0;  // counts up when poses are forgotten: what was derived of them is void
     this.begin({generation: 0, map_id: "", title: "", is_recording: false, rate: 1});
   }
 
   begin(run) {
     this.run = run;
     this.poses = [];
-    this.bearings = [];     // of the beams, in the body frame
-    this.posesVersion = 0;  // counts up when poses are thinned: what was derived of them is void
-    this.storey = 0;        // that is shown
+    this.posesVersion += 1;
+    this.bearings = [];  // of the beams, in the body frame
+    this.storey = 0;     // that is shown
     this.hasStoreys = false;
     this.walls = [];
     this.closures = new Map();

@@ -11,7 +11,7 @@ export class TrailPaths {
     this.model = model;
     this.member = member;
     this.blocks = [];
-    this.ofRun = "";
+    this.ofPoses = "";
   }
 
   /// Strokes the poses from index `from` to index `to` (inclusive) with the context's style.
@@ -28,9 +28,9 @@ export class TrailPaths {
   }
 
   forgetOld() {
-    const run = `${this.model.run.generation} ${this.model.posesVersion} ${this.model.storey}`;
-    if (run !== this.ofRun) this.blocks = [];
-    this.ofRun = run;
+    const poses = `${this.model.posesVersion} ${this.model.storey}`;
+    if (poses !== this.ofPoses) this.blocks = [];
+    this.ofPoses = poses;
   }
 
   path(from, to) {
