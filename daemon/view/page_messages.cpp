@@ -129,8 +129,8 @@ WebMessage storey_message(StoreyId storey) {
   return page_message({{"type", "storey"}, {"storey", index_of(storey)}});
 }
 
-WebMessage synced_message(std::int64_t at_us) {
-  return page_message({{"type", "synced"}, {"utime_us", at_us}});
+WebMessage synced_message(std::int64_t at_us, bool has_ended) {
+  return page_message({{"type", "synced"}, {"utime_us", at_us}, {"has_ended", has_ended}});
 }
 
 WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad) {

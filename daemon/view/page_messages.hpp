@@ -25,8 +25,8 @@ namespace swiftlet {
 //   events    events: new ones, each with utime_us, level (0 note, 1 good, 2 warning, 3 bad), text
 //   closures  closures: new and changed ones: the members of SeenClosure
 //   storey    storey: the one that is shown from now on; 0 at the beginning. Forget walls and tiles
-//   synced    everything up to the moment that is looked at has been sent. utime_us of that moment; 0: the
-//   newest
+//   synced    everything up to the moment that is looked at has been sent. utime_us of that moment, 0: the
+//   newest; has_ended: so has the run, whatever moment is looked at
 // From the server, as bytes, little-endian: a header of 16 bytes (u32 kind, u32 count, f64 value), then
 // `count` records:
 //   1 poses, value n: number of beams. f32[n] bearings come before the records.
@@ -53,7 +53,7 @@ struct ShownSource {
 [[nodiscard]] WebMessage events_message(std::span<const RunEvent> events);
 [[nodiscard]] WebMessage closures_message(std::span<const SeenClosure> closures);
 [[nodiscard]] WebMessage storey_message(StoreyId storey);
-[[nodiscard]] WebMessage synced_message(std::int64_t at_us);
+[[nodiscard]] WebMessage synced_message(std::int64_t at_us, bool has_ended);
 /// `bearings_rad` as RunHistory::bearings_rad().
 [[nodiscard]] WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad);
 [[nodiscard]] WebMessage walls_message(std::int64_t utime_us, std::span<const SeenWall> walls);

@@ -5,7 +5,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "swiftlet/status_t.hpp"
+
 namespace swiftlet {
+namespace {
+
+bool has_ended(const RunHistory& history) {
+  const auto* const newest = history.statuses().newest();
+  return newest != nullptr && newest->value.state == status_t::STATE_FINISHED;
+}
+
+}  // namespace
 
 void Viewer::take(std::string_view text) {
   const std::optional<MomentRequest> request = parse_moment_request(text);
@@ -28,7 +38,7 @@ std::optional<WebMessage> Viewer::next() {
   if (std::optional<WebMessage> message = next_of_run(history)) return message;
   is_synced_ = true;
   synced_changes_ = history.changes();
-  return synced_message(at_us_.value_or(0));
+  return synced_message(at_us_.value_or(0), has_ended(history));
 }
 
 std::optional<WebMessage> Viewer::next_of_run(const RunHistory& history) {

@@ -351,6 +351,34 @@ class PageTest(unittest.TestCase):
         self.assertNotEqual(self.js("swiftletPage.model.run.map_id"), run)
         self.assertIsNone(self.js("swiftletPage.player.at_us"))
 
+    def test_a_page_that_looks_back_gets_the_final_map_when_the_daemon_ends(self):
+        with tempfile.TemporaryDirectory() as parent:
+            out = Path(parent, "out")
+            daemon, _ = self.daemon_with_view("--rate", 20, "-o", out)
+            self.look_back()
+            daemon.terminate()
+            self.wait_until("!swiftletPage.isConnected")
+            self.assertEqual(self.js("document.getElementById('notice').textContent"),
+                             "swiftletd has ended: the map is final")
+            daemon.wait(PATIENCE_S)
+            self.check_pgm(out)
+
+    def test_a_page_that_does_not_get_the_final_map_says_so(self):
+        daemon, _ = self.daemon_with_view("--rate", 20, "--no-output")
+        self.look_back()
+        self.js("swiftletPage.connection.lookAt = () => {}")
+        daemon.terminate()
+        self.wait_until("document.getElementById('notice').textContent === 'swiftletd has ended: the map is not final'")
+
+    def test_a_page_that_looks_back_at_a_finished_run_misses_nobody(self):
+        view = self.view("--lcm-url", LCM_URL)
+        subprocess.run(fly("--rate", 200, "--no-output"), check=True, capture_output=True)
+        self.browser.get(view.url)
+        self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.isSynced")
+        self.look_back()
+        self.js("swiftletPage.lastMessage_ms -= 60_000")
+        self.assertEqual(self.js("swiftletPage.connectionState()"), ["there", ""])
+
     def test_a_page_that_looks_back_does_so_after_a_lost_connection(self):
         self.open_finished()
         tiles = self.look_back()

@@ -52,6 +52,8 @@ class Page {
     this.lastMessage_ms = 0;
     this.frames = 0;          // drawn so far
     this.isSynced = false;
+    this.hasEnded = false;    // swiftletd has, whatever moment is looked at
+    this.isFinal = false;     // the map that was last whole
     this.connectButtons();
     connectKeys(this);
     new ResizeObserver(() => this.resize()).observe(byId("stage"));
@@ -86,6 +88,7 @@ class Page {
       events: () => this.model.events.push(...message.events),
       storey: () => this.showStorey(message.storey),
       tiles: () => this.addTiles(message),
+      synced: () => this.onSynced(message),
     };
     handlers[message.type]?.();
     this.redraw();
@@ -100,7 +103,9 @@ class Page {
     this.timeline.showRates();
     byId("title").textContent = titleOf(run);
     document.title = `${titleOf(run)} – swiftlet`;
-    if (!isSame) this.isFitted = !this.isFollowing;
+    if (isSame) return;
+    this.hasEnded = false;
+    this.isFitted = !this.isFollowing;
   }
 
   showStorey(storey) {
@@ -112,6 +117,17 @@ class Page {
   addTiles(message) {
     this.model.resolution_m = message.resolution_m;
     for (const tile of message.tiles) this.tileMap.set(tile);
+  }
+
+  /// When swiftletd ends, its server may, too: who looks back goes to the newest while it can be had.
+  onSynced({utime_us, has_ended}) {
+    if (this.model.run.is_recording) return;
+    const isNews = has_ended && !this.hasEnded;
+    this.hasEnded = has_ended;
+    this.isFinal = has_ended && utime_us === 0;
+    if (!isNews || this.isFinal) return;
+    this.player.goLive();
+    this.player.request(performance.now());
   }
 
   onConnection(isThere) {
@@ -241,16 +257,14 @@ class Page {
     byId("notice").textContent = text;
   }
 
-  hasEnded() {
-    return !this.model.run.is_recording && this.model.status?.state === 2;
-  }
-
   connectionState() {
-    if (!this.isConnected && this.hasEnded()) return ["lost", "swiftletd has ended: the map is final"];
+    const isLive = !this.model.run.is_recording;
+    const hasEnded = isLive && (this.hasEnded || this.model.status?.state === 2);
+    if (!this.isConnected && hasEnded)
+      return ["lost", `swiftletd has ended: the map is ${this.isFinal && this.isSynced ? "" : "not "}final`];
     if (!this.isConnected) return ["lost", "Connection lost: trying again"];
     if (this.model.run.generation === 0) return ["waiting", "Waiting for swiftletd"];
-    const isOver = this.model.run.is_recording || this.hasEnded();
-    if (!isOver && performance.now() - this.lastMessage_ms > SILENT_AFTER_ms) return ["silent", "swiftletd is silent"];
+    if (isLive && !hasEnded && performance.now() - this.lastMessage_ms > SILENT_AFTER_ms) return ["silent", "swiftletd is silent"];
     return ["there", ""];
   }
 }

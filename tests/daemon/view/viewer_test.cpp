@@ -179,6 +179,21 @@ TEST_F(ViewerTest, TheFinalStatusIsSaidAlthoughItsTimeIsTheOneBefore) {
   EXPECT_EQ(nlohmann::json::parse(message->bytes)["state"], 2);
 }
 
+TEST_F(ViewerTest, APageThatLooksBackIsToldOfTheEnd) {
+  begin_run();
+  history_.add_status({.utime_us = 5, .state = 0});
+  Viewer viewer(shared_, live_);
+  viewer.take(R"({"at": 5})");
+  const auto has_ended = [&viewer] {
+    std::string last;
+    while (const auto message = viewer.next()) last = message->bytes;
+    return nlohmann::json::parse(last)["has_ended"];
+  };
+  EXPECT_EQ(has_ended(), false);
+  history_.add_status({.utime_us = 7, .state = 2});
+  EXPECT_EQ(has_ended(), true);
+}
+
 TEST_F(ViewerTest, ARecordingBeginsAtItsBeginning) {
   const ShownSource recording{.title = "a.pcap", .is_recording = true, .rate = 5.0};
   begin_run();
