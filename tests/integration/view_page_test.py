@@ -73,6 +73,16 @@ PATHS_OF_BOTH_RUNS = """const done = arguments[0];
   }
   done([...strokes[0]].filter((path) => strokes[1].has(path)).length);
 })();"""
+# Of a vehicle that flies 2 m ahead, its estimator begins anew, and it flies 1 m ahead.
+PLACED_ODOM = """const done = arguments[0];
+(async () => {
+  const {RunModel} = await import('./run_model.js'), model = new RunModel();
+  const pose = (segment, map, odom) => ({segment, storey: 0, map, odom});
+  model.addPoses([pose(0, [0, 0, 0], [5, 1, Math.PI / 2]), pose(0, [2, 0, 0], [5, 3, Math.PI / 2]),
+                  pose(1, [2, 1, Math.PI / 2], [0, 0, 0]), pose(1, [2, 2, Math.PI / 2], [1, 0, 0])], []);
+  done([model.poses.map((pose) => pose.raw.map((part) => Math.round(part * 1e6) / 1e6 + 0)),
+        model.poses.map((pose) => pose.travel_m)]);
+})();"""
 programs = {}
 
 
@@ -391,6 +401,12 @@ class PageTest(unittest.TestCase):
     def test_a_new_run_has_no_trail_of_the_one_before(self):
         self.browser.get(self.view("--lcm-url", LCM_URL).url)
         self.assertEqual(self.browser.execute_async_script(PATHS_OF_BOTH_RUNS), 0)
+
+    def test_dead_reckoning_is_drawn_from_where_the_map_has_its_segment(self):
+        self.browser.get(self.view("--lcm-url", LCM_URL).url)
+        placed, travel = self.browser.execute_async_script(PLACED_ODOM)
+        self.assertEqual(placed, [[0, 0], [2, 0], [2, 1], [2, 2]])
+        self.assertEqual(travel, [0, 2, 2, 3])
 
 
 def skip(why):

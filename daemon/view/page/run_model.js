@@ -27,7 +27,10 @@ export class RunModel {
   addPoses(poses, bearings) {
     this.bearings = bearings;
     for (const pose of poses) {
-      pose.travel_m = travelTo(this.poses[this.poses.length - 1], pose);
+      const before = this.poses[this.poses.length - 1];
+      pose.travel_m = travelTo(before, pose);
+      if (before?.segment !== pose.segment || before.storey !== pose.storey) this.rawStart = pose;
+      pose.raw = rawPlace(this.rawStart, pose);
       this.poses.push(pose);
       this.hasStoreys ||= pose.storey > 0;
     }
@@ -82,6 +85,14 @@ export class RunModel {
     const isBelieved = (c) => c.found_us <= moment_us && (c.dropped_us === 0 || c.dropped_us > moment_us);
     return [...this.closures.values()].filter(isBelieved);
   }
+}
+
+/// Where dead reckoning alone puts the pose in frame map, if it was right at `start`.
+function rawPlace(start, pose) {
+  const turn_rad = start.map[2] - start.odom[2];
+  const [dx, dy] = [pose.odom[0] - start.odom[0], pose.odom[1] - start.odom[1]];
+  const [c, s] = [Math.cos(turn_rad), Math.sin(turn_rad)];
+  return [start.map[0] + c * dx - s * dy, start.map[1] + s * dx + c * dy];
 }
 
 /// Metres flown since the beginning, by dead reckoning.

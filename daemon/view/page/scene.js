@@ -18,7 +18,7 @@ export class Scene {
     this.tileMap = tileMap;
     this.layers = layers;
     this.corrected = new TrailPaths(model, "map");
-    this.raw = new TrailPaths(model, "odom");
+    this.raw = new TrailPaths(model, "raw");
   }
 
   /// frame: {context, transform, colours, pixelRatio, at_us, measure}

@@ -57,7 +57,7 @@ function addTrails(sheet, frame, model, layers, at_us) {
     for (const line of trailLines(model.poses, member, 0, model.indexAt(at_us), model.storey))
       sheet.lines.push({points: line.map((point) => frame.toSheet(point)), colour, width_mm: 0.35});
   };
-  if (layers.raw) add("odom", PRINT_COLOURS.raw);
+  if (layers.raw) add("raw", PRINT_COLOURS.raw);
   if (layers.trail) add("map", PRINT_COLOURS.trail);
 }
 

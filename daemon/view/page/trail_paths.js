@@ -6,7 +6,7 @@ const JUMP_m = 0.25;      // a correction that moves the pose farther breaks the
 
 /// A trail as paths in metres, those of whole blocks kept from frame to frame.
 export class TrailPaths {
-  /// `member` of a pose: "map" or "odom".
+  /// `member` of a pose: "map" or "raw".
   constructor(model, member) {
     this.model = model;
     this.member = member;
@@ -61,7 +61,7 @@ export function trailLines(poses, member, from, to, storey) {
 }
 
 function isBroken(before, pose, member) {
-  if (member === "odom") return before.segment !== pose.segment;
+  if (member === "raw") return before.segment !== pose.segment;
   if (before.correction === pose.correction && before.segment === pose.segment) return false;
   return Math.hypot(pose.map[0] - before.map[0], pose.map[1] - before.map[1]) > JUMP_m;
 }
