@@ -184,6 +184,12 @@ class PageTest(unittest.TestCase):
     def js(self, expression):
         return self.browser.execute_script("return " + expression)
 
+    def set_screen(self, width, height, ratio=1):
+        """In CSS pixels, of a phone where the ratio is above 1."""
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": height, "deviceScaleFactor": ratio, "mobile": ratio > 1})
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+
     def wait_until(self, expression):
         end = time.monotonic() + PATIENCE_S
         while not self.js(expression):
@@ -282,11 +288,9 @@ class PageTest(unittest.TestCase):
         self.wait_until("document.getElementById('notice').textContent === ''")
 
     def test_5_a_narrow_screen_in_the_dark(self):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                     {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.set_screen(390, 844, ratio=2)
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia",
                                      {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
         self.open_finished()
         self.assertEqual(self.js("document.documentElement.scrollWidth"), 390)
         self.assertEqual(self.js("document.documentElement.dataset.theme"), "dark")
@@ -319,9 +323,7 @@ class PageTest(unittest.TestCase):
         self.js("localStorage.clear()")
 
     def test_8_a_phone_sees_a_flight_that_the_daemon_shows_itself(self):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                     {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
-        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        self.set_screen(390, 844, ratio=2)
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         flight = fly("--rate", 20, "--no-output", "--record", f"{folder.name}/flight.pcap", "--view", "127.0.0.1:0")
@@ -407,6 +409,14 @@ class PageTest(unittest.TestCase):
         placed, travel = self.browser.execute_async_script(PLACED_ODOM)
         self.assertEqual(placed, [[0, 0], [2, 0], [2, 1], [2, 2]])
         self.assertEqual(travel, [0, 2, 2, 3])
+
+    def test_a_screen_of_another_pixel_ratio_gets_a_canvas_of_its_own(self):
+        self.set_screen(1200, 800)
+        self.browser.get(self.view("--lcm-url", LCM_URL).url)
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": 1200, "height": 800, "deviceScaleFactor": 2, "mobile": False})
+        self.wait_until("devicePixelRatio === 2")
+        self.wait_until("swiftletPage.canvas.width === 2 * swiftletPage.canvas.clientWidth")
 
 
 def skip(why):

@@ -209,8 +209,9 @@ class Page {
   resize() {
     const box = byId("stage").getBoundingClientRect();
     this.transform.size = [Math.max(1, box.width), Math.max(1, box.height)];
-    this.canvas.width = this.transform.size[0] * devicePixelRatio;
-    this.canvas.height = this.transform.size[1] * devicePixelRatio;
+    this.pixelRatio = devicePixelRatio;
+    this.canvas.width = this.transform.size[0] * this.pixelRatio;
+    this.canvas.height = this.transform.size[1] * this.pixelRatio;
     this.redraw();
   }
 
@@ -222,6 +223,7 @@ class Page {
     const hasMoved = this.player.advance(now_ms - this.lastFrame_ms, now_ms);
     this.lastFrame_ms = now_ms;
     this.showNotice();
+    if (this.pixelRatio !== devicePixelRatio) this.resize();  // on another screen
     if (this.isStale || hasMoved) this.draw();
     requestAnimationFrame((next_ms) => this.frame(next_ms));
   }
@@ -231,7 +233,7 @@ class Page {
     this.frames += 1;
     this.placeView();
     this.scene.draw({
-      context: this.context, transform: this.transform, colours: this.theme.colours, pixelRatio: devicePixelRatio,
+      context: this.context, transform: this.transform, colours: this.theme.colours, pixelRatio: this.pixelRatio,
       at_us: this.player.at_us, measure: this.measure,
     });
     this.strip.update(this.model, this.player.at_us);
