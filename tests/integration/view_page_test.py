@@ -83,6 +83,7 @@ PLACED_ODOM = """const done = arguments[0];
   done([model.poses.map((pose) => pose.raw.map((part) => Math.round(part * 1e6) / 1e6 + 0)),
         model.poses.map((pose) => pose.travel_m)]);
 })();"""
+NO_STORAGE = """Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('of the test', 'SecurityError'); }});"""
 programs = {}
 
 
@@ -417,6 +418,16 @@ class PageTest(unittest.TestCase):
                                      {"width": 1200, "height": 800, "deviceScaleFactor": 2, "mobile": False})
         self.wait_until("devicePixelRatio === 2")
         self.wait_until("swiftletPage.canvas.width === 2 * swiftletPage.canvas.clientWidth")
+
+    def test_a_page_that_may_store_nothing_works(self):
+        script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": NO_STORAGE})
+        self.addCleanup(self.browser.execute_cdp_cmd, "Page.removeScriptToEvaluateOnNewDocument", script)
+        self.open_finished()
+        before = self.js("document.documentElement.dataset.theme")
+        self.press("t")
+        self.assertNotEqual(self.js("document.documentElement.dataset.theme"), before)
+        self.press("4")
+        self.wait_until("swiftletPage.layers.raw && !swiftletPage.isStale")
 
 
 def skip(why):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
+import {readStored, store} from "./storage.js";
+
 const STORED = "swiftlet-layers";
 const LAYERS = [
   ["map", "Map", true], ["grid", "Grid and axes", true], ["trail", "Trail, corrected", true],
@@ -12,7 +14,7 @@ const LAYERS = [
 export function storedLayers() {
   let stored = {};
   try {
-    stored = JSON.parse(localStorage.getItem(STORED)) ?? {};
+    stored = JSON.parse(readStored(STORED)) ?? {};
   } catch {  // not ours
   }
   return Object.fromEntries(LAYERS.map(([name, , isOn]) => [name, typeof stored[name] === "boolean" ? stored[name] : isOn]));
@@ -40,7 +42,7 @@ export class LayerBoxes {
 
   set(name, isOn) {
     this.layers[name] = isOn;
-    localStorage.setItem(STORED, JSON.stringify(this.layers));
+    store(STORED, JSON.stringify(this.layers));
     this.onChange();
   }
 

@@ -3,6 +3,8 @@
 
 // Colours of what is drawn on the canvas; those of the page around it stand in style.css.
 
+import {readStored, store} from "./storage.js";
+
 const LIGHT = {
   paper: [255, 255, 255], ink: [26, 32, 40], unknown: "#e4e8ec", grid: "#00183014", axis: "#00183040",
   trail: "#2366c8", later: "#2366c838", raw: "#b3702e", wall: "#0a8f6a", closure: "#c02a8a", drone: "#e0531f", beam: "#e0531fa0",
@@ -19,6 +21,7 @@ const THEMES = ["light", "dark"];
 /// The theme: the system's until the user chooses.
 export class Theme {
   constructor(onChange) {
+    this.chosen = readStored(STORED);
     this.query = matchMedia("(prefers-color-scheme: dark)");
     this.onChange = onChange;
     this.query.addEventListener("change", () => this.apply());
@@ -26,8 +29,7 @@ export class Theme {
   }
 
   get name() {
-    const stored = localStorage.getItem(STORED);
-    if (THEMES.includes(stored)) return stored;
+    if (THEMES.includes(this.chosen)) return this.chosen;
     return this.query.matches ? "dark" : "light";
   }
 
@@ -36,7 +38,8 @@ export class Theme {
   }
 
   toggle() {
-    localStorage.setItem(STORED, this.name === "dark" ? "light" : "dark");
+    this.chosen = this.name === "dark" ? "light" : "dark";
+    store(STORED, this.chosen);
     this.apply();
   }
 
