@@ -429,6 +429,20 @@ class PageTest(unittest.TestCase):
         self.press("4")
         self.wait_until("swiftletPage.layers.raw && !swiftletPage.isStale")
 
+    def test_an_error_while_drawing_costs_one_frame(self):
+        self.open_finished()
+        self.js("swiftletPage.scene.draw = () => { delete swiftletPage.scene.draw; throw new Error('of the test'); }")
+        self.js("swiftletPage.redraw()")
+        self.wait_until("!Object.hasOwn(swiftletPage.scene, 'draw')")
+        self.js("swiftletPage.redraw()")
+        self.wait_until("!swiftletPage.isStale")
+
+    def test_a_closure_newer_than_the_newest_pose_is_drawn(self):
+        self.open_finished()
+        self.js("swiftletPage.model.addClosures([{...swiftletPage.model.closures.values().next().value, index: 1e6, "
+                "found_us: swiftletPage.model.newest_us + 10e6}])")
+        self.js("swiftletPage.draw()")
+
 
 def skip(why):
     print("skipped: " + why)

@@ -220,12 +220,12 @@ class Page {
   }
 
   frame(now_ms) {
+    requestAnimationFrame((next_ms) => this.frame(next_ms));  // first: an error costs one frame
     const hasMoved = this.player.advance(now_ms - this.lastFrame_ms, now_ms);
     this.lastFrame_ms = now_ms;
     this.showNotice();
     if (this.pixelRatio !== devicePixelRatio) this.resize();  // on another screen
     if (this.isStale || hasMoved) this.draw();
-    requestAnimationFrame((next_ms) => this.frame(next_ms));
   }
 
   draw() {

@@ -112,7 +112,7 @@ export class Scene {
     const now_us = at_us ?? this.model.newest_us;
     for (const closure of this.model.closuresAt(at_us)) {
       if (closure.storey !== this.model.storey) continue;
-      const age = (now_us - closure.found_us) / FLASH_us;
+      const age = Math.max(0, now_us - closure.found_us) / FLASH_us;  // its pose may be on the way
       context.globalAlpha = age < 1 ? 1 : 0.28;
       strokeLine(context, colours.closure, width_m(age < 1 ? 2.5 : 1.25, transform), [...closure.from_map, ...closure.to_map]);
       if (age < 1) ring(context, colours.closure, closure.to_map, (8 + 26 * age) / transform.scale_px, 2 / transform.scale_px);
