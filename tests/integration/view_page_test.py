@@ -443,6 +443,17 @@ class PageTest(unittest.TestCase):
                 "found_us: swiftletPage.model.newest_us + 10e6}])")
         self.js("swiftletPage.draw()")
 
+    def test_keys_work_after_a_layer_is_ticked_with_the_mouse(self):
+        self.open_finished()
+        self.browser.find_element("id", "layer-raw").click()
+        scale = self.js("swiftletPage.transform.scale_px")
+        self.press("+")
+        self.assertGreater(self.js("swiftletPage.transform.scale_px"), scale)
+        self.press(" ")
+        self.assertFalse(self.js("swiftletPage.layers.raw"), "space is the box's own")
+        self.assertTrue(self.js("swiftletPage.player.isPlaying"))
+        self.js("localStorage.clear()")
+
 
 def skip(why):
     print("skipped: " + why)

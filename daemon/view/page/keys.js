@@ -18,8 +18,8 @@ function actionsOf(page) {
 export function connectKeys(page) {
   const actions = actionsOf(page);
   document.addEventListener("keydown", (event) => {
-    const takesKeys = event.target.closest?.("select, input, textarea") || (event.key === " " && event.target.closest?.("button"));
-    if (takesKeys || event.ctrlKey || event.metaKey || event.altKey) return;
+    const takesIt = event.key === " " ? "select, input, textarea, button" : "select, input:not([type=checkbox]), textarea";
+    if (event.target.closest?.(takesIt) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (/^[1-9]$/.test(event.key)) return page.boxes.toggle(Number(event.key));
     const act = actions[event.key.toLowerCase()];
     if (!act) return;
