@@ -84,6 +84,8 @@ PLACED_ODOM = """const done = arguments[0];
         model.poses.map((pose) => pose.travel_m)]);
 })();"""
 NO_STORAGE = """Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('of the test', 'SecurityError'); }});"""
+BOXES = """return ['#stage', '#notice', '#tools button'].flatMap((what) => [...document.querySelectorAll(what)])
+  .map((element) => element.getBoundingClientRect().toJSON());"""
 programs = {}
 
 
@@ -453,6 +455,20 @@ class PageTest(unittest.TestCase):
         self.assertFalse(self.js("swiftletPage.layers.raw"), "space is the box's own")
         self.assertTrue(self.js("swiftletPage.player.isPlaying"))
         self.js("localStorage.clear()")
+
+    def test_a_phone_held_sideways_shows_all_tools(self):
+        for width, height in ((667, 331), (844, 340), (568, 270)):
+            self.set_screen(width, height, ratio=2)
+            self.browser.get(self.view("--lcm-url", LCM_URL).url)
+            self.wait_until("document.getElementById('notice').textContent === 'Waiting for swiftletd'")
+            panel = self.js("document.body.classList.contains('panel-closed') || document.getElementById('panel')"
+                            ".getBoundingClientRect().bottom <= document.getElementById('timeline').getBoundingClientRect().top")
+            self.assertTrue(panel, "the panel ends above the time line")
+            stage, notice, *tools = self.browser.execute_script(BOXES)
+            for box in (notice, *tools):
+                self.assertTrue(stage["left"] <= box["left"] and box["right"] <= stage["right"], (stage, box))
+                self.assertTrue(stage["top"] <= box["top"] and box["bottom"] <= stage["bottom"], (stage, box))
+            self.assertLess(notice["right"], min(tool["left"] for tool in tools))
 
 
 def skip(why):
