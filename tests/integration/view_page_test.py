@@ -86,6 +86,14 @@ PLACED_ODOM = """const done = arguments[0];
 NO_STORAGE = """Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('of the test', 'SecurityError'); }});"""
 BOXES = """return ['#stage', '#notice', '#tools button'].flatMap((what) => [...document.querySelectorAll(what)])
   .map((element) => element.getBoundingClientRect().toJSON());"""
+# Of the sheet with one layer or none, and of the plan with none: how many lines each has.
+LINES_OF_LAYERS = """const done = arguments[0], page = swiftletPage;
+(async () => {
+  const {makeSheet} = await import('./sheet.js'), lines = {};
+  const count = (layers, isPlan) => makeSheet(page.model, page.tileMap, layers, null, isPlan).lines.length;
+  for (const name of ['none', 'walls', 'closures']) lines[name] = count({[name]: true}, false);
+  done({...lines, plan: count({}, true)});
+})();"""
 programs = {}
 
 
@@ -469,6 +477,14 @@ class PageTest(unittest.TestCase):
                 self.assertTrue(stage["left"] <= box["left"] and box["right"] <= stage["right"], (stage, box))
                 self.assertTrue(stage["top"] <= box["top"] and box["bottom"] <= stage["bottom"], (stage, box))
             self.assertLess(notice["right"], min(tool["left"] for tool in tools))
+
+    def test_a_sheet_as_shown_has_the_layers_that_are_shown(self):
+        self.open_finished()
+        lines = self.browser.execute_async_script(LINES_OF_LAYERS)
+        self.assertEqual(lines["none"], MEASURE_LINES)
+        self.assertEqual(lines["walls"] - lines["none"], self.js("swiftletPage.model.walls.length"))
+        self.assertEqual(lines["closures"] - lines["none"], self.js("swiftletPage.model.closuresAt(null).length"))
+        self.assertEqual(lines["plan"], lines["walls"], "walls alone, whatever is shown")
 
 
 def skip(why):

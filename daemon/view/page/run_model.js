@@ -85,6 +85,11 @@ export class RunModel {
     const isBelieved = (c) => c.found_us <= moment_us && (c.dropped_us === 0 || c.dropped_us > moment_us);
     return [...this.closures.values()].filter(isBelieved);
   }
+
+  /// Of these, on the storey that is shown.
+  closuresShown(at_us) {
+    return this.closuresAt(at_us).filter((closure) => closure.storey === this.storey);
+  }
 }
 
 /// Where dead reckoning alone puts the pose in frame map, if it was right at `start`.

@@ -110,8 +110,7 @@ export class Scene {
 
   drawClosures({context, transform, colours, at_us}) {
     const now_us = at_us ?? this.model.newest_us;
-    for (const closure of this.model.closuresAt(at_us)) {
-      if (closure.storey !== this.model.storey) continue;
+    for (const closure of this.model.closuresShown(at_us)) {
       const age = Math.max(0, now_us - closure.found_us) / FLASH_us;  // its pose may be on the way
       context.globalAlpha = age < 1 ? 1 : 0.28;
       strokeLine(context, colours.closure, width_m(age < 1 ? 2.5 : 1.25, transform), [...closure.from_map, ...closure.to_map]);

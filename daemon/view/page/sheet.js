@@ -21,8 +21,9 @@ export function makeSheet(model, tileMap, layers, at_us, isPlan) {
   const frame = frameOf(bounds);
   const sheet = {size_mm: frame.size_mm, lines: [], texts: [], image: null};
   if (!isPlan && layers.map) sheet.image = imageOf(tileMap, model.resolution_m, frame);
-  addWalls(sheet, frame, model);
+  if (isPlan || layers.walls) addWalls(sheet, frame, model);
   if (!isPlan) addTrails(sheet, frame, model, layers, at_us);
+  if (!isPlan && layers.closures) addClosures(sheet, frame, model, at_us);
   addMeasures(sheet, frame, bounds);
   addTitle(sheet, frame, model, at_us);
   return sheet;
@@ -59,6 +60,11 @@ function addTrails(sheet, frame, model, layers, at_us) {
   };
   if (layers.raw) add("raw", PRINT_COLOURS.raw);
   if (layers.trail) add("map", PRINT_COLOURS.trail);
+}
+
+function addClosures(sheet, frame, model, at_us) {
+  for (const {from_map, to_map} of model.closuresShown(at_us))
+    sheet.lines.push({points: [frame.toSheet(from_map), frame.toSheet(to_map)], colour: PRINT_COLOURS.closure, width_mm: 0.18});
 }
 
 function addMeasures(sheet, frame, {low, high}) {
