@@ -176,7 +176,6 @@ LineSegment LineExtractor::segment_of(const MultiscanView& view, const Piece& pi
   LineSegment segment;
   segment.line = piece.fit.line();
   segment.covariance = covariance_of(view, piece, segment.line);
-  segment.points = piece.fit.count();
   Extent extent;
   extent.include(segment.line.along_m(piece.end_a));
   extent.include(segment.line.along_m(piece.end_b));

@@ -24,7 +24,6 @@ struct LineSegment {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< of (rho, alpha): m^2, m rad, rad^2
   Point2 start;  ///< on the line; end lies counter-clockwise of it: along_m(start) < along_m(end)
   Point2 end;
-  std::size_t points = 0;
 };
 using LineSegments = FixedVector<LineSegment, kMaxLinesPerMultiscan>;
 

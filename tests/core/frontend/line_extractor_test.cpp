@@ -45,7 +45,6 @@ TEST_F(LineExtractorTest, FindsAWallWithItsEnds) {
   EXPECT_LT(wall.line.along_m(wall.start), wall.line.along_m(wall.end));
   EXPECT_NEAR(wall.start.x_m, 1.0, 1e-9);
   EXPECT_NEAR(wall.end.x_m, -1.0, 1e-9);
-  EXPECT_EQ(wall.points, 15U);
 }
 
 TEST_F(LineExtractorTest, SplitsAtACorner) {
@@ -68,7 +67,6 @@ TEST_F(LineExtractorTest, PutsTogetherWhatSeveralBeamsSawOfOneWall) {
   add_wall({-1.0, 1.0}, {0.0, 1.0}, 8, 0);
   add_wall({0.1, 1.0}, {1.0, 1.0}, 8, 1);
   ASSERT_EQ(extracted().size(), 1U);
-  EXPECT_EQ(segments_[0].points, 16U);
   EXPECT_NEAR(segments_[0].start.x_m - segments_[0].end.x_m, 2.0, 1e-9);
 }
 
