@@ -13,10 +13,11 @@ namespace swiftlet {
 /// Holds the dead reckoning still while a vehicle that has flown stands: with its motors off the firmware
 /// pulls the yaw estimate back to kalman.initialYaw with a time constant of ten seconds, and the map would
 /// turn under a vehicle that has landed. Ranges measured on the floor meanwhile do not belong into the map
-/// either. After the next take-off the dead reckoning continues from where the vehicle stood. A vehicle that
-/// was carried elsewhere restarts it; one that has not flown yet may be carried on purpose and is not frozen.
-/// Where the vehicle reports neither whether it flies nor its thrust, its height tells; where it reports no
-/// height either, nothing is frozen. One thread at a time; allocates nothing.
+/// either; where a height is logged, the assembler leaves out all of these. After the next take-off the dead
+/// reckoning continues from where the vehicle stood. A vehicle that was carried elsewhere restarts it; one
+/// that has not flown yet may be carried on purpose and is not frozen. Where the vehicle reports neither
+/// whether it flies nor its thrust, its height tells; where it reports no height either, nothing is frozen.
+/// One thread at a time; allocates nothing.
 class LandedOdometryFreeze {
  public:
   /// Position and yaw may come in different readings.

@@ -209,11 +209,12 @@ void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sampl
   const auto height = heights_.at(ranges.measured_at);
   const bool knows_tilt = tilt.outcome == OdometryTimeline<BodyTilt>::Outcome::kFound;
   const bool knows_height = height.outcome == OdometryTimeline<HeightReading>::Outcome::kFound;
+  const bool is_low = knows_height && height.value.height_m <= kStandingM;
   for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {
     const auto range_m = static_cast<double>(ranges.distance_m[i]);
     const double rise = knows_tilt ? rise_of_beam(config_.beams.bearing_rad[i], tilt.value) : 0.0;
     const double level_m = level_range_m(range_m, rise);
-    RangeStatus status = classify_distance(range_m, config_.sensor);
+    RangeStatus status = is_low ? RangeStatus::kInvalid : classify_distance(range_m, config_.sensor);
     if (status == RangeStatus::kHit)
       status = classify_distance(level_m, config_.sensor);  // of a body on its side
     const bool is_floor = status == RangeStatus::kHit && knows_tilt && knows_height &&

@@ -48,8 +48,9 @@ struct AssemblyConfig {
 /// time less the range's age), position and yaw each interpolated on its own time line, because they may come
 /// in different packets. Waits for dead reckoning that is still to come, for a short time; keeps the order;
 /// counts what it drops. Where tilt and height of that instant are known, too (they are not waited for),
-/// ranges become horizontal distances, and those that can be the floor's become invalid. Altitude and height
-/// tell the storey. Fixed storage, no allocation, one thread at a time.
+/// ranges become horizontal distances, and those that can be the floor's become invalid; by the height alone,
+/// all that were measured from kStandingM or less, whatever the vehicle reports. Altitude and height tell the
+/// storey. Fixed storage, no allocation, one thread at a time.
 class SampleAssembler {
  public:
   /// Counts into `counters`, which must outlive the assembler.

@@ -100,9 +100,11 @@ TEST(LandedOdometryFreeze, WhatTheVehicleReportsOutvotesItsHeight) {
   reading.height_m = 0.5;
   static_cast<void>(ground.hold(reading));
   reading.height_m = 0.02;  // over a box
-  EXPECT_EQ(ground.hold(reading).distance_m[0], 1.F);
+  reading.position_odom->x_m = 2.1;
+  expect_pose(ground.hold(reading), {2.1, 0.0, 0.6});
   reading.is_flying.reset();  // of a block without it
-  EXPECT_EQ(ground.hold(reading).distance_m[0], 1.F);
+  reading.position_odom->x_m = 2.2;
+  expect_pose(ground.hold(reading), {2.2, 0.0, 0.6});
 }
 
 /// As log blocks without room for both have it.

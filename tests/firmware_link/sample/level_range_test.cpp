@@ -33,7 +33,5 @@ TEST(LevelRange, ABeamThatPointsDownFarEnoughCanBeTheFloors) {
   EXPECT_FALSE(can_be_floor(3.5, 0.0, 0.5));
 }
 
-TEST(LevelRange, AStandingBodyIsLevel) { EXPECT_FALSE(can_be_floor(3.5, 0.0, 0.03)); }
-
 }  // namespace
 }  // namespace swiftlet

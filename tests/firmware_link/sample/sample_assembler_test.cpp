@@ -154,6 +154,29 @@ TEST_F(SampleAssemblerTest, LeavesOutWhatCanBeTheFloor) {
   EXPECT_EQ(counters_.invalid, samples_.size());
 }
 
+TEST_F(SampleAssemblerTest, TheRangesOfAVehicleThatStandsAreTheFloorsWhateverItReports) {
+  for (std::int64_t ms = 0; ms <= 800; ms += 100) {
+    position(ms, 0.0);
+    Reading height;
+    height.stream = 3;
+    height.at = device_ms(ms);
+    height.height_m = ms < 300 ? 0.03 : ms < 600 ? 0.5 : 0.0;  // it takes off and lands
+    height.is_flying = ms >= 300;                              // the firmware reports it for 2 s longer
+    feed(height);
+    ranges(ms, 0.0, {0.25F, 1.F, 32.766F, 1.F});
+  }
+  end();
+  ASSERT_EQ(samples_.size(), 8U);
+  for (const std::size_t standing : {0U, 1U, 2U, 6U, 7U})
+    for (std::size_t beam = 0; beam < 4; ++beam)
+      EXPECT_EQ(samples_[standing].status[beam], RangeStatus::kInvalid) << standing;
+  for (const std::size_t flying : {3U, 4U, 5U}) {
+    EXPECT_EQ(samples_[flying].status[0], RangeStatus::kHit) << flying;
+    EXPECT_EQ(samples_[flying].status[2], RangeStatus::kNoReturn) << flying;
+  }
+  EXPECT_EQ(counters_.floor_returns, 0U);
+}
+
 TEST_F(SampleAssemblerTest, TellsTheStoreyByAltitudeLessHeight) {
   const auto fly_at = [this](std::int64_t from_ms, double altitude_m, std::optional<double> height_m) {
     for (std::int64_t ms = from_ms; ms < from_ms + 20'000; ms += 100) {
