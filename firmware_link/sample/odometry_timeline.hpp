@@ -111,6 +111,13 @@ class OdometryTimeline {
     ++run_;
   }
 
+  /// Whether readings come, up to `latest`, often enough for a value between the newest and the next.
+  [[nodiscard]] bool goes_on(DeviceTime latest) const {
+    if (count_ < 2) return false;
+    return newest().at - reading(count_ - 2).at <= limits_.longest_interpolation &&
+           latest - newest().at <= limits_.longest_interpolation;
+  }
+
   [[nodiscard]] Answer at(DeviceTime time) const {
     if (count_ == 0 || newest().at < time) return {Outcome::kTooEarly, {}, run_};
     for (std::size_t i = count_; i > 0; --i) {

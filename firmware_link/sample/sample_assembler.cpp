@@ -155,7 +155,8 @@ std::optional<RangeSample> SampleAssembler::take() {
     // A reading later than one interpolation span could not be used; another span for packets that overtake
     // each other.
     const bool may_come = !ended_ && latest_ - at <= 2 * config_.continuity.longest_interpolation;
-    if (too_early && !never && may_come) return std::nullopt;
+    const bool is_incomplete = too_early || is_coming(tilts_, at) || is_coming(heights_, at);
+    if (is_incomplete && !never && may_come) return std::nullopt;
     if (too_early || never) {
       drop_oldest();
       continue;
@@ -172,6 +173,11 @@ std::optional<RangeSample> SampleAssembler::take() {
     return sample;
   }
   return std::nullopt;
+}
+
+template <typename Timeline>
+bool SampleAssembler::is_coming(const Timeline& timeline, DeviceTime at) const {
+  return timeline.at(at).outcome == Timeline::Outcome::kTooEarly && timeline.goes_on(latest_);
 }
 
 bool SampleAssembler::is_of_last_run(const Motion& motion) const {

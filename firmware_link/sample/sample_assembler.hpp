@@ -47,10 +47,10 @@ struct AssemblyConfig {
 /// Assembles range samples from readings: pairs ranges with dead reckoning of the same instant (the packet's
 /// time less the range's age), position and yaw each interpolated on its own time line, because they may come
 /// in different packets. Waits for dead reckoning that is still to come, for a short time; keeps the order;
-/// counts what it drops. Where tilt and height of that instant are known, too (they are not waited for),
-/// ranges become horizontal distances, and those that can be the floor's become invalid; by the height alone,
-/// all that were measured from kStandingM or less, whatever the vehicle reports. Altitude and height tell the
-/// storey. Fixed storage, no allocation, one thread at a time.
+/// counts what it drops. Where tilt and height of that instant are known, too (they are waited for while they
+/// come often enough to be interpolated), ranges become horizontal distances, and those that can be the
+/// floor's become invalid; by the height alone, all that were measured from kStandingM or less, whatever the
+/// vehicle reports. Altitude and height tell the storey. Fixed storage, no allocation, one thread at a time.
 class SampleAssembler {
  public:
   /// Counts into `counters`, which must outlive the assembler.
@@ -87,6 +87,9 @@ class SampleAssembler {
   void follow_ground(const Reading& reading);
   void count_gap(const Reading& reading);
   void hold_ranges(const Reading& reading);
+  /// Of tilt or height at that time: a reading that is close enough comes with the next packets.
+  template <typename Timeline>
+  [[nodiscard]] bool is_coming(const Timeline& timeline, DeviceTime at) const;
   /// Whether motion joins it with the last sample.
   [[nodiscard]] bool is_of_last_run(const Motion& motion) const;
   /// False when the dead reckoning has run away.

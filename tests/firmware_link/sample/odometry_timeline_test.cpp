@@ -80,6 +80,17 @@ TEST(OdometryTimeline, AnImpossibleJumpBeginsANewRun) {
   EXPECT_EQ(yaws.at(device_ms(50)).outcome, Yaws::Outcome::kNever);
 }
 
+TEST(OdometryTimeline, GoesOnWhileReadingsComeOftenEnough) {
+  Positions positions(limits());
+  positions.add(device_ms(0), {});
+  EXPECT_FALSE(positions.goes_on(device_ms(0))) << "one says nothing about the next";
+  positions.add(device_ms(100), {});
+  EXPECT_TRUE(positions.goes_on(device_ms(250)));
+  EXPECT_FALSE(positions.goes_on(device_ms(251)));
+  positions.add(device_ms(1100), {});
+  EXPECT_FALSE(positions.goes_on(device_ms(1100)));
+}
+
 TEST(OdometryTimeline, KeepsTheLatestWhenFull) {
   OdometryTimeline<Point2, 3> positions(limits());
   for (int i = 0; i < 10; ++i) positions.add(device_ms(100 * i), {0.1 * i, 0.0});

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "tests/firmware_link/frames.hpp"
@@ -111,6 +112,82 @@ TEST_F(SampleAssemblerTest, LevelsRangesByTheTiltOfTheMomentOfMeasurement) {
   EXPECT_EQ(samples_[1].distance_m[1], 2.F) << "the tilt is about its axis";
   EXPECT_EQ(counters_.floor_returns, 0U);
   EXPECT_EQ(samples_[4].distance_m[2], 2.F) << "unknown";
+}
+
+/// A live vehicle's packets of a second: pose, ranges and height each 100 ms, and roll and pitch in a packet
+/// `lag_ms` behind, as long as `has_tilt` says so. How many packets later than its own each sample came, and
+/// which samples were levelled.
+struct LevelledFlight {
+  std::vector<int> packets_waited;
+  std::vector<bool> is_level;
+};
+template <typename HasTilt>
+LevelledFlight fly_with_tilt(Duration range_age, std::int64_t lag_ms, HasTilt has_tilt) {
+  AssemblyConfig aged = config();
+  aged.sensor.range_age = range_age;
+  InputCounters counters;
+  SampleAssembler assembler(aged, counters);
+  assembler.set_periods(milliseconds(100), milliseconds(100));
+  LevelledFlight flight;
+  int packets = 0;
+  std::map<HostTime, int> packet_of;
+  const auto drain = [&] {
+    while (const auto sample = assembler.take()) {
+      flight.packets_waited.push_back(packets - packet_of[sample->stamp]);
+      flight.is_level.push_back(sample->distance_m[0] != 1.F);
+    }
+  };
+  for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
+    Reading reading;
+    reading.stream = 1;
+    reading.at = device_ms(ms);
+    reading.received = host_ms(ms);
+    reading.position_odom = Point2();
+    reading.yaw_odom_rad = 0.0;
+    reading.height_m = 0.5;
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    packet_of[reading.received] = ++packets;
+    assembler.add(reading);
+    drain();
+    if (!has_tilt(ms)) continue;
+    Reading tilt;
+    tilt.stream = 2;
+    tilt.at = device_ms(ms + lag_ms);
+    tilt.tilt = BodyTilt{.x_up = 0.2, .y_up = 0.0};
+    ++packets;
+    assembler.add(tilt);
+    drain();
+  }
+  assembler.end();
+  drain();
+  return flight;
+}
+
+TEST(SampleAssembler, WaitsForTheTiltThatComesJustBehind) {
+  for (const int age_ms : {60, 80, 95, 100}) {
+    const LevelledFlight flight = fly_with_tilt(milliseconds(age_ms), 2, [](std::int64_t) { return true; });
+    ASSERT_EQ(flight.is_level.size(), 10U) << age_ms;
+    // The first has a tilt on one side only.
+    EXPECT_EQ(std::count(flight.is_level.begin() + 1, flight.is_level.end(), true), 9) << age_ms;
+    for (const int waited : flight.packets_waited) EXPECT_LE(waited, 1) << age_ms;
+  }
+}
+
+TEST(SampleAssembler, TiltThatNeverCameStoppedOrComesSeldomIsNotWaitedFor) {
+  const auto never = [](std::int64_t) { return false; };
+  const auto stops = [](std::int64_t ms) { return ms < 400; };
+  const auto seldom = [](std::int64_t ms) { return ms % 500 == 0; };
+  for (const int waited : fly_with_tilt(milliseconds(60), 2, never).packets_waited) EXPECT_EQ(waited, 0);
+  for (const int waited : fly_with_tilt(milliseconds(60), 2, seldom).packets_waited) EXPECT_EQ(waited, 0);
+  const std::vector<int> waited = fly_with_tilt(milliseconds(60), 2, stops).packets_waited;
+  ASSERT_EQ(waited.size(), 10U);
+  for (std::size_t i = 6; i < waited.size(); ++i) EXPECT_EQ(waited[i], 0) << i;
+}
+
+TEST(SampleAssembler, TheLastSamplesDoNotNeedTheirTilt) {
+  const LevelledFlight flight = fly_with_tilt(milliseconds(60), 2, [](std::int64_t ms) { return ms < 1000; });
+  ASSERT_EQ(flight.is_level.size(), 10U);
+  EXPECT_FALSE(flight.is_level.back());
 }
 
 TEST_F(SampleAssemblerTest, TakesNoTiltThatIsNoneAndNoRangeOfABodyOnItsSide) {
