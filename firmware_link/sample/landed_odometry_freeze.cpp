@@ -26,7 +26,7 @@ Reading LandedOdometryFreeze::hold(const Reading& reading) {
   // Numbers that are not finite pass as they are: the assembler leaves them out.
   const bool has_position = is_finite(reading.position_odom);
   const bool has_yaw = reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad);
-  if (has_position) position_vehicle_ = reading.position_odom;
+  if (has_position) follow_position(*reading.position_odom, reading.at);
   if (has_yaw) yaw_vehicle_rad_ = reading.yaw_odom_rad;
   const std::optional<bool> is_flying = flies(reading);
   Reading held = reading;
@@ -44,6 +44,15 @@ Reading LandedOdometryFreeze::hold(const Reading& reading) {
   return held;
 }
 
+/// Nobody carries a vehicle as fast as an estimator that is reset.
+void LandedOdometryFreeze::follow_position(const Point2& position, DeviceTime at) {
+  const bool is_reset =
+      position_vehicle_ && !is_motion(*position_vehicle_, position, at - position_at_, ContinuityLimits());
+  if (is_reset) position_vehicle_landed_ = position;
+  position_vehicle_ = position;
+  position_at_ = at;
+}
+
 std::optional<bool> LandedOdometryFreeze::flies(const Reading& reading) {
   reports_flight_ = reports_flight_ || reading.is_flying.has_value();
   if (reports_flight_ || !reading.height_m || !std::isfinite(*reading.height_m)) return reading.is_flying;
@@ -55,13 +64,13 @@ void LandedOdometryFreeze::follow(bool is_flying) {
     state_ = State::kFlying;
   } else if (state_ == State::kFlying) {
     state_ = State::kStanding;
-    T_vehicle_landed_ = T_vehicle_body_;
+    position_vehicle_landed_ = T_vehicle_body_.position();
     T_odom_landed_ = T_odom_vehicle_ * T_vehicle_body_;
   }
 }
 
 void LandedOdometryFreeze::hold_still() {
-  if (distance_m(T_vehicle_landed_.position(), T_vehicle_body_.position()) > kCarriedM) {
+  if (distance_m(position_vehicle_landed_, T_vehicle_body_.position()) > kCarriedM) {
     state_ = State::kNotFlown;
     restart_pending_ = true;
   } else {

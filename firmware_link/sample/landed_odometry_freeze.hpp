@@ -14,10 +14,10 @@ namespace swiftlet {
 /// pulls the yaw estimate back to kalman.initialYaw with a time constant of ten seconds, and the map would
 /// turn under a vehicle that has landed. Ranges measured on the floor meanwhile do not belong into the map
 /// either; where a height is logged, the assembler leaves out all of these. After the next take-off the dead
-/// reckoning continues from where the vehicle stood. A vehicle that was carried elsewhere restarts it; one
-/// that has not flown yet may be carried on purpose and is not frozen. Where the vehicle reports neither
-/// whether it flies nor its thrust, its height tells; where it reports no height either, nothing is frozen.
-/// One thread at a time; allocates nothing.
+/// reckoning continues from where the vehicle stood, also if its estimator was reset meanwhile. A vehicle
+/// that was carried elsewhere restarts it; one that has not flown yet may be carried on purpose and is not
+/// frozen. Where the vehicle reports neither whether it flies nor its thrust, its height tells; where it
+/// reports no height either, nothing is frozen. One thread at a time; allocates nothing.
 class LandedOdometryFreeze {
  public:
   /// Position and yaw may come in different readings.
@@ -27,6 +27,7 @@ class LandedOdometryFreeze {
   enum class State : std::uint8_t { kNotFlown, kFlying, kStanding };
   /// nullopt: this reading does not tell.
   [[nodiscard]] std::optional<bool> flies(const Reading& reading);
+  void follow_position(const Point2& position, DeviceTime at);
   void follow(bool is_flying);
   void hold_still();
 
@@ -35,10 +36,11 @@ class LandedOdometryFreeze {
   bool reports_flight_ = false;
   bool restart_pending_ = false;
   std::optional<Point2> position_vehicle_;  ///< the newest, by the vehicle's own dead reckoning
+  DeviceTime position_at_{};
   std::optional<double> yaw_vehicle_rad_;
-  Pose2 T_vehicle_body_;    ///< of both
-  Pose2 T_odom_vehicle_;    ///< from the vehicle's own dead reckoning to the one that was held
-  Pose2 T_vehicle_landed_;  ///< where it landed, by its own dead reckoning
+  Pose2 T_vehicle_body_;            ///< of both
+  Pose2 T_odom_vehicle_;            ///< from the vehicle's own dead reckoning to the one that was held
+  Point2 position_vehicle_landed_;  ///< where it landed, or stood when its dead reckoning was reset
   Pose2 T_odom_landed_;
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/geometry/angle.hpp"
+#include "tests/firmware_link/frames.hpp"
 
 namespace swiftlet {
 namespace {
@@ -29,6 +30,20 @@ void expect_pose(const Reading& reading, const Pose2& expected) {
   EXPECT_NEAR(pose.y_m(), expected.y_m(), 1e-9);
   EXPECT_NEAR(wrap_angle(pose.yaw_rad() - expected.yaw_rad()), 0.0, 1e-9);
 }
+
+/// One each 100 ms.
+class Readings {
+ public:
+  Reading hold(const Pose2& T_vehicle_body, bool is_flying) {
+    Reading reading = reading_of(T_vehicle_body, is_flying);
+    reading.at = device_ms(ms_ += 100);
+    return ground_.hold(reading);
+  }
+
+ private:
+  LandedOdometryFreeze ground_;
+  std::int64_t ms_ = 0;
+};
 
 TEST(LandedOdometryFreeze, DoesNotChangeAFlight) {
   LandedOdometryFreeze ground;
@@ -62,14 +77,30 @@ TEST(LandedOdometryFreeze, TheNextTakeOffContinuesFromWhereItStood) {
 }
 
 TEST(LandedOdometryFreeze, CarriedElsewhereItRestarts) {
-  LandedOdometryFreeze ground;
-  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, true)));
-  static_cast<void>(ground.hold(reading_of({3.0, 1.0, 1.0}, false)));
-  EXPECT_FALSE(ground.hold(reading_of({3.3, 1.0, 0.9}, false)).odometry_restarted);
-  const Reading carried = ground.hold(reading_of({3.6, 1.0, 0.8}, false));
+  Readings readings;
+  static_cast<void>(readings.hold({3.0, 1.0, 1.0}, true));
+  static_cast<void>(readings.hold({3.0, 1.0, 1.0}, false));
+  EXPECT_FALSE(readings.hold({3.3, 1.0, 0.9}, false).odometry_restarted);
+  const Reading carried = readings.hold({3.6, 1.0, 0.8}, false);
   EXPECT_TRUE(carried.odometry_restarted);
   EXPECT_EQ(carried.distance_m[0], 1.F);
-  EXPECT_FALSE(ground.hold(reading_of({3.7, 1.0, 0.8}, false)).odometry_restarted);
+  EXPECT_FALSE(readings.hold({3.7, 1.0, 0.8}, false).odometry_restarted);
+}
+
+/// As scripts do before they take off.
+TEST(LandedOdometryFreeze, AnEstimatorThatIsResetOnTheGroundDoesNotCarryTheVehicle) {
+  Readings readings;
+  static_cast<void>(readings.hold({3.0, 1.0, kPi / 2.0}, true));
+  static_cast<void>(readings.hold({3.0, 1.0, kPi / 2.0}, false));
+  for (const double x_m : {0.0, 0.2, 0.3}) {  // and drifts
+    const Reading reset = readings.hold({x_m, 0.0, 0.0}, false);
+    expect_pose(reset, {3.0, 1.0, kPi / 2.0});
+    EXPECT_FALSE(reset.odometry_restarted);
+    EXPECT_TRUE(std::isnan(reset.distance_m[0]));
+  }
+  const Reading flown = readings.hold({0.5, 0.0, 0.0}, true);
+  expect_pose(flown, {3.0, 1.2, kPi / 2.0});
+  EXPECT_FALSE(flown.odometry_restarted);
 }
 
 TEST(LandedOdometryFreeze, IgnoresAVehicleThatHasNotFlownOrDoesNotReportIt) {
