@@ -17,7 +17,7 @@ struct OdometryCalibration {
   double yaw_per_second_rad = 0.0;  ///< yaw that is missed with each second in motion
 
   /// The true motion of a measured one, which took `elapsed`. No motion stays none: the vehicle stood still,
-  /// or its odometry is frozen while it is landed.
+  /// or its odometry is frozen while it stands.
   [[nodiscard]] Pose2 corrected(const Pose2& T_previous_this, Duration elapsed) const {
     const double x_m = T_previous_this.x_m();
     const double y_m = T_previous_this.y_m();

@@ -28,15 +28,15 @@ Reading LandedOdometryFreeze::hold(const Reading& reading) {
   const bool has_yaw = reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad);
   if (has_position) follow_position(*reading.position_odom, reading.at);
   if (has_yaw) yaw_vehicle_rad_ = reading.yaw_odom_rad;
+  if (reading.height_m) is_low_ = *reading.height_m <= kStandingM;
   const std::optional<bool> is_flying = flies(reading);
   Reading held = reading;
   if (position_vehicle_ && yaw_vehicle_rad_) {
     T_vehicle_body_ = Pose2(position_vehicle_->x_m, position_vehicle_->y_m, *yaw_vehicle_rad_);
     if (is_flying) follow(*is_flying);
-    if (state_ == State::kStanding) hold_still();
-    const Pose2 T_odom_body = T_odom_vehicle_ * T_vehicle_body_;
-    if (has_position) held.position_odom = T_odom_body.position();
-    if (has_yaw) held.yaw_odom_rad = T_odom_body.yaw_rad();
+    hold_still();
+    if (has_position) held.position_odom = T_odom_body_.position();
+    if (has_yaw) held.yaw_odom_rad = T_odom_body_.yaw_rad();
     held.odometry_restarted = std::exchange(restart_pending_, false);
   }
   if (state_ == State::kStanding)
@@ -65,17 +65,26 @@ void LandedOdometryFreeze::follow(bool is_flying) {
   } else if (state_ == State::kFlying) {
     state_ = State::kStanding;
     position_vehicle_landed_ = T_vehicle_body_.position();
-    T_odom_landed_ = T_odom_vehicle_ * T_vehicle_body_;
   }
 }
 
+/// To the last bit: OdometryCalibration corrects all that moves.
 void LandedOdometryFreeze::hold_still() {
-  if (distance_m(position_vehicle_landed_, T_vehicle_body_.position()) > kCarriedM) {
+  if (state_ == State::kStanding &&
+      distance_m(position_vehicle_landed_, T_vehicle_body_.position()) > kCarriedM) {
     state_ = State::kNotFlown;
     restart_pending_ = true;
-  } else {
-    T_odom_vehicle_ = T_odom_landed_ * T_vehicle_body_.inverse();
   }
+  const bool stood = std::exchange(stands_, state_ == State::kStanding || waits_for_its_flight());
+  if (stood && stands_) {
+    T_odom_vehicle_ = T_odom_body_ * T_vehicle_body_.inverse();
+  } else {
+    T_odom_body_ = T_odom_vehicle_ * T_vehicle_body_;
+  }
+}
+
+bool LandedOdometryFreeze::waits_for_its_flight() const {
+  return state_ == State::kNotFlown && reports_flight_ && is_low_;
 }
 
 }  // namespace swiftlet

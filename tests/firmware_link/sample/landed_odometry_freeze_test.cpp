@@ -64,6 +64,35 @@ TEST(LandedOdometryFreeze, FreezesAfterLandingWhileTheYawIsPulledBackAndDropsThe
   }
 }
 
+/// What moves by a last bit would not count as standing: OdometryCalibration::corrected.
+TEST(LandedOdometryFreeze, WhatStandsDoesNotMoveAtAll) {
+  LandedOdometryFreeze ground;
+  static_cast<void>(ground.hold(reading_of({2.7, 1.3, 2.0}, true)));
+  const Pose2 landed = pose_of(ground.hold(reading_of({3.1, 1.7, 2.0}, false)));
+  for (int i = 1; i < 50; ++i) {
+    const Pose2 held = pose_of(ground.hold(reading_of({3.1 + 0.001 * i, 1.7, 2.0 - 0.03 * i}, false)));
+    EXPECT_EQ(held.vector(), landed.vector()) << i;
+  }
+}
+
+TEST(LandedOdometryFreeze, StandsBeforeItsFirstFlightTooButMayBeCarriedByHand) {
+  LandedOdometryFreeze ground;
+  const auto hold = [&ground](const Pose2& T_vehicle_body, double height_m, bool is_flying) {
+    Reading reading = reading_of(T_vehicle_body, is_flying);
+    reading.height_m = height_m;
+    return ground.hold(reading);
+  };
+  expect_pose(hold({0.1, 0.0, 0.2}, 0.03, false), {0.1, 0.0, 0.2});
+  EXPECT_EQ(pose_of(hold({0.11, 0.01, 0.1}, 0.03, false)).vector(), Pose2(0.1, 0.0, 0.2).vector());
+  EXPECT_EQ(pose_of(hold({7.0, 0.0, 0.2}, 0.03, false)).vector(), Pose2(0.1, 0.0, 0.2).vector()) << "reset";
+  expect_pose(hold({8.0, 0.0, 0.2}, 0.8, false), {1.1, 0.0, 0.2});
+  const Reading put_down = hold({8.5, 0.0, 0.2}, 0.03, false);
+  expect_pose(put_down, {1.6, 0.0, 0.2});
+  EXPECT_FALSE(put_down.odometry_restarted);
+  expect_pose(hold({8.5, 0.0, 0.0}, 0.03, false), {1.6, 0.0, 0.2});
+  expect_pose(hold({8.5 + 1.0, 0.0, 0.0}, 0.3, true), {1.6 + std::cos(0.2), std::sin(0.2), 0.2});
+}
+
 TEST(LandedOdometryFreeze, TheNextTakeOffContinuesFromWhereItStood) {
   LandedOdometryFreeze ground;
   static_cast<void>(ground.hold(reading_of({3.0, 1.0, kPi / 2.0}, true)));
