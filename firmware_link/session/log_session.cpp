@@ -88,34 +88,36 @@ void LogSession::on_request(std::span<const std::uint8_t> packet) {
   if (packet.size() > 1 && packet[1] == static_cast<std::uint8_t>(LogCommand::kReset)) reset_received_ = true;
 }
 
+bool LogSession::continues(const LogStamp& stamp) const {
+  return !last_ || are_of_one_clock(*last_, stamp) || are_of_one_clock(*on_time_, stamp);
+}
+
 /// The 24-bit clock of one packet cannot be distinguished from noise. A clock that has indeed restarted shows
 /// in the next packet too.
-bool LogSession::is_doubtful(const LogStamp& stamp) {
-  if (!last_data_ || are_of_one_clock(*last_data_, stamp)) return false;
-  return !doubted_ || doubted_->counter_ms == stamp.counter_ms || !are_of_one_clock(*doubted_, stamp);
+bool LogSession::is_confirmed(const LogStamp& stamp) const {
+  return doubted_ && doubted_->counter_ms != stamp.counter_ms && are_of_one_clock(*doubted_, stamp);
 }
 
 /// A session begins with a reset, also after the link was lost. If the vehicle's clock did not advance as far
 /// as the host's meanwhile, the vehicle has rebooted (or is another one).
 std::optional<DeviceTime> LogSession::time_of(const LogStamp& stamp) {
   const bool is_after_reset = std::exchange(reset_received_, false);
-  if (!is_after_reset && is_doubtful(stamp)) {
+  const bool is_of_the_clock = continues(stamp);
+  if (!is_of_the_clock && !is_after_reset && !is_confirmed(stamp)) {
     doubted_ = stamp;
     return std::nullopt;
   }
   doubted_.reset();
-  bool has_waited = false;
-  if (last_data_) {
-    const Duration late = lateness(*last_data_, stamp);
-    if (is_after_reset && std::chrono::abs(late) > kClocksAgree) {
-      ++boot_;
-      clock_ = {};
-    } else {
-      has_waited = late > kClocksAgree;
-    }
+  last_ = stamp;
+  const Duration late = on_time_ ? lateness(*on_time_, stamp) : Duration::zero();
+  const bool has_rebooted = is_after_reset && std::chrono::abs(late) > kClocksAgree;
+  if (has_rebooted) {
+    ++boot_;
+    clock_ = {};
   }
   // The few packets that the vehicle's radio keeps through any silence do not show how the clocks compare.
-  if (!has_waited) last_data_ = stamp;
+  const bool has_waited = is_of_the_clock && late > kClocksAgree;
+  if (!has_waited || has_rebooted) on_time_ = stamp;
   return clock_.unwrap(stamp.counter_ms);
 }
 

@@ -80,7 +80,8 @@ class LogSession {
   /// Sets the layout of a record whose block and size fit one; counts it otherwise.
   bool find_layout(LogRecord& record);
   std::optional<DeviceTime> time_of(const LogStamp& stamp);
-  [[nodiscard]] bool is_doubtful(const LogStamp& stamp);
+  [[nodiscard]] bool continues(const LogStamp& stamp) const;
+  [[nodiscard]] bool is_confirmed(const LogStamp& stamp) const;
   /// Whether the first `entry_count` entries exist and have names.
   [[nodiscard]] bool is_named(const LogBlock& block, std::size_t entry_count) const;
 
@@ -91,7 +92,8 @@ class LogSession {
   std::uint32_t toc_revision_ = 0;
   bool toc_info_requested_ = false;
   DeviceClockUnwrapper clock_;
-  std::optional<LogStamp> last_data_;
+  std::optional<LogStamp> last_;     ///< of the packet read last
+  std::optional<LogStamp> on_time_;  ///< of the last one that had not waited in the vehicle
   std::optional<LogStamp> doubted_;  ///< of the packet before, if its stamp was doubtful
   bool reset_received_ = false;
   std::uint32_t boot_ = 0;

@@ -187,15 +187,64 @@ TEST(LogSession, AStampThatNoOtherPacketConfirmsIsNotBelieved) {
   EXPECT_EQ(session.unreadable().wrong_time, 3U);
 }
 
+/// A vehicle with two blocks, whose packets alternate on the wire, ten of each a second.
+class TwoBlocks {
+ public:
+  TwoBlocks() { connect(); }
+  void connect() {
+    feed_all(session_, SyntheticCapture{}.handshake());
+    feed_all(session_, {sent(hex("5d 06 02 22 03 00")), received(hex("5d 06 02 00")),
+                        sent(hex("5d 03 02 0a")), received(hex("5d 03 02 00"))});
+  }
+  /// A packet of each block; the times in milliseconds. How many were read.
+  int pair(std::int64_t device, std::int64_t host) {
+    const auto counter = static_cast<std::uint32_t>(device);
+    LinkFrame first = stamped(SyntheticCapture{}.data(0), counter);
+    first.at = host_ms(host);
+    const LinkFrame second = received(LogPacket(2, counter + 3).u16(700).bytes(), host_ms(host + 3));
+    return read(first, device) + read(second, device + 3);
+  }
+  [[nodiscard]] std::uint32_t boot() const { return boot_; }
+
+ private:
+  int read(const LinkFrame& frame, std::int64_t device) {
+    const std::optional<LogRecord> record = session_.on_frame(frame);
+    if (!record) return 0;
+    EXPECT_EQ(record->at, device_ms(device));
+    boot_ = record->boot;
+    return 1;
+  }
+  LogSession session_;
+  std::uint32_t boot_ = 0;
+};
+
 TEST(LogSession, AClockThatHasRestartedIsBelievedFromItsSecondPacketOn) {
-  const SyntheticCapture capture;
-  LogSession session;
-  feed_all(session, capture.handshake());
-  for (int i = 100; i < 105; ++i) EXPECT_TRUE(session.on_frame(capture.data(i)).has_value());
-  feed_all(session, {stamped(capture.data(105), 500)});
-  const std::optional<LogRecord> next = session.on_frame(stamped(capture.data(106), 600));
-  ASSERT_TRUE(next.has_value());
-  EXPECT_EQ(next->at, device_ms(600));
+  TwoBlocks vehicle;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(vehicle.pair(11'000 + 100 * i, 100 * i), 2);
+  EXPECT_EQ(vehicle.pair(500, 500), 1);
+  int read = 0;
+  for (int i = 1; i <= 50; ++i) read += vehicle.pair(500 + 100 * i, 500 + 100 * i);
+  EXPECT_EQ(read, 100);
+}
+
+TEST(LogSession, AStepOfTheHostsClockCostsNothing) {
+  for (const int step : {5000, -5000}) {
+    TwoBlocks vehicle;
+    int read = 0;
+    for (int i = 0; i < 50; ++i) read += vehicle.pair(1000 + 100 * i, 100 * i);
+    for (int i = 50; i < 100; ++i) read += vehicle.pair(1000 + 100 * i, step + 100 * i);
+    EXPECT_EQ(read, 200) << step;
+  }
+}
+
+TEST(LogSession, WhatWaitedInTheVehicleIsReadWhole) {
+  TwoBlocks vehicle;
+  int read = vehicle.pair(1000, 0);
+  for (int i = 1; i < 80; ++i) read += vehicle.pair(1000 + 100 * i, 8000);
+  EXPECT_EQ(read, 160);
+  // What did not fit into its queue was dropped there.
+  for (int i = 120; i < 130; ++i) read += vehicle.pair(1000 + 100 * i, 100 * i);
+  EXPECT_EQ(read, 180);
 }
 
 TEST(LogSession, NoTrafficKeepsItFromLearningAgain) {
