@@ -17,6 +17,9 @@ namespace {
 // While the link is silent, packets of less than a second wait in the vehicle; older ones are discarded,
 // except for eight in its radio.
 constexpr Duration kClocksAgree = std::chrono::seconds(2);
+// How late packets may have come before the vehicle discards those that wait: 200 of them and nine in its
+// radio, of which the log blocks asked for here yield 21 a second.
+constexpr Duration kLongestQueue = std::chrono::seconds(10);
 
 /// How far the vehicle's clock has advanced from one packet to the other.
 Duration device_step(const LogStamp& from, const LogStamp& to) {
@@ -99,7 +102,8 @@ bool LogSession::is_confirmed(const LogStamp& stamp) const {
 }
 
 /// A session begins with a reset, also after the link was lost. If the vehicle's clock did not advance as far
-/// as the host's meanwhile, the vehicle has rebooted (or is another one).
+/// as the host's meanwhile, the vehicle has rebooted (or is another one). Where what waited was discarded, it
+/// advances further.
 std::optional<DeviceTime> LogSession::time_of(const LogStamp& stamp) {
   const bool is_after_reset = std::exchange(reset_received_, false);
   const bool is_of_the_clock = continues(stamp);
@@ -110,7 +114,7 @@ std::optional<DeviceTime> LogSession::time_of(const LogStamp& stamp) {
   doubted_.reset();
   last_ = stamp;
   const Duration late = on_time_ ? lateness(*on_time_, stamp) : Duration::zero();
-  const bool has_rebooted = is_after_reset && std::chrono::abs(late) > kClocksAgree;
+  const bool has_rebooted = is_after_reset && (late > kClocksAgree || late < -kLongestQueue);
   if (has_rebooted) {
     ++boot_;
     clock_ = {};

@@ -247,6 +247,17 @@ TEST(LogSession, WhatWaitedInTheVehicleIsReadWhole) {
   EXPECT_EQ(read, 180);
 }
 
+TEST(LogSession, AQueueThatWasFlushedIsNoReboot) {
+  TwoBlocks vehicle;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(vehicle.pair(1000 + 100 * i, 190 * i), 2);
+  vehicle.connect();
+  EXPECT_EQ(vehicle.pair(21'000, 20'000), 2);  // 9 s less late than the packets before
+  EXPECT_EQ(vehicle.boot(), 0U);
+  vehicle.connect();
+  EXPECT_EQ(vehicle.pair(2000, 30'000), 2);
+  EXPECT_EQ(vehicle.boot(), 1U);
+}
+
 TEST(LogSession, NoTrafficKeepsItFromLearningAgain) {
   std::mt19937 random(11);
   LogSession session;
