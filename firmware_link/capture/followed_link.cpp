@@ -17,6 +17,8 @@
 #include <thread>
 #include <utility>
 
+#include "firmware_link/crtp/crtp_packet.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -70,26 +72,41 @@ Result<LinkFrame> FollowedLink::receive(Duration timeout) {
 }
 
 Result<LinkFrame> FollowedLink::read_frame() {
-  if (!reader_) {
-    std::error_code failure;
-    if (std::filesystem::file_size(path_, failure) < kPcapFileHeader || failure)
-      return Error{ErrorCode::kTimeout, "no packet"};
-    Result<CaptureReader> reader = CaptureReader::open(path_);
-    if (!reader) return reader.error();
-    reader_ = std::move(reader).value();
-    reader_->follow();
-  }
+  if (const Status opened = open_capture(); !opened) return opened.error();
+  if (const Status chosen = choose_vehicle(); !chosen) return chosen.error();
   for (;;) {
     Result<CaptureRecord> record = reader_->next();
     if (!record) return record.error();
-    if (!followed_) {
-      followed_ = record->vehicle;
-      if (MinuteStamps::may_be(record->frame.at)) stamps_.emplace();
-    }
     if (record->vehicle != *followed_) continue;
     if (stamps_) record->frame.at = stamps_->unwrap(record->frame);
     return record->frame;
   }
+}
+
+Status FollowedLink::open_capture() {
+  if (reader_) return {};
+  std::error_code failure;
+  if (std::filesystem::file_size(path_, failure) < kPcapFileHeader || failure)
+    return Error{ErrorCode::kTimeout, "no packet"};
+  Result<CaptureReader> reader = CaptureReader::open(path_);
+  if (!reader) return reader.error();
+  reader_ = std::move(reader).value();
+  reader_->follow();
+  return {};
+}
+
+/// A scan before the flight leaves records of addresses that nobody has.
+Status FollowedLink::choose_vehicle() {
+  while (!followed_) {
+    const Result<CaptureRecord> record = reader_->next();
+    if (!record) return record.error();
+    const LinkFrame& frame = record->frame;
+    if (frame.direction != LinkDirection::kFromVehicle || !is_on(frame.packet(), kLogDataTopic)) continue;
+    followed_ = record->vehicle;
+    if (MinuteStamps::may_be(frame.at)) stamps_.emplace();
+    reader_->rewind();
+  }
+  return {};
 }
 
 void FollowedLink::take_from_fifo() {

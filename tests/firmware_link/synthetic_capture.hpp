@@ -72,8 +72,9 @@ inline CaptureVehicle radio_vehicle(std::uint8_t last_byte, std::uint8_t channel
   return vehicle;
 }
 
-inline void write_capture(const std::string& path, const std::vector<LinkFrame>& frames) {
-  Result<CaptureWriter> writer = CaptureWriter::create(path, radio_vehicle(0xE7));
+inline void write_capture(const std::string& path, const std::vector<LinkFrame>& frames,
+                          const CaptureVehicle& vehicle = radio_vehicle(0xE7)) {
+  Result<CaptureWriter> writer = CaptureWriter::create(path, vehicle);
   ASSERT_TRUE(writer.ok());
   for (const LinkFrame& frame : frames) ASSERT_TRUE(writer->write(frame).ok());
   ASSERT_TRUE(writer->flush().ok());

@@ -31,9 +31,9 @@ class FollowedLinkTest : public testing::Test {
   void append(const std::string& bytes) {
     std::ofstream(path_, std::ios::binary | std::ios::app).write(bytes.data(), std::ssize(bytes));
   }
-  static std::string capture_of(const std::vector<LinkFrame>& frames) {
+  static std::string capture_of(const std::vector<LinkFrame>& frames, std::uint8_t vehicle = 0xE7) {
     const TemporaryFile whole("whole.pcap");
-    write_capture(whole.path(), frames);
+    write_capture(whole.path(), frames, radio_vehicle(vehicle));
     return whole.read();
   }
   [[nodiscard]] Bytes next() {
@@ -59,6 +59,24 @@ TEST_F(FollowedLinkTest, ReadsOnAsTheFileGrowsWhereverItEnds) {
       EXPECT_EQ(frame.error().code, ErrorCode::kTimeout) << frame.error().message;
   }
   EXPECT_EQ(frames, 2U);
+}
+
+TEST_F(FollowedLinkTest, FollowsTheVehicleThatSendsLogDataFirst) {
+  append(capture_of({sent({0xFF})}, 0x01));  // of a scan
+  link_ = FollowedLink::open(path_).value();
+  EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kTimeout);
+  const auto add = [this](const Bytes& packet, std::uint8_t vehicle) {
+    append(capture_of({received(packet)}, vehicle).substr(kPcapFileHeader));
+  };
+  add({0x5D, 5, 0, 0}, 0x02);
+  EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kTimeout);
+  add({0x52, 1, 0, 0, 0}, 0x02);
+  add({0x52, 2, 0, 0, 0}, 0x03);
+  add({0x52, 3, 0, 0, 0}, 0x02);
+  EXPECT_EQ(next(), (Bytes{0x5D, 5, 0, 0}));
+  EXPECT_EQ(next(), (Bytes{0x52, 1, 0, 0, 0}));
+  EXPECT_EQ(next(), (Bytes{0x52, 3, 0, 0, 0}));
+  EXPECT_EQ(next(), Bytes{});
 }
 
 TEST_F(FollowedLinkTest, AFifoIsReadUntilItsWriterClosesIt) {
