@@ -51,7 +51,9 @@ Result<std::unique_ptr<ClientSocket>> ClientSocket::open(const UdpAddress& addre
                  "cannot share on udp://" + where + ": not an IPv4 address; write udp://127.0.0.1:19850"};
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket < 0) return no_socket(where);
-  if (bind(socket, generic(&bound), sizeof bound) == 0)
+  const int reports_errors = 1;
+  const bool is_set = setsockopt(socket, IPPROTO_IP, IP_RECVERR, &reports_errors, sizeof reports_errors) == 0;
+  if (is_set && bind(socket, generic(&bound), sizeof bound) == 0)
     return std::unique_ptr<ClientSocket>(new ClientSocket(socket));
   const Error error = no_socket(where);
   ::close(socket);
@@ -77,7 +79,11 @@ ClientSocket::Arrival ClientSocket::receive(HostTime now, bool is_connected) {
   sockaddr_in from{};
   socklen_t from_size = sizeof from;
   const ssize_t size = recvfrom(socket_, buffer_.data(), buffer_.size(), 0, generic(&from), &from_size);
-  if (size < 0) return {.is_any = errno == EINTR, .packet = {}};
+  if (size < 0) {
+    const bool is_any = errno != EAGAIN && socket_ >= 0;
+    if (is_any) drop_errors();
+    return {.is_any = is_any, .packet = {}};
+  }
   const std::span<const std::uint8_t> packet(buffer_.data(), static_cast<std::size_t>(size));
   if (packet.empty() || packet.size() > kMaxCrtpPacket) return {.is_any = true, .packet = {}};
   if (!client_ || !is_same(*client_, from)) return on_strangers(packet, from, now, is_connected);
@@ -103,14 +109,35 @@ ClientSocket::Arrival ClientSocket::on_strangers(std::span<const std::uint8_t> p
     if (is_connected) send(kHello, from);
     return {.is_any = true, .packet = {}};
   }
-  if (client_) {
+  const bool replaces = client_.has_value();
+  if (replaces && !client_has_closed()) {
     refuse(from);
     return {.is_any = true, .packet = {}};
   }
+  if (replaces) lose_client();
   client_ = from;
   received_at_ = now;
   report(Kind::kClientConnected, ntohs(from.sin_port));
-  return on_clients(packet, is_connected);
+  Arrival arrival = on_clients(packet, is_connected);
+  arrival.ended = replaces;
+  return arrival;
+}
+
+/// The vendor's client closes its socket without a goodbye, and connects again from another port. On this
+/// machine the system refuses at once what is sent to a closed one.
+bool ClientSocket::client_has_closed() const {
+  drop_errors();
+  send(kHello);
+  int error = 0;
+  socklen_t size = sizeof error;
+  getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error, &size);
+  drop_errors();
+  return error == ECONNREFUSED;
+}
+
+/// Those of datagrams that nobody took: until they are read, the socket looks as if something had arrived.
+void ClientSocket::drop_errors() const {
+  while (recv(socket_, nullptr, 0, MSG_ERRQUEUE) >= 0) continue;
 }
 
 /// One line for each of the first ones, not for each of their packets.
@@ -150,12 +177,17 @@ void ClientSocket::print(std::string_view line) {
   }
 }
 
-void ClientSocket::send(std::span<const std::uint8_t> packet) {
+void ClientSocket::send(std::span<const std::uint8_t> packet) const {
   if (client_) send(packet, *client_);
 }
 
 void ClientSocket::send(std::span<const std::uint8_t> packet, const sockaddr_in& to) const {
-  static_cast<void>(sendto(socket_, packet.data(), packet.size(), MSG_NOSIGNAL, generic(&to), sizeof to));
+  // The error of an earlier datagram fails this call, not this datagram.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (sendto(socket_, packet.data(), packet.size(), MSG_NOSIGNAL, generic(&to), sizeof to) >= 0) return;
+    if (errno == EAGAIN) return;
+    drop_errors();
+  }
 }
 
 std::optional<VehicleEvent> ClientSocket::take_event() {

@@ -22,8 +22,9 @@ namespace swiftlet {
 
 /// A UDP socket that stands for a vehicle to one client at a time: a datagram is a packet of 1 to 31 bytes.
 /// Who sends a packet or `f3` while there is no client becomes it, until it sends `f4` or nothing for
-/// kSilence. A null packet is answered with `f3`, a scan by others too, as long as there is no client. Reads
-/// and sends without waiting; allocates nothing after open(); one thread at a time.
+/// kSilence, or another one comes after it has closed its socket. A null packet is answered with `f3`, a scan
+/// by others too, as long as there is no client. Reads and sends without waiting; allocates nothing after
+/// open(); one thread at a time.
 class ClientSocket {
  public:
   /// The vendor's client sends a ping a second.
@@ -46,15 +47,16 @@ class ClientSocket {
 
   struct Arrival {
     bool is_any = false;                   ///< false: nothing waits
-    bool ended = false;                    ///< the client has closed the connection
-    std::span<const std::uint8_t> packet;  ///< of the client, if not empty; valid until the next call
+    bool ended = false;                    ///< the client is gone
+    std::span<const std::uint8_t> packet;  ///< of the client (the next one), if not empty; valid until the
+                                           ///< next call
   };
   /// Reads one datagram. `is_connected`: the vehicle is received: null packets are answered.
   [[nodiscard]] Arrival receive(HostTime now, bool is_connected);
   /// Whether the client has sent nothing for too long; then there is none.
   [[nodiscard]] bool has_fallen_silent(HostTime now);
   /// To the client, if there is one. What the system does not take is lost.
-  void send(std::span<const std::uint8_t> packet);
+  void send(std::span<const std::uint8_t> packet) const;
   /// Notifies the client by a line of console text that it has no log blocks any more.
   void report_lost_blocks();
 
@@ -66,6 +68,8 @@ class ClientSocket {
   [[nodiscard]] Arrival on_clients(std::span<const std::uint8_t> packet, bool is_connected);
   [[nodiscard]] Arrival on_strangers(std::span<const std::uint8_t> packet, const sockaddr_in& from,
                                      HostTime now, bool is_connected);
+  [[nodiscard]] bool client_has_closed() const;
+  void drop_errors() const;
   void refuse(const sockaddr_in& from);
   void lose_client();
   void print(std::string_view line);

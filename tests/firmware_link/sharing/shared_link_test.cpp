@@ -3,6 +3,7 @@
 #include "firmware_link/sharing/shared_link.hpp"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <array>
 #include <chrono>
@@ -135,6 +136,23 @@ TEST_F(SharedLinkTest, AClientThatFallsSilentIsGone) {
   EXPECT_FALSE(link_->sharing().has_client);
 }
 
+TEST_F(SharedLinkTest, TheNextClientHasThePlaceOfOneThatHasClosedItsSocket) {
+  client_->step(clock_.now());
+  static_cast<void>(pass());
+  client_->send(param_read_request(7));
+  client_.reset();
+  EXPECT_EQ(pass().size(), 2U) << "what it sent last still passes";
+  EXPECT_EQ(events(), std::vector{Kind::kClientConnected});
+  FlightClient next(link_->port());
+  next.ask(source_request());
+  next.step(clock_.now());
+  EXPECT_EQ(pass().size(), 4U) << "a ping, the request, and what comes back";
+  EXPECT_EQ(events(), (std::vector{Kind::kClientGone, Kind::kClientConnected}));
+  next.step(clock_.now());
+  EXPECT_TRUE(next.is_idle());
+  EXPECT_EQ(next.unanswered(), 0U);
+}
+
 TEST_F(SharedLinkTest, RequestsWaitForAVehicleThatIsNotReceivedSetpointsDoNot) {
   echo_->condition = LinkCondition::kSilent;
   client_->send(param_read_request(7));
@@ -196,6 +214,16 @@ TEST_F(SharedLinkTest, ServesWithoutTheHeap) {
   }
   EXPECT_EQ(counter.count(), 0U);
   EXPECT_GE(frames, 200U);
+}
+
+TEST(ClientSocketTest, DoesNotStayReadableWhenAnAnswerFindsNobody) {
+  const auto socket = ClientSocket::open({.host = "127.0.0.1", .port = 0});
+  ASSERT_TRUE(socket.ok());
+  constexpr std::array<std::uint8_t, 1> kScan{0xFF};
+  FlightClient((*socket)->port()).send(kScan);
+  while ((*socket)->receive({}, true).is_any) continue;
+  pollfd watched{.fd = (*socket)->file(), .events = POLLIN, .revents = 0};
+  EXPECT_EQ(::poll(&watched, 1, 0), 0);
 }
 
 TEST(ClientSocketTest, RefusesWhatIsNoAddressOfThisMachine) {
