@@ -105,12 +105,12 @@ void ClientTraffic::on_sent_by_owner(std::span<const std::uint8_t> packet) {
   if (is_reset(packet)) log_was_reset_ = false;
 }
 
-/// Only the owner resets the vehicle's log.
+/// Only the owner resets the vehicle's log. A second answer is to a repetition, which the vehicle received
+/// before anything of the client.
 std::optional<CrtpPacket> ClientTraffic::on_log_control(LinkFrame& frame) {
   const std::span<const std::uint8_t> packet = frame.packet();
   if (is_reset(packet)) {
-    log_was_reset_ = true;
-    has_lost_blocks_ = blocks_.forget_all() || has_lost_blocks_;
+    if (!std::exchange(log_was_reset_, true)) has_lost_blocks_ = blocks_.forget_all() || has_lost_blocks_;
     return std::nullopt;
   }
   frame.is_ours = packet.size() < 3 || !ClientLogBlocks::has_number(packet[2]);

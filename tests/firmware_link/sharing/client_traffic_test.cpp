@@ -167,6 +167,18 @@ TEST_F(ClientTrafficTest, ALogThatTheOwnerResetsCostsTheClientItsBlocks) {
   EXPECT_FALSE(traffic_.take_loss_of_blocks()) << "nobody wants them any more";
 }
 
+TEST_F(ClientTrafficTest, ASecondAnswerToARepeatedResetCostsNoBlocks) {
+  owner_sends(log_reset_request());
+  owner_sends(log_reset_request());
+  EXPECT_EQ(from_vehicle({0x5D, 5, 0, 0}), Bytes{});
+  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  const std::uint8_t number = next()[2];
+  EXPECT_EQ(from_vehicle({0x5D, 5, 0, 0}), Bytes{});
+  EXPECT_TRUE(is_ours_);
+  EXPECT_FALSE(traffic_.take_loss_of_blocks());
+  EXPECT_EQ(from_vehicle({0x5D, 6, number, 0}), (Bytes{0x5D, 6, 1, 0}));
+}
+
 TEST_F(ClientTrafficTest, AClientThatIsGoneLeavesDeletionsOnly) {
   traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
   const std::uint8_t number = next()[2];
