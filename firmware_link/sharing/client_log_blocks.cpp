@@ -49,12 +49,18 @@ ClientLogBlocks::Outcome ClientLogBlocks::on_request(std::span<const std::uint8_
   if (command == LogCommand::kCreate) return create(packet);
   Block* const block = find(packet[2]);
   if (block == nullptr) return {.request = {}, .answer = answer_to(packet, LogError::kUnknown)};
-  if (command == LogCommand::kAppend) {
-    if (!has_room_for(entries_in(packet)))
-      return {.request = {}, .answer = answer_to(packet, LogError::kNoRoom)};
-    block->variables += entries_in(packet);
-  }
+  if (command == LogCommand::kAppend) return append(packet, *block);
   return forward(packet, *block);
+}
+
+/// The vehicle keeps the variables before one that it refuses, so a refused request counts, too: up to what a
+/// block can hold.
+ClientLogBlocks::Outcome ClientLogBlocks::append(std::span<const std::uint8_t> packet, Block& block) {
+  const std::size_t variables = std::min(block.variables + entries_in(packet), kMaxLogBytes);
+  if (!has_room_for(variables - block.variables))
+    return {.request = {}, .answer = answer_to(packet, LogError::kNoRoom)};
+  block.variables = variables;
+  return forward(packet, block);
 }
 
 /// That a block is there already, the vehicle answers itself.

@@ -59,12 +59,13 @@ class ClientLogBlocks {
   struct Block {
     std::uint8_t clients = 0;   ///< number
     std::uint8_t vehicles = 0;  ///< number
-    std::size_t variables = 0;
+    std::size_t variables = 0;  ///< at most
     bool is_doomed = false;
     HostTime deletion_sent_at = HostTime::min();
   };
 
   [[nodiscard]] Outcome create(std::span<const std::uint8_t> packet);
+  [[nodiscard]] Outcome append(std::span<const std::uint8_t> packet, Block& block);
   [[nodiscard]] Outcome forward(std::span<const std::uint8_t> packet, const Block& block) const;
   [[nodiscard]] Block* find(std::uint8_t clients);
   [[nodiscard]] bool has_room_for(std::size_t variables) const;

@@ -72,6 +72,18 @@ TEST_F(ClientLogBlocksTest, VariablesAreCounted) {
   EXPECT_TRUE(ask({0x5D, 7, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}).request);
 }
 
+TEST_F(ClientLogBlocksTest, ABlockCountsNoMoreVariablesThanItHoldsHoweverOftenItIsRefusedMore) {
+  const std::uint8_t number = make(0);
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(ask({0x5D, 7, 0, 7, 0, 0, 7, 0, 0, 7, 0, 0}).request) << i;
+    static_cast<void>(blocks_.on_answer(Bytes{0x5D, 7, number, 7}));
+  }
+  Bytes nine{0x5D, 6, 1};
+  for (int i = 0; i < 9; ++i) nine.insert(nine.end(), {1, 0, 0});
+  while (ask(nine).request) ++nine[2];
+  EXPECT_EQ(nine[2] - 1, 8) << "of the 77 variables that are left";
+}
+
 TEST_F(ClientLogBlocksTest, AResetDeletesWhatIsThereAndIsAnsweredThen) {
   const std::vector<std::uint8_t> numbers{make(1), make(2)};
   EXPECT_FALSE(blocks_.is_resetting());
