@@ -53,6 +53,7 @@ const std::array<ReadingExtractor::Form, 1> ReadingExtractor::kAltitudeForms{
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
   const auto offers_ranges = [](const Slots& of) { return of.has_ranges; };
+  const auto offers_flying = [](const Slots& of) { return of.flying.has_value(); };
   Reading reading;
   reading.stream = record.block_id;
   reading.boot = record.boot;
@@ -71,7 +72,8 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
       static_cast<void>(reading.distance_m.try_push_back(static_cast<float>(distance_m)));
     }
   }
-  if (slots.flying) reading.is_flying = is_flying(record.value(*slots.flying), slots.flying_mask);
+  if (slots.flying && take_from(flying_source_, record, offers_flying))
+    reading.is_flying = is_flying(record.value(*slots.flying), slots.flying_mask);
   const bool is_needed = reading.position_odom || reading.yaw_odom_rad || reading.tilt || reading.height_m ||
                          reading.altitude_m || reading.is_flying || !reading.distance_m.empty();
   return is_needed ? std::optional(reading) : std::nullopt;
@@ -100,6 +102,7 @@ const ReadingExtractor::Slots& ReadingExtractor::slots_of(const LogRecord& recor
     tilt_source_.reset();
     height_source_.reset();
     altitude_source_.reset();
+    flying_source_.reset();
   }
   Slots& slots = slots_[record.block_id];
   if (!slots.resolved) resolve(record, slots);

@@ -26,11 +26,11 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 /// the four horizontal distances; the position (stateEstimate.x/y, kalman.stateX/Y or stateEstimateZ.x/y);
 /// the yaw (stateEstimate.yaw, a quaternion of stateEstimate, kalman or stateEstimateZ, or stabilizer.yaw);
 /// if there, the tilt (of such a quaternion, or roll and pitch of stateEstimate or stabilizer), the height
-/// above the ground (range.zrange, or z of the position's groups) and the barometer's altitude (baro.asl).
-/// Each of the six is taken from one block: of those that run, the one with the lowest number; of blocks
-/// whose start was not seen, the first one received. Whether the vehicle flies is taken from any of them
-/// (supervisor.info, sys.isFlying, stabilizer.thrust). Names are resolved when a layout changes, not per
-/// packet: fixed storage. One thread at a time; `session` must outlive it.
+/// above the ground (range.zrange, or z of the position's groups), the barometer's altitude (baro.asl) and
+/// whether the vehicle flies (supervisor.info, sys.isFlying, stabilizer.thrust). Each of the seven is taken
+/// from one block: of those that run, the one with the lowest number; of blocks whose start was not seen, the
+/// first one received. Names are resolved when a layout changes, not per packet: fixed storage. One thread at
+/// a time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
@@ -128,6 +128,7 @@ class ReadingExtractor {
   std::optional<Source> tilt_source_;
   std::optional<Source> height_source_;
   std::optional<Source> altitude_source_;
+  std::optional<Source> flying_source_;
   WrappedMillimetres x_;
   WrappedMillimetres y_;
 };

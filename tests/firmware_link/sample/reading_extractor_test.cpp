@@ -180,26 +180,44 @@ TEST_F(ReadingExtractorTest, KeepsToTheFirstBlockThatOffersAPosition) {
   EXPECT_TRUE(extract(LogPacket(1, 20).f32(0.5F).f32(0.F)).has_value());
 }
 
-TEST_F(ReadingExtractorTest, OfRunningBlocksTakesThePositionFromTheLowestWhoeverIsFirst) {
-  const auto learn = [this](const LinkFrame& frame) { static_cast<void>(session_.on_frame(frame)); };
-  learn(received(toc_item_reply(0, LogType::kFloat, "stateEstimate", "x")));
-  learn(received(toc_item_reply(1, LogType::kFloat, "stateEstimate", "y")));
-  const auto make = [&learn](std::uint8_t block, bool starts) {
-    learn(sent({0x5D, 6, block, 7, 0, 0, 7, 1, 0}));
+/// Blocks that hold the same variables.
+class RunningBlocksTest : public ReadingExtractorTest {
+ protected:
+  void learn(const LinkFrame& frame) { static_cast<void>(session_.on_frame(frame)); }
+  void make(std::uint8_t block, const Bytes& variables, bool starts = true) {
+    Bytes create{0x5D, 6, block};
+    create.insert(create.end(), variables.begin(), variables.end());
+    learn(sent(create));
     learn(received({0x5D, 6, block, 0}));
     if (!starts) return;
     learn(sent({0x5D, 3, block, 10}));
     learn(received({0x5D, 3, block, 0}));
-  };
-  make(1, false);
-  make(2, true);
-  make(16, true);
+  }
+};
+
+TEST_F(RunningBlocksTest, ThePositionIsTakenFromTheLowestThatRunsWhoeverIsFirst) {
+  learn(received(toc_item_reply(0, LogType::kFloat, "stateEstimate", "x")));
+  learn(received(toc_item_reply(1, LogType::kFloat, "stateEstimate", "y")));
+  const Bytes position{7, 0, 0, 7, 1, 0};
+  make(1, position, false);
+  make(2, position);
+  make(16, position);
   EXPECT_FALSE(extract(LogPacket(16, 100).f32(5.F).f32(5.F)));
   EXPECT_TRUE(extract(LogPacket(2, 110).f32(1.F).f32(1.F)));
   EXPECT_FALSE(extract(LogPacket(16, 120).f32(5.F).f32(5.F)));
   learn(sent({0x5D, 2, 2}));
   learn(received({0x5D, 2, 2, 0}));
   EXPECT_TRUE(extract(LogPacket(16, 130).f32(5.F).f32(5.F)));
+}
+
+TEST_F(RunningBlocksTest, WhetherTheVehicleFliesIsTakenFromOne) {
+  learn(received(toc_item_reply(0, LogType::kUint16, "supervisor", "info")));
+  learn(received(toc_item_reply(1, LogType::kFloat, "stabilizer", "thrust")));
+  make(1, {2, 0, 0});
+  make(16, {7, 1, 0});
+  EXPECT_FALSE(extract(LogPacket(16, 100).f32(0.F)));
+  EXPECT_EQ(extract(LogPacket(1, 110).u16(0x0018))->is_flying, true);
+  EXPECT_FALSE(extract(LogPacket(16, 120).f32(0.F)));
 }
 
 TEST_F(ReadingExtractorTest, UnwrapsMillimetresBeyondSixteenBits) {
