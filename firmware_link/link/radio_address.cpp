@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::size_t kMaxDongleIndex = 9;  // digits; from 10 on they are a serial number
 constexpr int kLastChannel = 125;
-// Below the lower one, log packets would accumulate in the vehicle.
-constexpr int kMinRateLimitHz = 20;
+// The vehicle sends 22 packets a second, its console and repetitions beside. What is fetched more slowly
+// accumulates in it.
+constexpr int kMinRateLimitHz = 50;
 constexpr int kMaxRateLimitHz = 10'000;
 
 Status parse_dongle(std::string_view text, RadioAddress& radio) {
@@ -67,7 +68,7 @@ Status apply(const UriParameter& parameter, RadioAddress& radio) {
   if (parameter.key != "rate_limit") return unknown_parameter(parameter.key, "safelink, rate_limit");
   radio.rate_limit_hz = whole_number(parameter.value, kMinRateLimitHz, kMaxRateLimitHz);
   if (radio.rate_limit_hz) return {};
-  return bad_address("rate_limit must be a whole number from 20 to 10000 (packets a second)");
+  return bad_address("rate_limit must be a whole number from 50 to 10000 (packets a second)");
 }
 
 }  // namespace

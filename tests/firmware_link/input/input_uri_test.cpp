@@ -64,7 +64,7 @@ TEST(InputUri, AcceptsARadioAddressAndFillsInMissingParts) {
       {"radio://e7e7e7e7e7/3", {"E7E7E7E7E7", 3, RadioRate::k2Mbps, kFactory, true, {}}},
       {"radio://1234567890/3", {"1234567890", 3, RadioRate::k2Mbps, kFactory, true, {}}},
       {"radio://0?safelink=0", {"0", 80, RadioRate::k2Mbps, kFactory, false, {}}},
-      {"radio://0/80/2M/1?rate_limit=100&safelink=1", {"0", 80, RadioRate::k2Mbps, kLast, true, 100}},
+      {"radio://0/80/2M/1?rate_limit=50&safelink=1", {"0", 80, RadioRate::k2Mbps, kLast, true, 50}},
   };
   for (const auto& [uri, expected] : cases) {
     const auto parsed = parse_input_uri(uri);
@@ -138,7 +138,7 @@ TEST(InputUri, ReportsWhatIsWrongAndShowsAnExample) {
       {"radio://0/80/2M/E7E7E7E7E700", "address 'E7E7E7E7E700'"},
       {"radio://0/80/2M/E7E7E7E7E7/1", "more parts than"},
       {"radio://0/80?safelink=yes", "safelink must be 0 or 1"},
-      {"radio://0/80?rate_limit=0", "rate_limit must be a whole number from 20 to 10000"},
+      {"radio://0/80?rate_limit=49", "rate_limit must be a whole number from 50 to 10000"},
       {"radio://0/80?ackfilter=0", "unknown parameter 'ackfilter', known: safelink, rate_limit"},
       {"usb://", "must be a whole number from 0 to 99"},
       {"usb://100", "'100' must be"},
