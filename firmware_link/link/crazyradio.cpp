@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,32 +51,27 @@ std::optional<std::size_t> index_in(const std::string& name) {
   return is_number && name.size() < 10 ? std::optional(index) : std::nullopt;
 }
 
-struct OpenedDongle {
-  std::unique_ptr<UsbDevice> device;
-  bool is_crazyradio_2 = false;
-};
-using Opened = std::variant<OpenedDongle, UsbOutcome>;
+using Opened = std::variant<std::unique_ptr<UsbDevice>, UsbOutcome>;
 
 Opened open_dongle(UsbBus& bus, const UsbIdentity& identity, const RadioAddress& address) {
   // Permission may be granted at this moment, but this may not be the dongle that was requested.
   if (identity.access == UsbOutcome::kAccessDenied) return identity.access;
   if (identity.release_bcd < kOldestCrazyradioRelease) return UsbOutcome::kFault;
   if (!radio_range(is_crazyradio_2(identity)).holds(address)) return UsbOutcome::kUnsuited;
-  auto device = bus.open(identity, 0);
-  if (device.index() == 1) return std::get<UsbOutcome>(device);
-  return OpenedDongle{std::get<0>(std::move(device)), is_crazyradio_2(identity)};
+  return bus.open(identity, 0);
 }
 
-/// The first of those named that can be opened, else why the first cannot.
-Opened open_dongle(UsbBus& bus, const RadioAddress& address) {
-  UsbOutcome failure = UsbOutcome::kDone;
-  for (const UsbIdentity& identity :
-       dongles_named(address.dongle, bus.list(kCrazyradioVendor, kCrazyradioProduct))) {
-    Opened opened = open_dongle(bus, identity, address);
-    if (opened.index() == 0) return opened;
-    if (failure == UsbOutcome::kDone) failure = std::get<UsbOutcome>(opened);
-  }
-  return failure == UsbOutcome::kDone ? UsbOutcome::kNoDevice : failure;
+/// A client that crashed leaves the dongle in any state.
+Opened open_and_reset(UsbBus& bus, const UsbIdentity& identity, const RadioAddress& address) {
+  Opened opened = open_dongle(bus, identity, address);
+  if (opened.index() == 1) return opened;
+  const UsbOutcome outcome = std::get<0>(opened)->reset();
+  if (outcome == UsbOutcome::kDone) return opened;
+  opened = outcome;  // closed
+  if (outcome != UsbOutcome::kNoDevice) return opened;
+  for (const UsbIdentity& again : bus.list(kCrazyradioVendor, kCrazyradioProduct))
+    if (again.serial == identity.serial) return open_dongle(bus, again, address);
+  return opened;
 }
 
 }  // namespace
@@ -95,20 +91,22 @@ std::vector<UsbIdentity> dongles_named(const std::string& name, std::vector<UsbI
 }
 
 std::variant<Crazyradio, UsbOutcome> Crazyradio::open(UsbBus& bus, const RadioAddress& address) {
-  Opened opened = open_dongle(bus, address);
-  if (opened.index() == 1) return std::get<UsbOutcome>(opened);
-  // A client that crashed leaves the dongle in any state.
-  UsbOutcome outcome = std::get<0>(opened).device->reset();
-  if (outcome == UsbOutcome::kNoDevice) {
-    opened = UsbOutcome::kNoDevice;  // closed first: it came back under another number
-    opened = open_dongle(bus, address);
-    if (opened.index() == 1) return std::get<UsbOutcome>(opened);
-    outcome = UsbOutcome::kDone;
+  std::optional<UsbOutcome> failure;
+  for (const UsbIdentity& identity :
+       dongles_named(address.dongle, bus.list(kCrazyradioVendor, kCrazyradioProduct))) {
+    std::variant<Crazyradio, UsbOutcome> opened = open(bus, identity, address);
+    if (opened.index() == 0) return opened;
+    if (!failure) failure = std::get<UsbOutcome>(opened);
   }
-  if (outcome != UsbOutcome::kDone) return outcome;
-  OpenedDongle& dongle = std::get<0>(opened);
-  Crazyradio radio(std::move(dongle.device), dongle.is_crazyradio_2);
-  outcome = radio.initialise(address);
+  return failure.value_or(UsbOutcome::kNoDevice);
+}
+
+std::variant<Crazyradio, UsbOutcome> Crazyradio::open(UsbBus& bus, const UsbIdentity& identity,
+                                                      const RadioAddress& address) {
+  Opened opened = open_and_reset(bus, identity, address);
+  if (opened.index() == 1) return std::get<UsbOutcome>(opened);
+  Crazyradio radio(std::get<0>(std::move(opened)), identity);
+  const UsbOutcome outcome = radio.initialise(address);
   if (outcome != UsbOutcome::kDone) return outcome;
   return radio;
 }

@@ -66,9 +66,10 @@ struct RadioAnswer {
 /// A Crazyradio PA or 2.0: sends one packet, fetches one. One thread at a time; must not outlive the bus.
 class Crazyradio {
  public:
-  /// Finds the dongle that `address` names, resets it, ends the modes that survive a reset and tunes it.
-  /// Failures: kNoDevice, kAccessDenied (also where the serial numbers may not be read), kBusy, kFault (also
-  /// firmware before 0.40), kStall, kTimeout, kUnsuited (not in its range()).
+  /// Finds the dongle that `address` names, resets it, ends the modes that survive a reset and tunes it; of
+  /// several the first with which all that succeeds. Failures, of the first: kNoDevice, kAccessDenied (also
+  /// where the serial numbers may not be read), kBusy, kFault (also firmware before 0.40), kStall, kTimeout,
+  /// kUnsuited (not in its range()).
   [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const RadioAddress& address);
 
   /// One packet out, its answer in. Takes about 1 ms, 10 ms without an acknowledgement, 0.25 s without an
@@ -86,8 +87,10 @@ class Crazyradio {
   [[nodiscard]] UsbOutcome set_retries(std::uint8_t retries);
 
  private:
-  Crazyradio(std::unique_ptr<UsbDevice> device, bool is_crazyradio_2)
-      : device_(std::move(device)), is_crazyradio_2_(is_crazyradio_2) {}
+  Crazyradio(std::unique_ptr<UsbDevice> device, const UsbIdentity& identity)
+      : device_(std::move(device)), is_crazyradio_2_(is_crazyradio_2(identity)) {}
+  [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const UsbIdentity& identity,
+                                                                 const RadioAddress& address);
   [[nodiscard]] UsbOutcome initialise(const RadioAddress& address);
   [[nodiscard]] UsbOutcome leave_modes();
   [[nodiscard]] UsbOutcome request(std::uint8_t request, std::uint16_t value,

@@ -93,6 +93,7 @@ class FakeDongle final : public UsbBus {
   bool has_news = false;            ///< what has_changed() returns, once
   UsbOutcome reset_outcome = UsbOutcome::kDone;
   UsbOutcome request_outcome = UsbOutcome::kDone;
+  std::optional<std::uint8_t> faulty;  ///< address: these two are of this one alone
   FakeRadioVehicle vehicle;
   std::function<bool()> is_in_range = [] { return true; };
   std::deque<Fate> fates;                  ///< of the next packets; delivered beyond
@@ -121,26 +122,30 @@ class FakeDongle final : public UsbBus {
     const auto index = static_cast<std::size_t>(found - plugged_in.begin());
     if (index < opening.size() && opening[index] != UsbOutcome::kDone) return opening[index];
     opened.push_back(index);
-    return std::make_unique<Device>(*this);
+    return std::make_unique<Device>(*this, identity.address);
   }
   bool has_changed() override { return std::exchange(has_news, false); }
 
  private:
   class Device final : public UsbDevice {
    public:
-    explicit Device(FakeDongle& dongle) : dongle_(dongle) { ++dongle_.open_devices; }
+    Device(FakeDongle& dongle, std::uint8_t address) : dongle_(dongle), address_(address) {
+      ++dongle_.open_devices;
+    }
     ~Device() override { --dongle_.open_devices; }
     UsbTransfer control_out(std::uint8_t request, std::uint16_t value, std::uint16_t /*index*/,
                             std::span<const std::uint8_t> data, Duration /*timeout*/) override {
       dongle_.requests.push_back({request, value, Bytes(data.begin(), data.end())});
-      return {dongle_.request_outcome, data.size()};
+      return {outcome(dongle_.request_outcome), data.size()};
     }
     UsbTransfer bulk_out(std::uint8_t /*endpoint*/, std::span<const std::uint8_t> bytes,
                          Duration /*timeout*/) override {
+      if (!is_plugged_in()) return {UsbOutcome::kNoDevice, 0};
       return dongle_.take(Bytes(bytes.begin(), bytes.end()));
     }
     UsbTransfer bulk_in(std::uint8_t /*endpoint*/, std::span<std::uint8_t> buffer,
                         Duration timeout) override {
+      if (!is_plugged_in()) return {UsbOutcome::kNoDevice, 0};
       return dongle_.give(buffer, timeout);
     }
     UsbOutcome clear_halt(std::uint8_t endpoint) override {
@@ -149,15 +154,21 @@ class FakeDongle final : public UsbBus {
     }
     UsbOutcome reset() override {
       ++dongle_.resets;
-      return dongle_.reset_outcome;
+      return outcome(dongle_.reset_outcome);
     }
 
    private:
+    [[nodiscard]] UsbOutcome outcome(UsbOutcome set) const {
+      return dongle_.faulty.value_or(address_) == address_ ? set : UsbOutcome::kDone;
+    }
+    [[nodiscard]] bool is_plugged_in() const {
+      return std::ranges::count(dongle_.plugged_in, address_, &UsbIdentity::address) > 0;
+    }
     FakeDongle& dongle_;
+    std::uint8_t address_;
   };
 
   UsbTransfer take(const Bytes& bytes) {
-    if (plugged_in.empty()) return {UsbOutcome::kNoDevice, 0};
     fate_ = Fate::kDelivered;
     if (!fates.empty()) {
       fate_ = fates.front();
@@ -182,7 +193,6 @@ class FakeDongle final : public UsbBus {
   }
 
   UsbTransfer give(std::span<std::uint8_t> buffer, Duration timeout) {
-    if (plugged_in.empty()) return {UsbOutcome::kNoDevice, 0};
     const Fate fate = std::exchange(fate_, Fate::kDelivered);
     if (fate == Fate::kInStalls) return {UsbOutcome::kStall, 0};
     if (fate == Fate::kOverflows) return {UsbOutcome::kOverflow, 0};

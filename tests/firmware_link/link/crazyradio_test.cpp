@@ -174,6 +174,21 @@ TEST_F(CrazyradioTest, WildcardSelectsTheFirstThatIsFree) {
   EXPECT_EQ(failure(), UsbOutcome::kBusy);
 }
 
+TEST_F(CrazyradioTest, WildcardGoesPastADongleThatOpensAndFails) {
+  plug_in("0123456789");
+  address_.dongle = "*";
+  dongle_.faulty = 0;
+  dongle_.reset_outcome = UsbOutcome::kFault;
+  EXPECT_EQ(failure(), UsbOutcome::kDone);
+  dongle_.reset_outcome = UsbOutcome::kDone;
+  dongle_.request_outcome = UsbOutcome::kTimeout;
+  EXPECT_EQ(failure(), UsbOutcome::kDone);
+  EXPECT_EQ(dongle_.opened, (std::vector<std::size_t>{0, 1, 0, 1}));
+  dongle_.opening = {UsbOutcome::kDone, UsbOutcome::kBusy};
+  EXPECT_EQ(failure(), UsbOutcome::kTimeout) << "of the first";
+  EXPECT_EQ(dongle_.open_devices, 0);
+}
+
 TEST_F(CrazyradioTest, IsNotMissingIfItsSerialNumberMayNotBeRead) {
   dongle_.plugged_in[0].serial.clear();
   dongle_.plugged_in[0].access = UsbOutcome::kAccessDenied;
