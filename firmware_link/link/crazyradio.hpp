@@ -78,6 +78,7 @@ class Crazyradio {
   [[nodiscard]] RadioAnswer exchange(std::span<const std::uint8_t> packet);
 
   [[nodiscard]] RadioRange range() const { return radio_range(is_crazyradio_2_); }
+  [[nodiscard]] const std::string& serial() const { return serial_; }
 
   // Settings. A value that is set already is not sent again. Precondition: in its range().
   [[nodiscard]] UsbOutcome set_rate(RadioRate rate);
@@ -88,7 +89,7 @@ class Crazyradio {
 
  private:
   Crazyradio(std::unique_ptr<UsbDevice> device, const UsbIdentity& identity)
-      : device_(std::move(device)), is_crazyradio_2_(is_crazyradio_2(identity)) {}
+      : device_(std::move(device)), is_crazyradio_2_(is_crazyradio_2(identity)), serial_(identity.serial) {}
   [[nodiscard]] static std::variant<Crazyradio, UsbOutcome> open(UsbBus& bus, const UsbIdentity& identity,
                                                                  const RadioAddress& address);
   [[nodiscard]] UsbOutcome initialise(const RadioAddress& address);
@@ -108,6 +109,7 @@ class Crazyradio {
 
   std::unique_ptr<UsbDevice> device_;
   bool is_crazyradio_2_;
+  std::string serial_;
   std::optional<RadioRate> rate_;
   std::optional<std::uint8_t> channel_;
   std::optional<std::array<std::uint8_t, 5>> address_;

@@ -15,7 +15,8 @@ std::string_view describe(LinkCondition condition) {
     case LinkCondition::kSilent:
       return "the vehicle does not answer: is it on and in range, are channel, data rate and address right?";
     case LinkCondition::kDeviceMissing:
-      return "the USB device (Crazyradio or vehicle on a cable) is not there: plug it in";
+      return "the USB device (Crazyradio or vehicle on a cable) is not there: plug it in, after a connection "
+             "the same one";
     case LinkCondition::kAccessDenied:
       return "the USB device may not be opened by this user: install the udev rule, join group plugdev, log "
              "in "

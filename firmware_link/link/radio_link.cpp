@@ -77,6 +77,8 @@ void RadioLink::open(HostTime now) {
     return;
   }
   radio_.emplace(std::get<Crazyradio>(std::move(opened)));
+  // Its index changes when it or another one is plugged in.
+  if (address_.dongle != "*" && !radio_->serial().empty()) address_.dongle = radio_->serial();
   failures_in_a_row_ = 0;
   active_at_ = now;
   negotiate_safelink();

@@ -37,7 +37,8 @@ namespace swiftlet {
 /// dongle.
 class RadioLink final : public Link {
  public:
-  /// The dongle is opened by the first receive().
+  /// The dongle is opened by the first receive(). Where it is lost it is waited for, by its serial number; of
+  /// any ("*") another one will do.
   RadioLink(UsbBus& bus, LinkClock& clock, RadioAddress address);
 
   /// Error: kTimeout only. May take 0.3 s longer than `timeout` where the dongle does not answer.

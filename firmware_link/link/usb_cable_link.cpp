@@ -84,16 +84,30 @@ void UsbCableLink::open(HostTime now) {
 
 UsbOutcome UsbCableLink::open_vehicle() {
   const std::vector<UsbIdentity> vehicles = vehicles_on_cables(bus_);
-  if (index_ < 0 || std::cmp_greater_equal(index_, vehicles.size())) return UsbOutcome::kNoDevice;
-  const UsbIdentity& chosen = vehicles[static_cast<std::size_t>(index_)];
-  if (chosen.access != UsbOutcome::kDone) return chosen.access;
-  std::variant<std::unique_ptr<UsbDevice>, UsbOutcome> opened = bus_.open(chosen, 0);
+  const UsbIdentity* const chosen = choose(vehicles);
+  if (chosen == nullptr) return UsbOutcome::kNoDevice;
+  if (chosen->access != UsbOutcome::kDone) return chosen->access;
+  std::variant<std::unique_ptr<UsbDevice>, UsbOutcome> opened = bus_.open(*chosen, 0);
   if (const UsbOutcome* failure = std::get_if<UsbOutcome>(&opened)) return *failure;
   std::unique_ptr<UsbDevice> vehicle = std::get<0>(std::move(opened));
   const UsbOutcome outcome =
       vehicle->control_out(kSwitchRequest, kSwitchValue, kToUsb, {}, kUsbControlTimeout).outcome;
-  if (outcome == UsbOutcome::kDone) vehicle_ = std::move(vehicle);
+  if (outcome != UsbOutcome::kDone) return outcome;
+  vehicle_ = std::move(vehicle);
+  serial_ = chosen->serial;
   return outcome;
+}
+
+/// Its index changes when it or another one is plugged in. One whose texts may not be read may be it.
+const UsbIdentity* UsbCableLink::choose(const std::vector<UsbIdentity>& vehicles) const {
+  if (serial_.empty()) {
+    const bool is_there = index_ >= 0 && std::cmp_less(index_, vehicles.size());
+    return is_there ? &vehicles[static_cast<std::size_t>(index_)] : nullptr;
+  }
+  auto found = std::ranges::find(vehicles, serial_, &UsbIdentity::serial);
+  if (found == vehicles.end())
+    found = std::ranges::find(vehicles, UsbOutcome::kAccessDenied, &UsbIdentity::access);
+  return found == vehicles.end() ? nullptr : &*found;
 }
 
 void UsbCableLink::lose_vehicle(UsbOutcome failure) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/base/result.hpp"
@@ -30,7 +31,8 @@ namespace swiftlet {
 /// while it opens the vehicle.
 class UsbCableLink final : public Link {
  public:
-  /// `index`: which of the vehicles on cables, from 0. The vehicle is opened by the first receive().
+  /// `index`: which of the vehicles on cables, from 0. The vehicle is opened by the first receive(). Where it
+  /// is lost it is waited for, by its serial number.
   UsbCableLink(UsbBus& bus, LinkClock& clock, int index);
   ~UsbCableLink() override;
 
@@ -44,6 +46,7 @@ class UsbCableLink final : public Link {
  private:
   void open(HostTime now);
   [[nodiscard]] UsbOutcome open_vehicle();
+  [[nodiscard]] const UsbIdentity* choose(const std::vector<UsbIdentity>& vehicles) const;
   void lose_vehicle(UsbOutcome failure);
   void watch_silence(HostTime now);
   [[nodiscard]] std::optional<LinkFrame> send_next(HostTime now);
@@ -54,6 +57,7 @@ class UsbCableLink final : public Link {
   UsbBus& bus_;
   LinkClock& clock_;
   int index_;
+  std::string serial_;  ///< of the vehicle that was opened
   ReopenSchedule reopen_;
   std::unique_ptr<UsbDevice> vehicle_;
   int failures_in_a_row_ = 0;

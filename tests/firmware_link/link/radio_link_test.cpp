@@ -439,6 +439,32 @@ TEST_F(RadioLinkTest, ReopensTheDongleAfterItWasUnplugged) {
   EXPECT_EQ(link().statistics().silences, 1U) << "the vehicle has deleted its log blocks";
 }
 
+TEST_F(RadioLinkTest, WaitsForItsOwnDongleAndLeavesAnotherAlone) {
+  UsbIdentity others = dongle_.plugged_in[0];
+  others.address = 7;
+  others.serial = "0123456789";
+  dongle_.plugged_in.push_back(others);
+  connect();
+  UsbIdentity own = dongle_.plugged_in[0];
+  dongle_.plugged_in = {others};
+  static_cast<void>(listen(seconds(3)));
+  EXPECT_EQ(condition(), LinkCondition::kDeviceMissing);
+  own.address = 9;
+  dongle_.plugged_in.push_back(own);
+  static_cast<void>(listen(milliseconds(1500)));
+  EXPECT_EQ(condition(), LinkCondition::kConnected);
+  EXPECT_EQ(dongle_.opened, (std::vector<std::size_t>{0, 1}));
+}
+
+TEST_F(RadioLinkTest, WildcardTakesAnotherDongleInThePlaceOfALostOne) {
+  address_.dongle = "*";
+  connect();
+  dongle_.plugged_in[0].address = 7;
+  dongle_.plugged_in[0].serial = "0123456789";
+  static_cast<void>(listen(milliseconds(1500)));
+  EXPECT_EQ(condition(), LinkCondition::kConnected);
+}
+
 TEST_F(RadioLinkTest, ReopensAFaultyDongleBeforeTheVehicleDeletesItsBlocks) {
   for (const auto& [fate, wanted] : {std::pair(Fate::kOverflows, LinkCondition::kDeviceOverflows),
                                      std::pair(Fate::kFails, LinkCondition::kDeviceFault)}) {

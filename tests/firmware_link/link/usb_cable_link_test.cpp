@@ -38,6 +38,7 @@ class FakeCable final : public UsbBus {
     identity.product = 0x5740;
     identity.address = static_cast<std::uint8_t>(plugged_in.size());
     identity.manufacturer = manufacturer;
+    identity.serial = "36002E00075138343038383" + std::to_string(plugged_in.size());
     plugged_in.push_back(identity);
   }
 
@@ -63,14 +64,14 @@ class FakeCable final : public UsbBus {
     if (opening != UsbOutcome::kDone) return opening;
     interface = claimed;
     opened.push_back(identity.address);
-    return std::make_unique<Device>(*this);
+    return std::make_unique<Device>(*this, identity.address);
   }
   bool has_changed() override { return false; }
 
  private:
   class Device final : public UsbDevice {
    public:
-    explicit Device(FakeCable& cable) : cable_(cable) {}
+    Device(FakeCable& cable, std::uint8_t address) : cable_(cable), address_(address) {}
     UsbTransfer control_out(std::uint8_t request, std::uint16_t value, std::uint16_t index,
                             std::span<const std::uint8_t> /*data*/, Duration /*timeout*/) override {
       cable_.switches.push_back({request, value, index});
@@ -86,7 +87,8 @@ class FakeCable final : public UsbBus {
     UsbTransfer bulk_in(std::uint8_t endpoint, std::span<std::uint8_t> buffer, Duration timeout) override {
       EXPECT_EQ(endpoint, 0x81);
       EXPECT_EQ(buffer.size(), 64U);
-      if (cable_.plugged_in.empty()) return {UsbOutcome::kNoDevice, 0};
+      if (std::ranges::count(cable_.plugged_in, address_, &UsbIdentity::address) == 0)
+        return {UsbOutcome::kNoDevice, 0};
       const UsbOutcome outcome = next(cable_.in_outcomes);
       if (outcome != UsbOutcome::kDone) return {outcome, 0};
       if (cable_.waiting.empty()) {
@@ -113,6 +115,7 @@ class FakeCable final : public UsbBus {
       return outcome;
     }
     FakeCable& cable_;
+    std::uint8_t address_;
   };
 };
 
@@ -237,6 +240,19 @@ TEST_F(UsbCableLinkTest, ReopensTheVehicleAfterItWasUnplugged) {
   EXPECT_EQ(listen(milliseconds(1100)).size(), 1U);
   EXPECT_EQ(cable_.switches, (std::vector<FakeCable::Switch>{{1, 1, 1}, {1, 1, 1}}));
   EXPECT_EQ(link_->statistics().device_losses, 1U);
+}
+
+TEST_F(UsbCableLinkTest, WaitsForItsOwnVehicleAndLeavesAnotherAlone) {
+  cable_.plug_in("Bitcraze AB");
+  static_cast<void>(listen(milliseconds(100)));
+  UsbIdentity own = cable_.plugged_in[0];
+  cable_.plugged_in.erase(cable_.plugged_in.begin());
+  static_cast<void>(listen(seconds(3)));
+  EXPECT_EQ(condition(), LinkCondition::kDeviceMissing);
+  own.address = 9;
+  cable_.plugged_in.push_back(own);
+  static_cast<void>(listen(milliseconds(1100)));
+  EXPECT_EQ(cable_.opened, (std::vector<int>{0, 9}));
 }
 
 TEST_F(UsbCableLinkTest, ContinuesAfterStallsAndGivesUpAfterTen) {
