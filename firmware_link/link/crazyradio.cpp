@@ -231,7 +231,6 @@ RadioAnswer Crazyradio::decode(std::size_t size) const {
   const std::uint8_t status = size == 0 ? std::uint8_t{0} : buffer_[0];
   answer.acknowledged = (status & 0x01) != 0;
   if (!answer.acknowledged) return answer;
-  answer.strong = (status & 0x02) != 0;
   answer.retries = status >> 4;
   for (std::size_t i = 1; i < size && answer.payload.try_push_back(buffer_[i]); ++i) {
   }

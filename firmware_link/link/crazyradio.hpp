@@ -54,7 +54,6 @@ struct RadioAnswer {
   /// it.
   UsbOutcome outcome = UsbOutcome::kDone;
   bool acknowledged = false;                            ///< false: all tries were lost
-  bool strong = false;                                  ///< received above about -64 dBm
   std::uint8_t retries = 0;                             ///< retransmissions it took, where acknowledged
   FixedVector<std::uint8_t, kMaxRadioPayload> payload;  ///< what the vehicle sent back, 0 to 32 bytes
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/session/log_toc.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/base/check.hpp"
@@ -28,14 +27,12 @@ void LogToc::on_info(const TocInfo& received) {
 
 void LogToc::add(std::uint16_t id, LogType type, std::string name) {
   if (items_.size() <= id) items_.resize(std::size_t{id} + 1);
-  if (items_[id].name.empty()) ++known_;
   items_[id] = {type, std::move(name)};
 }
 
 void LogToc::clear() {
   info_.reset();
   items_.clear();
-  known_ = 0;
 }
 
 std::string_view LogToc::name_of(std::uint16_t id) const {
@@ -45,13 +42,6 @@ std::string_view LogToc::name_of(std::uint16_t id) const {
 LogType LogToc::type_of(std::uint16_t id) const {
   SWIFTLET_CHECK(has(id), "only a known variable has a type");
   return items_[id].type;
-}
-
-std::optional<std::uint16_t> LogToc::find(std::string_view name) const {
-  const auto found =
-      std::find_if(items_.begin(), items_.end(), [name](const Item& item) { return item.name == name; });
-  if (found == items_.end()) return std::nullopt;
-  return static_cast<std::uint16_t>(found - items_.begin());
 }
 
 }  // namespace swiftlet

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -31,9 +30,6 @@ class LogToc {
   [[nodiscard]] std::string_view name_of(std::uint16_t id) const;
   /// The type it is stored in. Precondition: has(id).
   [[nodiscard]] LogType type_of(std::uint16_t id) const;
-  [[nodiscard]] std::optional<std::uint16_t> find(std::string_view name) const;
-  /// Items known.
-  [[nodiscard]] std::size_t size() const { return known_; }
 
  private:
   struct Item {
@@ -44,7 +40,6 @@ class LogToc {
 
   std::optional<TocInfo> info_;
   std::vector<Item> items_;  // by id
-  std::size_t known_ = 0;
 };
 
 }  // namespace swiftlet

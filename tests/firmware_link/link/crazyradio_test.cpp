@@ -218,7 +218,6 @@ TEST_F(CrazyradioTest, ReportsTheOutcomeOfAPacket) {
   const RadioAnswer received = radio.exchange(kPoll);
   EXPECT_EQ(received.outcome, UsbOutcome::kDone);
   EXPECT_TRUE(received.acknowledged);
-  EXPECT_TRUE(received.strong);
   EXPECT_EQ(received.retries, 2);
   EXPECT_EQ(payload_of(received), (Bytes{0x52, 1, 0x8E, 0x11, 0}));
 
@@ -231,7 +230,6 @@ TEST_F(CrazyradioTest, ReportsTheOutcomeOfAPacket) {
   dongle_.raw_status = 0xF1;
   dongle_.vehicle.waiting.push_back(Bytes(32, 0x5C));
   const RadioAnswer full = radio.exchange(kPoll);
-  EXPECT_FALSE(full.strong);
   EXPECT_EQ(full.retries, 15);
   EXPECT_EQ(full.payload.size(), 32U);
 }

@@ -56,7 +56,7 @@ TEST(LogSession, LearnsFromTheRightDirectionOnly) {
     frame.direction = frame.direction == LinkDirection::kToVehicle ? LinkDirection::kFromVehicle
                                                                    : LinkDirection::kToVehicle;
   feed_all(session, reversed);
-  EXPECT_EQ(session.toc().size(), 0U);
+  EXPECT_FALSE(session.toc().has(0));
   EXPECT_FALSE(session.blocks()[1].exists);
   feed_all(session, capture.handshake());
   EXPECT_TRUE(session.on_frame(capture.data(0)).has_value());
