@@ -59,9 +59,8 @@ Status Recorder::open_part() {
 }
 
 Result<CaptureWriter> Recorder::create_file() {
-  using Existing = CaptureWriter::Existing;
   ++part_;
-  if (!plan_.file.empty()) return CaptureWriter::create(plan_.file, plan_.vehicle, Existing::kRefuse);
+  if (!plan_.file.empty()) return CaptureWriter::create(plan_.file, plan_.vehicle);
   std::error_code error;
   std::filesystem::create_directories(plan_.directory, error);
   if (error)
@@ -74,7 +73,7 @@ Result<CaptureWriter> Recorder::create_file() {
   };
   std::filesystem::path path = plan_.directory / recording_name(plan_.began, part_);
   while (is_taken(path)) path = plan_.directory / recording_name(plan_.began, ++part_);
-  return CaptureWriter::create(path.string(), plan_.vehicle, Existing::kRefuse);
+  return CaptureWriter::create(path.string(), plan_.vehicle);
 }
 
 void Recorder::make_room() {

@@ -51,12 +51,9 @@ std::size_t whole_records(std::span<const std::uint8_t> records, std::size_t tak
 
 }  // namespace
 
-Result<CaptureWriter> CaptureWriter::create(const std::string& path, const CaptureVehicle& vehicle,
-                                            Existing existing) {
-  const bool refuses = existing == Existing::kRefuse;
-  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (refuses ? O_EXCL : O_TRUNC);
-  const int file = ::open(path.c_str(), flags, kEverybodyMayRead);
-  if (file < 0 && refuses && errno == EEXIST)
+Result<CaptureWriter> CaptureWriter::create(const std::string& path, const CaptureVehicle& vehicle) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kEverybodyMayRead);
+  if (file < 0 && errno == EEXIST)
     return Error{ErrorCode::kInvalidInput, path + ": is there already; choose another name or remove it"};
   if (file < 0)
     return Error{ErrorCode::kInvalidInput,
@@ -67,7 +64,7 @@ Result<CaptureWriter> CaptureWriter::create(const std::string& path, const Captu
   writer.put_file_header();
   const Status written = writer.flush();
   if (written) return writer;
-  if (refuses) ::unlink(path.c_str());  // just created, and empty
+  ::unlink(path.c_str());  // just created, and empty
   return written.error();
 }
 

@@ -19,12 +19,9 @@ namespace swiftlet {
 /// (is_being_written). One thread at a time; allocates when it is opened.
 class CaptureWriter {
  public:
-  enum class Existing { kEmpty, kRefuse };  ///< what is done with a file that exists already
-
-  /// Errors: kInvalidInput: it cannot be created, or exists and is refused. kOutOfSpace: not even the file's
+  /// Errors: kInvalidInput: it cannot be created, or exists already. kOutOfSpace: not even the file's
   /// header could be written.
-  [[nodiscard]] static Result<CaptureWriter> create(const std::string& path, const CaptureVehicle& vehicle,
-                                                    Existing existing = Existing::kEmpty);
+  [[nodiscard]] static Result<CaptureWriter> create(const std::string& path, const CaptureVehicle& vehicle);
   /// Writes the rest, without checking that it was written: close() does.
   ~CaptureWriter();
   CaptureWriter(CaptureWriter&& other) noexcept;
@@ -33,8 +30,6 @@ class CaptureWriter {
   /// Keeps the record until flush(), or until the buffer is full. Errors: kOutOfSpace: disk full or failing;
   /// final: every later call returns the same error. Precondition: at most kMaxCrtpPacket bytes.
   [[nodiscard]] Status write(const LinkFrame& frame);
-  /// For another vehicle in the same capture.
-  void set_vehicle(const CaptureVehicle& vehicle) { vehicle_ = vehicle; }
   /// Writes all to the operating system: it survives the end of this process, also by kill -9. Errors: as
   /// write().
   [[nodiscard]] Status flush();

@@ -11,6 +11,7 @@
 
 #include "firmware_link/capture/capture_writer.hpp"
 #include "tests/firmware_link/frames.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 
@@ -78,6 +79,14 @@ inline void write_capture(const std::string& path, const std::vector<LinkFrame>&
   ASSERT_TRUE(writer.ok());
   for (const LinkFrame& frame : frames) ASSERT_TRUE(writer->write(frame).ok());
   ASSERT_TRUE(writer->flush().ok());
+}
+
+/// What it writes.
+inline std::string capture_bytes(const std::vector<LinkFrame>& frames,
+                                 const CaptureVehicle& vehicle = radio_vehicle(0xE7)) {
+  const TemporaryFile file("bytes.pcap");
+  write_capture(file.path(), frames, vehicle);
+  return file.read();
 }
 
 }  // namespace swiftlet

@@ -94,6 +94,7 @@ bool write(const std::filesystem::path& path, const std::vector<LinkFrame>& fram
   CaptureVehicle vehicle;
   vehicle.kind = kind;
   vehicle.address.fill(0xE7);
+  std::filesystem::remove(path);
   Result<CaptureWriter> writer = CaptureWriter::create(path.string(), vehicle);
   if (!writer) return false;
   for (const LinkFrame& frame : frames)

@@ -31,11 +31,6 @@ class FollowedLinkTest : public testing::Test {
   void append(const std::string& bytes) {
     std::ofstream(path_, std::ios::binary | std::ios::app).write(bytes.data(), std::ssize(bytes));
   }
-  static std::string capture_of(const std::vector<LinkFrame>& frames, std::uint8_t vehicle = 0xE7) {
-    const TemporaryFile whole("whole.pcap");
-    write_capture(whole.path(), frames, radio_vehicle(vehicle));
-    return whole.read();
-  }
   [[nodiscard]] Bytes next() {
     const Result<LinkFrame> frame = link_->receive(milliseconds(50));
     if (!frame) return {};
@@ -48,7 +43,7 @@ class FollowedLinkTest : public testing::Test {
 };
 
 TEST_F(FollowedLinkTest, ReadsOnAsTheFileGrowsWhereverItEnds) {
-  const std::string bytes = capture_of({received({0x52, 1, 0, 0, 0}), received({0x52, 2, 0, 0, 0})});
+  const std::string bytes = capture_bytes({received({0x52, 1, 0, 0, 0}), received({0x52, 2, 0, 0, 0})});
   link_ = FollowedLink::open(path_).value();
   std::size_t frames = 0;
   for (const char byte : bytes) {
@@ -62,11 +57,11 @@ TEST_F(FollowedLinkTest, ReadsOnAsTheFileGrowsWhereverItEnds) {
 }
 
 TEST_F(FollowedLinkTest, FollowsTheVehicleThatSendsLogDataFirst) {
-  append(capture_of({sent({0xFF})}, 0x01));  // of a scan
+  append(capture_bytes({sent({0xFF})}, radio_vehicle(0x01)));  // of a scan
   link_ = FollowedLink::open(path_).value();
   EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kTimeout);
   const auto add = [this](const Bytes& packet, std::uint8_t vehicle) {
-    append(capture_of({received(packet)}, vehicle).substr(kPcapFileHeader));
+    append(capture_bytes({received(packet)}, radio_vehicle(vehicle)).substr(kPcapFileHeader));
   };
   add({0x5D, 5, 0, 0}, 0x02);
   EXPECT_EQ(code_of(link_->receive({})), ErrorCode::kTimeout);
@@ -80,7 +75,7 @@ TEST_F(FollowedLinkTest, FollowsTheVehicleThatSendsLogDataFirst) {
 }
 
 TEST_F(FollowedLinkTest, AFifoIsReadUntilItsWriterClosesIt) {
-  const std::string bytes = capture_of({received({0x52, 1, 0, 0, 0})});
+  const std::string bytes = capture_bytes({received({0x52, 1, 0, 0, 0})});
   std::filesystem::remove(path_);
   ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
   link_ = FollowedLink::open(path_).value();
@@ -116,7 +111,7 @@ class FileSizeLimit {
 };
 
 TEST_F(FollowedLinkTest, SaysThatTheDiskIsFullAfterThePacketsThatItKept) {
-  const std::string bytes = capture_of({received({0x52, 1, 0, 0, 0}), received({0x52, 2, 0, 0, 0})});
+  const std::string bytes = capture_bytes({received({0x52, 1, 0, 0, 0}), received({0x52, 2, 0, 0, 0})});
   std::filesystem::remove(path_);
   ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
   link_ = FollowedLink::open(path_).value();

@@ -37,17 +37,14 @@ TEST(ReplayLink, ReplaysBothDirectionsInOrderToTheEnd) {
 
 TEST(ReplayLink, ReplaysTheVehicleThatSendsLogDataFirstAndReportsTheOthers) {
   const TemporaryFile file("a.pcap");
-  {
-    auto writer = CaptureWriter::create(file.path(), radio_vehicle(0x01));
-    ASSERT_TRUE(writer.ok());
-    ASSERT_TRUE(writer->write(sent(hex("ff"))).ok());
-    writer->set_vehicle(radio_vehicle(0x02));
-    ASSERT_TRUE(writer->write(received(hex("52 01 00 00 00 01"))).ok());
-    writer->set_vehicle(radio_vehicle(0x02, 90));
-    ASSERT_TRUE(writer->write(received(hex("52 01 00 00 00 02"))).ok());
-    writer->set_vehicle(radio_vehicle(0x02));
-    ASSERT_TRUE(writer->write(received(hex("52 01 00 00 00 03"))).ok());
-  }
+  std::string bytes = capture_bytes({sent(hex("ff"))}, radio_vehicle(0x01));
+  const auto add = [&bytes](const Bytes& packet, const CaptureVehicle& vehicle) {
+    bytes += capture_bytes({received(packet)}, vehicle).substr(kPcapFileHeader);
+  };
+  add(hex("52 01 00 00 00 01"), radio_vehicle(0x02));
+  add(hex("52 01 00 00 00 02"), radio_vehicle(0x02, 90));
+  add(hex("52 01 00 00 00 03"), radio_vehicle(0x02));
+  file.write(bytes);
   auto link = ReplayLink::open(file.path());
   ASSERT_TRUE(link.ok());
   EXPECT_EQ((*link)->receive(Duration::zero())->packet()[5], 1);
