@@ -69,9 +69,6 @@ Json batch_json(const BatchError& batch) {
 
 Json live_json(const KnownPlaceError& live) {
   Json json = known_place_json(live);
-  if (live.moments == 0)
-    for (const char* key : {"rms_m", "p95_m", "max_m", "share_off"}) json[key] = nullptr;
-  if (live.contacts_off == 0) json["settled_p50_s"] = nullptr;
   Json& errors = json["errors_m"] = Json::array();
   for (const StampedError& at : live.errors)
     errors.push_back({to_seconds(at.stamp.time_since_epoch()), at.error_m});

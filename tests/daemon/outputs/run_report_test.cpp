@@ -75,6 +75,15 @@ TEST(RunReport, GivesTheKnownPlaceErrorWherePosesWereKept) {
   EXPECT_EQ(report["known_place_error"]["across_p95_m"], nullptr);
 }
 
+TEST(RunReport, AnErrorOfNoMomentsIsUnknownNotZero) {
+  const FinishedRun run;
+  RunView view = run.view(true);
+  view.known_places = KnownPlaceError{};
+  const json error = json::parse(run_report_json(view))["known_place_error"];
+  for (const char* figure : {"rms_m", "p95_m", "max_m", "share_off", "settled_p50_s"})
+    EXPECT_TRUE(error[figure].is_null()) << figure;
+}
+
 TEST(RunReport, TellsWhatTheInputShowedOfItsSensors) {
   const FinishedRun run;
   RunView view = run.view(false);
