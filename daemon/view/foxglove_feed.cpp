@@ -72,8 +72,8 @@ std::optional<FoxgloveMessage> FoxgloveFeed::next(const RunHistory& history,
   if (poses.empty()) return std::nullopt;
   at_us_ = at_us;
   first_us_ = poses.front().utime_us;
-  now_us_ =
-      std::min(history.newest_pose()->utime_us, at_us.value_or(std::numeric_limits<std::int64_t>::max()));
+  now_us_ = poses.back().utime_us;
+  if (at_us) now_us_ = std::min(now_us_, *at_us);
   for (std::size_t i = 0; i < kFoxgloveTopics; ++i) {
     const auto topic = static_cast<FoxgloveTopic>(turn_);
     turn_ = (turn_ + 1) % kFoxgloveTopics;
