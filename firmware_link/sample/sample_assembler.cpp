@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "firmware_link/sample/level_range.hpp"
+#include "firmware_link/session/vehicle_monitor.hpp"
 
 namespace swiftlet {
 namespace {
@@ -112,6 +113,7 @@ void SampleAssembler::restart() {
   tilts_.restart();
   heights_.restart();
   last_height_.reset();
+  low_at_odom_.reset();
   storeys_.restart();
 }
 
@@ -210,17 +212,27 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
   return sample;
 }
 
+/// What travels on the floor does not stand there: nothing measures its height.
+bool SampleAssembler::stands_at(double height_m, const Point2& position_odom) {
+  if (height_m > kStandingM) {
+    low_at_odom_.reset();
+    return false;
+  }
+  if (!low_at_odom_) low_at_odom_ = position_odom;
+  return distance_m(*low_at_odom_, position_odom) <= kCarriedM;
+}
+
 void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sample) {
   const auto tilt = tilts_.at(ranges.measured_at);
   const auto height = heights_.at(ranges.measured_at);
   const bool knows_tilt = tilt.outcome == OdometryTimeline<BodyTilt>::Outcome::kFound;
   const bool knows_height = height.outcome == OdometryTimeline<HeightReading>::Outcome::kFound;
-  const bool is_low = knows_height && height.value.height_m <= kStandingM;
+  const bool stands = knows_height && stands_at(height.value.height_m, sample.T_odom_body.position());
   for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {
     const auto range_m = static_cast<double>(ranges.distance_m[i]);
     const double rise = knows_tilt ? rise_of_beam(config_.beams.bearing_rad[i], tilt.value) : 0.0;
     const double level_m = level_range_m(range_m, rise);
-    RangeStatus status = is_low ? RangeStatus::kInvalid : classify_distance(range_m, config_.sensor);
+    RangeStatus status = stands ? RangeStatus::kInvalid : classify_distance(range_m, config_.sensor);
     if (status == RangeStatus::kHit)
       status = classify_distance(level_m, config_.sensor);  // of a body on its side
     const bool is_floor = status == RangeStatus::kHit && knows_tilt && knows_height &&

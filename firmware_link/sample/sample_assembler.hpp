@@ -95,6 +95,7 @@ class SampleAssembler {
   /// False when the dead reckoning has run away.
   bool is_within_reach(const Point2& position_odom, const Motion& motion);
   RangeSample finish(const PendingRanges& ranges, const Pose2& T_odom_body, const Motion& motion);
+  [[nodiscard]] bool stands_at(double height_m, const Point2& position_odom);
   void fill_beams(const PendingRanges& ranges, RangeSample& sample);
   void drop_oldest();
 
@@ -117,7 +118,8 @@ class SampleAssembler {
   std::uint32_t boot_ = 0;
   DeviceTime latest_{};  ///< of all readings since the last restart
   std::optional<Motion> last_motion_;
-  Point2 began_at_odom_;  ///< the dead reckoning, with the run of last_motion_
+  std::optional<Point2> low_at_odom_;  ///< where it came down to kStandingM, if it is not above
+  Point2 began_at_odom_;               ///< the dead reckoning, with the run of last_motion_
   std::uint32_t next_sequence_ = 0;
   bool ended_ = false;
 };

@@ -254,6 +254,22 @@ TEST_F(SampleAssemblerTest, TheRangesOfAVehicleThatStandsAreTheFloorsWhateverItR
   EXPECT_EQ(counters_.floor_returns, 0U);
 }
 
+TEST_F(SampleAssemblerTest, WhatTravelsOnTheFloorHasAHeightThatNothingMeasures) {
+  for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
+    position(ms, 0.2 * static_cast<double>(ms / 100));
+    Reading height;
+    height.stream = 3;
+    height.at = device_ms(ms);
+    height.height_m = 0.0;
+    feed(height);
+    ranges(ms);
+  }
+  end();
+  ASSERT_EQ(samples_.size(), 10U);
+  EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
+  for (std::size_t i = 4; i < samples_.size(); ++i) EXPECT_EQ(samples_[i].status[0], RangeStatus::kHit) << i;
+}
+
 TEST_F(SampleAssemblerTest, TellsTheStoreyByAltitudeLessHeight) {
   const auto fly_at = [this](std::int64_t from_ms, double altitude_m, std::optional<double> height_m) {
     for (std::int64_t ms = from_ms; ms < from_ms + 20'000; ms += 100) {
