@@ -120,6 +120,9 @@ IdMap<KeyframeId, Eigen::Matrix3d> propagate(const PoseGraph& graph, KeyframeId 
   const PoseIndex start = graph.pose_index(from);
   const Pose2 T_from_map = T_map_pose[index_of(start)].inverse();
   std::vector<Eigen::Matrix3d> covariance(T_map_pose.size(), Eigen::Matrix3d::Identity() * 1e6);
+  // Variance of the heading of `from` by the first heading on the way to each pose.
+  std::vector<double> of_from(T_map_pose.size(), std::numeric_limits<double>::infinity());
+  of_from[index_of(start)] = headings[index_of(start)];
   const auto carry_on = [&](const Arrival& arrival) {
     const std::uint32_t here = index_of(arrival.here);
     const std::uint32_t to = index_of(arrival.step.to);
@@ -128,7 +131,11 @@ IdMap<KeyframeId, Eigen::Matrix3d> propagate(const PoseGraph& graph, KeyframeId 
     const Eigen::Matrix3d J2 = jacobian_compose_second(T_from_here);
     covariance[to] =
         J1 * covariance[here] * J1.transpose() + J2 * steps.covariance(arrival.step) * J2.transpose();
-    condition_on_heading(2.0 * headings[to], covariance[to]);  // that of `from` is no more certain
+    of_from[to] = of_from[here];
+    if (std::isfinite(of_from[to]))
+      condition_on_heading(headings[to] + of_from[to], covariance[to]);
+    else
+      of_from[to] = headings[to] + covariance[to](2, 2);
   };
   std::vector<Arrival> arrivals(T_map_pose.size());
   std::vector<double> distance(T_map_pose.size(), std::numeric_limits<double>::infinity());

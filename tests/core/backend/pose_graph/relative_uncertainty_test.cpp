@@ -66,7 +66,7 @@ TEST(RelativeCovariances, OfTheCautiousHaveTheSlipOfEachMotionAndNoHeadings) {
   graph.T_map_keyframe.push_back(Pose2());
   for (int i = 0; i < 3; ++i)
     add_step(graph, Pose2(2.0, 0.0, 0.0), Eigen::Vector3d(0.01, 0.01, 1e-3).asDiagonal());
-  graph.headings.push_back({KeyframeId{3}, 0.0, 1e6});
+  for (const KeyframeId known : {KeyframeId{0}, KeyframeId{3}}) graph.headings.push_back({known, 0.0, 1e6});
   const SlipNoise slip{.along_m2_per_m = 0.1, .yaw_rad2_per_m = 0.002};
   const Eigen::Matrix3d P = cautious_relative_covariances(graph, KeyframeId{0}, {}, slip)[KeyframeId{3}];
   EXPECT_NEAR(P(0, 0), 3.0 * (0.01 + 2.0 * 0.1), 1e-9);
@@ -144,13 +144,22 @@ TEST(RelativeCovariances, AHeadingBoundsTheHeadingAndWhatItDoesToThePosition) {
     add_step(graph, Pose2(0.5, 0.0, 0.0), Eigen::Vector3d(1e-4, 1e-4, 4e-4).asDiagonal());
   const Eigen::Matrix3d without = relative_covariances(graph, KeyframeId{0})[KeyframeId{200}];
   const double variance_rad2 = 1e-3;
-  for (std::uint32_t k = 6; k <= 200; k += 6)
+  for (std::uint32_t k = 0; k <= 200; k += 6)
     graph.headings.push_back({.pose = KeyframeId{k}, .information = 1.0 / variance_rad2});
   const Eigen::Matrix3d with = relative_covariances(graph, KeyframeId{0})[KeyframeId{200}];
   EXPECT_LT(with(2, 2), 4.0 * variance_rad2);
   EXPECT_GT(without(2, 2), 0.07);
   EXPECT_LT(std::sqrt(with(1, 1)), 0.25 * std::sqrt(without(1, 1)));
   EXPECT_NEAR(with(0, 0), without(0, 0), 1e-12) << "along the way a heading tells nothing";
+}
+
+TEST(RelativeCovariances, AHeadingTellsNothingOfThoseWithoutOne) {
+  std::mt19937 random(66);
+  PoseGraph graph = random_chain(random, 30);
+  const IdMap<KeyframeId, Eigen::Matrix3d> without = relative_covariances(graph, KeyframeId{0});
+  graph.headings.push_back({.pose = KeyframeId{20}, .information = 1e6});
+  const IdMap<KeyframeId, Eigen::Matrix3d> with = relative_covariances(graph, KeyframeId{0});
+  for (std::size_t k = 0; k < with.size(); ++k) EXPECT_EQ(with.values()[k], without.values()[k]);
 }
 
 TEST(RelativeCovariances, DisbelievedHeadingsTellNothing) {
