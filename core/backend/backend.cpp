@@ -3,7 +3,6 @@
 #include "core/backend/backend.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <span>
 
@@ -26,9 +25,10 @@ struct Backend::State {
   bool refine_stretch(const BackendUpdate& update);
   ScanRange refine_window(const BackendUpdate& update);
   void correct_newest(const Pose2& T_local_body);
+  [[nodiscard]] KeyframePoses T_map_submaps() const;
   void compare_newest_scan(const FrontendStep& step);
   [[nodiscard]] bool newest_contact_is_at_fault() const;
-  void doubt_motion_if_contradicted();
+  bool doubt_motion_if_contradicted();
   [[nodiscard]] bool has_restarted_unplaced() const;
   [[nodiscard]] Tracking tracking() const;
   [[nodiscard]] PoseConfidence computed_confidence() const;
@@ -44,8 +44,9 @@ struct Backend::State {
   MapAgreement agreement{config.tuning.confidence, scans};
   MapCorrection correction;  // at the newest keyframe
   std::optional<PoseConfidence>
-      confidence;             // as it was last computed; nothing once it does not hold any more
-  std::uint32_t version = 0;  // counts up whenever earlier keyframes have moved
+      confidence;                // as it was last computed; nothing once it does not hold any more
+  double confidence_at_m = 0.0;  // the travel then
+  std::uint32_t version = 0;     // counts up whenever earlier keyframes have moved
   std::uint64_t scans_pruned = 0;
 };
 
@@ -64,7 +65,7 @@ bool Backend::State::refine_stretch(const BackendUpdate& update) {
 
 ScanRange Backend::State::refine_window(const BackendUpdate& update) {
   if (update.poses_changed) refinement.follow(T_map_keyframe());
-  const ScanRange refined = refinement.refine_window(T_map_keyframe(), T_local_keyframe());
+  const ScanRange refined = refinement.refine_window(graph.graph(), T_local_keyframe());
   if (!refined.empty()) ++version;
   return refined;
 }
@@ -78,12 +79,20 @@ void Backend::State::correct_newest(const Pose2& T_local_body) {
   if (distance_m(was, is) > config.tuning.confidence.tolerance_m) agreement.begin_again();
 }
 
-/// With the older map, at the pose that the newest correction gives it.
+/// Of the keyframes that are frames of submaps; the others are where the graph has them.
+KeyframePoses Backend::State::T_map_submaps() const {
+  KeyframePoses T_map = T_map_keyframe();
+  for (const auto& submap : loops.submaps())
+    T_map[submap->reference] = refinement.T_map_body(chain.scan_of(submap->reference), T_map_keyframe());
+  return T_map;
+}
+
+/// With the older map, at the pose that the newest correction gives it, both as refined.
 void Backend::State::compare_newest_scan(const FrontendStep& step) {
   const Pose2 T_map_body = correction.T_map_local * step.T_local_body;
   if (step.has_keyframe)
     agreement.look_around(T_map_body, chain.path_m(step.made.id), step.sample.storey, loops.submaps(),
-                          T_map_keyframe());
+                          T_map_submaps());
   if (!has_restarted_unplaced()) agreement.add_newest_scan(T_map_body);
 }
 
@@ -108,15 +117,24 @@ bool Backend::State::newest_contact_is_at_fault() const {
 }
 
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
-void Backend::State::doubt_motion_if_contradicted() {
-  if (!agreement.is_contradicted()) return loops.end_doubt();
-  if (loops.unplaced_since()) return;
+/// True: the poses have moved, since the next loops are looked for from where a false one no longer holds.
+bool Backend::State::doubt_motion_if_contradicted() {
+  if (!agreement.is_contradicted()) {
+    loops.end_doubt();
+    return false;
+  }
+  if (loops.unplaced_since()) return false;
   const ScanId agreed = scans.all().at_or_after(agreement.agreed_last());  // it may have been pruned
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
-  if (first >= chain.all().end_id()) return;
-  if (newest_contact_is_at_fault()) loops.drop_contact(graph);
+  if (first >= chain.all().end_id()) return false;
+  const bool is_at_fault = newest_contact_is_at_fault();
+  if (is_at_fault) loops.drop_contact(graph);
   graph.doubt_motion_to(first);
   loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds);  // its returns count for half
+  confidence.reset();
+  if (!is_at_fault || !follow_graph(graph.settle())) return false;
+  refinement.follow(T_map_keyframe());
+  return true;
 }
 
 /// Across a break with known motion (the vehicle's estimate ran on) only the covariance grows.
@@ -171,7 +189,10 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   if (was_unplaced && !s.loops.unplaced_since()) s.agreement.begin_again();
   s.correct_newest(step.T_local_body);
   s.compare_newest_scan(step);
-  s.doubt_motion_if_contradicted();
+  if (s.doubt_motion_if_contradicted()) {
+    update.poses_changed = true;
+    s.correct_newest(step.T_local_body);
+  }
   if (update.new_closures > 0 || step.made.starts_segment) s.confidence.reset();
   return update;
 }
@@ -255,11 +276,11 @@ std::optional<ScanId> Backend::doubted_since() const {
 PoseConfidence Backend::confidence() {
   State& s = *state_;
   const Pose2& T_local_newest = s.T_local_keyframe().values().back();
-  const auto is_far = [&](const PoseConfidence& known) {
-    const Pose2 way = between(known.T_local_keyframe, T_local_newest);
-    return std::hypot(way.x_m(), way.y_m()) > s.config.tuning.confidence.recompute_after_m;
-  };
-  if (!s.confidence || is_far(*s.confidence)) s.confidence = s.computed_confidence();
+  const double here_m = s.chain.path_m(s.chain.all().last_id());
+  if (!s.confidence || here_m - s.confidence_at_m > s.config.tuning.confidence.recompute_after_m) {
+    s.confidence = s.computed_confidence();
+    s.confidence_at_m = here_m;
+  }
   PoseConfidence newest = *s.confidence;
   newest.from_start = carried_on(s.confidence->from_start, *s.confidence, T_local_newest);
   newest.from_surroundings = carried_on(s.confidence->from_surroundings, *s.confidence, T_local_newest);

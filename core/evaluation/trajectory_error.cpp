@@ -9,47 +9,16 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/geometry/rigid_alignment.hpp"
 
 namespace swiftlet {
-
-namespace {
-
-Point2 mean_of(std::span<const Point2> points) {
-  Point2 sum;
-  for (const Point2& p : points) {
-    sum.x_m += p.x_m;
-    sum.y_m += p.y_m;
-  }
-  const auto count = static_cast<double>(points.size());
-  return {sum.x_m / count, sum.y_m / count};
-}
-
-/// Umeyama's R and t: in the plane the rotation that the SVD of the covariance yields is atan2 of its
-/// antisymmetric and symmetric parts.
-Pose2 best_alignment(std::span<const Point2> estimate, std::span<const Point2> truth) {
-  const Point2 mean_estimate = mean_of(estimate);
-  const Point2 mean_truth = mean_of(truth);
-  double dot = 0.0;
-  double cross = 0.0;
-  for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const Point2 e{estimate[i].x_m - mean_estimate.x_m, estimate[i].y_m - mean_estimate.y_m};
-    const Point2 t{truth[i].x_m - mean_truth.x_m, truth[i].y_m - mean_truth.y_m};
-    dot += e.x_m * t.x_m + e.y_m * t.y_m;
-    cross += e.x_m * t.y_m - e.y_m * t.x_m;
-  }
-  const Pose2 turn(0.0, 0.0, std::atan2(cross, dot));
-  const Point2 turned = turn * mean_estimate;
-  return {mean_truth.x_m - turned.x_m, mean_truth.y_m - turned.y_m, turn.yaw_rad()};
-}
-
-}  // namespace
 
 TrajectoryError trajectory_error(std::span<const Point2> estimate_m, std::span<const Point2> truth_m) {
   SWIFTLET_CHECK(estimate_m.size() == truth_m.size(), "the paths are paired by position");
   TrajectoryError error;
   error.pairs = estimate_m.size();
   if (error.pairs == 0) return error;
-  error.T_truth_estimate = best_alignment(estimate_m, truth_m);
+  error.T_truth_estimate = rigid_alignment(estimate_m, truth_m);
   double sum = 0.0;
   double sum_of_squares = 0.0;
   for (std::size_t i = 0; i < error.pairs; ++i) {

@@ -10,7 +10,7 @@
 namespace swiftlet {
 namespace {
 
-/// The keyframe whose pose stands for the map around the newest.
+/// The keyframe whose pose stands for the map around the newest, on its storey.
 KeyframeId surroundings_of_newest(const PoseGraph& graph, const KeyframeChain& chain,
                                   const IdMap<KeyframeId, Eigen::Matrix3d>& covariances,
                                   const ConfidenceTuning& tuning) {
@@ -22,6 +22,7 @@ KeyframeId surroundings_of_newest(const PoseGraph& graph, const KeyframeChain& c
     const KeyframeId id = chain.all().id_at(i);
     const bool is_old = chain.path_m(newest) - chain.path_m(id) > tuning.old_after_m;
     if (!is_old && chosen != newest) break;
+    if (chain.storey(id) != chain.storey(newest)) continue;
     const Pose2 off = between(T_map_newest, graph.T_map_keyframe[id]);
     if (std::hypot(off.x_m(), off.y_m()) > tuning.near_m) continue;
     const Eigen::Matrix3d& P = covariances[id];

@@ -34,7 +34,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
     leave_storey(made.id, T_local_keyframe);
   if (made.starts_segment) {
     open_submaps_.clear();
-    if (made.id != chain_->all().first_id()) {
+    if (!submaps_.empty()) {  // else there is no map to place it in
       unplaced_since_ = made.id;
       unplaced_by_ = made.odometry_ran_on ? UnplacedBy::kSilence : UnplacedBy::kRestart;
       const ScanId scan = chain_->scan_of(made.id);
@@ -220,8 +220,16 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   }
   unplaced_since_.reset();
   forget_places();
-  for (const LoopClosure& closure : decided) accept(closure, graph);
+  for (const LoopClosure& closure : decided)
+    if (!is_closed(closure)) accept(closure, graph);
   return true;
+}
+
+/// In doubt its matches were accepted as they were found, where tracking had them.
+bool LoopCloser::is_closed(const LoopClosure& match) const {
+  return std::ranges::any_of(closures_.values(), [&](const LoopClosure& closure) {
+    return closure.from == match.from && closure.to == match.to && !closure.dropped;
+  });
 }
 
 void LoopCloser::take_scales(const PoseGraph& graph) {

@@ -98,6 +98,7 @@ class LoopCloser {
   void drop(LoopClosure& closure, KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);
   bool accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph);
+  [[nodiscard]] bool is_closed(const LoopClosure& match) const;
 
   const BackendConfig* config_;
   const ScanStore* scans_;

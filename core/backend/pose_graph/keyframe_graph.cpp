@@ -62,7 +62,7 @@ void KeyframeGraph::doubt_motion_to(KeyframeId keyframe) {
   if (motion.information == unknown) return;
   motion.information = unknown;
   as_measured.is_closure = true;
-  graph_.factors.push_back(as_measured);
+  graph_.doubted.push_back(graph_.factors.push_back(as_measured));
 }
 
 void KeyframeGraph::predict_new_poses() {
@@ -170,6 +170,7 @@ void KeyframeGraph::erase(const IdRanges<KeyframeId>& pruned,
   graph_.factors.erase_if([&](const RelativePoseFactor<KeyframeId>& factor) {
     return pruned.contains(factor.from) || pruned.contains(factor.to);
   });
+  std::erase_if(graph_.doubted, [&](FactorId id) { return !graph_.factors.contains(id); });
   building_axis_prior_.erase(pruned, graph_);
   motion_factor_.erase(pruned);
   graph_.T_map_keyframe.erase(pruned);

@@ -13,12 +13,12 @@ RefinementProblem hits_of(const BatchRefinement& batch) {
   RefinementProblem hits(tuning);
   const ScanRange range = batch.scan_range();
   const std::size_t first = batch.scans.all().position(range.first);
-  const std::size_t every = 1 + (batch.scans.return_count(range) - 1) / batch.max_returns;
+  const std::size_t every = thinned_by(batch.scans.return_count(range), batch.max_returns, tuning);
   const std::span<const StoredScan> stored = batch.stored();
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const ScanId id = batch.scans.all().id_at(first + i);
     for (const ScanReturn& beam : batch.scans.returns(stored[i])) {
-      if (!beam.is_hit || (i + beam.beam) % every != 0) continue;  // each beam in its turn
+      if (!beam.is_hit || (i + beam.beam) % every != 0) continue;
       hits.add({make_id<PoseIndex>(i), index_of(traversal_of(stored[i])), stored[i].storey,
                 is_held_out(id, beam.beam, tuning), batch.scans.point_body(beam)});
     }
@@ -44,6 +44,7 @@ std::vector<BatchProblem::Factor> motions_of(const BatchRefinement& batch) {
         motion_information(scans[i - 1], scans[i], sensor.odometry) / sensor.odometry.steps_err_together;
     motions.push_back(c);
   }
+  weaken_doubted(batch.doubted, batch.scans, batch.scan_range(), motions);
   return motions;
 }
 

@@ -11,6 +11,7 @@
 #include "core/backend/config/backend_config.hpp"
 #include "core/backend/pose_graph/pose_graph.hpp"
 #include "core/backend/pose_graph/pose_system.hpp"
+#include "core/backend/refinement/doubted_motion.hpp"
 #include "core/backend/refinement/refinement_problem.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
@@ -30,6 +31,7 @@ struct BatchRefinement {
   const SensorModel& sensor;
   std::span<const RelativePoseFactor<ScanId>> closures{};  ///< information scaled by DCS already
   std::span<const HeadingFactor<ScanId>> headings{};       ///< likewise
+  std::span<const DoubtedMotion> doubted{};
   const BackendConfig& config;
   DeadReckoning dead_reckoning = DeadReckoning::kLessDrift;
   std::span<const double> step_scale{};  ///< FloorFindings'; empty: steps are as long as that says

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/refinement/joint_refinement.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -69,13 +70,17 @@ void take(const PosesAndWalls& problem, std::vector<Factor>& factors, std::vecto
   for (std::size_t i = 1; i < T_map_body.size(); ++i) factors[i - 1].T_from_to = problem.nodes().step_to(i);
 }
 
-/// A step that was not measured is as long as it is.
+/// A step from a node's scan is a part of the motion to the next node; behind the last node there is none. A
+/// step that was not measured is as long as it is.
 FloorFindings floor_of(const PosesAndWalls& problem, std::span<const StoredScan> scans) {
   const FloorField& floor = *problem.floor();
   FloorFindings found{floor.cost(), std::vector<double>(scans.size(), 1.0)};
-  for (std::size_t i = problem.nodes().first_scan(1); i < scans.size(); ++i)
-    if (!scans[i].starts_segment)
-      found.step_scale[i] = 1.0 + floor.error(floor.cell_of(problem.nodes().node_of(i)));
+  const RigidNodes& nodes = problem.nodes();
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    if (scans[i].starts_segment) continue;
+    const std::size_t to = std::min(nodes.node_of(i - 1) + 1, nodes.size() - 1);
+    found.step_scale[i] = 1.0 + floor.error(floor.cell_of(to));
+  }
   return found;
 }
 

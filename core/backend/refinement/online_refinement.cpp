@@ -99,10 +99,12 @@ std::vector<TraversalPoint> OnlineRefinement::walls_around(const ScanRange& wind
 }
 
 Result<ScanRange> OnlineRefinement::step(const KeyframePoses& T_map_keyframe,
-                                         const KeyframePoses& T_local_keyframe) {
+                                         const KeyframePoses& T_local_keyframe,
+                                         std::span<const DoubtedMotion> doubted) {
   while (traversals_.end_id() < newest_traversal()) file_traversal(traversals_.end_id(), T_map_keyframe);
   const ScanRange window = newest_window();
   WindowPoses poses = poses_of(window, T_map_keyframe, T_local_keyframe);
+  poses.doubted = doubted;
   const Result<WindowReport> report =
       window_refinement_.refine(window, walls_around(window, poses, T_map_keyframe), poses);
   if (!report) return report.error();

@@ -35,8 +35,10 @@ class OnlineRefinement {
   /// The graph was optimised.
   void follow(const KeyframePoses& T_map_keyframe);
   /// After each keyframe: refines the newest scans. Takes the poses of all keyframes by the graph and by the
-  /// frontend. Returns what moved. Errors: kSolver; nothing has moved then.
-  Result<ScanRange> step(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
+  /// frontend, whose steps are weakened where they are in doubt. Returns what moved. Errors: kSolver; nothing
+  /// has moved then.
+  Result<ScanRange> step(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe,
+                         std::span<const DoubtedMotion> doubted = {});
 
   /// Takes offsets of consecutive scans. Those behind them get that of the last one.
   void take_offsets(const ScanRange& scans, std::span<const Pose2> T_graph_refined,

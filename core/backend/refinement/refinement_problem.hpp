@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -28,6 +30,16 @@ struct PlacedReturn {
 /// The same in every problem.
 [[nodiscard]] inline bool is_held_out(ScanId scan, std::uint8_t beam, const RefinementTuning& tuning = {}) {
   return (index_of(scan) + beam) % tuning.hold_out_every == 0;
+}
+
+/// Of each beam one scan in so many leaves no more than about `most` of `count` returns: those with (scan +
+/// beam) % n == 0. It has no divisor in common with the pattern of held-out returns, or either all of them
+/// might be left or none.
+[[nodiscard]] inline std::size_t thinned_by(std::size_t count, std::size_t most,
+                                            const RefinementTuning& tuning) {
+  std::size_t every = 1 + (std::max<std::size_t>(count, 1) - 1) / most;
+  while (std::gcd(every, tuning.hold_out_every) != 1) ++every;
+  return every;
 }
 
 /// What the held-out returns decide about refined poses.

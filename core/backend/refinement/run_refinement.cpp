@@ -13,6 +13,7 @@
 #include "core/backend/refinement/batch_refinement.hpp"
 #include "core/backend/refinement/point_to_line_factor.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 #include "core/sensing/systematic_motion.hpp"
 
 namespace swiftlet {
@@ -24,14 +25,14 @@ void scale_information(Factor& factor) {
   factor.information *= factor.dcs_scale * factor.dcs_scale;
 }
 
-/// Of those that lead from one range to the other.
+/// Of those that lead from one range to the other. Motions in doubt are part of dead reckoning.
 std::vector<RelativePoseFactor<ScanId>> closures_between_scans(const PoseGraph& graph,
                                                                const KeyframeChain& chain,
                                                                const ScanRange& range_from,
                                                                const ScanRange& range_to) {
   std::vector<RelativePoseFactor<ScanId>> closures;
-  for (const RelativePoseFactor<KeyframeId>& f : graph.factors.values()) {
-    if (!f.is_closure || f.information.isZero(0.0)) continue;
+  for (const auto& [id, f] : graph.factors) {
+    if (!f.is_closure || f.information.isZero(0.0) || std::ranges::count(graph.doubted, id) > 0) continue;
     const ScanId from = chain.scan_of(f.from);
     const ScanId to = chain.scan_of(f.to);
     if (!range_from.contains(from) || !range_to.contains(to)) continue;
@@ -103,10 +104,10 @@ void RunRefinement::follow(const KeyframePoses& T_map_keyframe) {
   if (is_wanted()) online_.follow(T_map_keyframe);
 }
 
-ScanRange RunRefinement::refine_window(const KeyframePoses& T_map_keyframe,
-                                       const KeyframePoses& T_local_keyframe) {
+ScanRange RunRefinement::refine_window(const PoseGraph& graph, const KeyframePoses& T_local_keyframe) {
   if (!is_wanted() || !config_->refine_online) return {};
-  const Result<ScanRange> refined = online_.step(T_map_keyframe, T_local_keyframe);
+  const Result<ScanRange> refined =
+      online_.step(graph.T_map_keyframe, T_local_keyframe, doubted_motions(graph, *chain_));
   if (refined) return *refined;
   ++counters_.solver_failures;
   return {};
@@ -135,6 +136,7 @@ bool RunRefinement::refine_stretch(const PoseGraph& graph, bool has_closed) {
                   .sensor = sensor_,
                   .closures = known.closures,
                   .headings = known.headings,
+                  .doubted = known.doubted,
                   .config = *config_,
                   .range = stretch,
                   .max_returns = 4 * config_->tuning.online.max_stretch_scans},
@@ -171,7 +173,8 @@ RunRefinement::Hypothesis RunRefinement::hypothesis(MapSource source, const Pose
 }
 
 RunRefinement::Known RunRefinement::known_of(const PoseGraph& graph, const ScanRange& range) const {
-  return {closures_between_scans(graph, *chain_, range, range), headings_of_scans(graph, *chain_, range)};
+  return {closures_between_scans(graph, *chain_, range, range), headings_of_scans(graph, *chain_, range),
+          doubted_motions(graph, *chain_)};
 }
 
 /// Where a closure begins before the stretch, the first scan of that, which is held, stands for its
@@ -186,7 +189,22 @@ RunRefinement::Known RunRefinement::known_of_stretch(const PoseGraph& graph, con
     closure.from = stretch.first;
     known.closures.push_back(closure);
   }
+  if (stretch.first != scans_->all().first_id()) add_ties(graph, stretch, known);
   return known;
+}
+
+/// What lies before the stretch the graph knows: where no wall says otherwise each keyframe stays about where
+/// it is. Unlike closures these are no evidence of the same returns, and count in full.
+void RunRefinement::add_ties(const PoseGraph& graph, const ScanRange& stretch, Known& known) const {
+  const RefinementTuning& tuning = config_->tuning.refinement;
+  const OdometrySigma sigma{tuning.tie_sigma_m, tuning.tie_sigma_rad};
+  const Pose2 T_first_map = chain_->T_w_body(stretch.first, graph.T_map_keyframe).inverse();
+  for (const auto& [keyframe, scan] : chain_->all()) {
+    if (scan <= stretch.first) continue;
+    RelativePoseFactor<ScanId> tie{stretch.first, scan, T_first_map * graph.T_map_keyframe[keyframe]};
+    tie.information = (sigma.information() / config_->tuning.joint.closure_weight).asDiagonal();
+    known.closures.push_back(tie);
+  }
 }
 
 /// Nothing, unless it is the graph's path.
@@ -201,6 +219,7 @@ BatchRefinement RunRefinement::batch(const Hypothesis& hypothesis, const Known& 
       sensor_,
       known.closures,
       known.headings,
+      known.doubted,
       *config_,
       hypothesis.source == MapSource::kDeadReckoning ? DeadReckoning::kAsReported : DeadReckoning::kLessDrift,
       hypothesis.floor.step_scale};

@@ -48,7 +48,7 @@ class RunRefinement {
   /// The graph was optimised.
   void follow(const KeyframePoses& T_map_keyframe);
   /// After each keyframe: refines one window. Returns what has moved.
-  ScanRange refine_window(const KeyframePoses& T_map_keyframe, const KeyframePoses& T_local_keyframe);
+  ScanRange refine_window(const PoseGraph& graph, const KeyframePoses& T_local_keyframe);
   /// After each keyframe: takes what refining the newest stretch has found, and begins that where a loop has
   /// closed since it last began. True: poses have moved.
   bool refine_stretch(const PoseGraph& graph, bool has_closed);
@@ -87,10 +87,12 @@ class RunRefinement {
   struct Known {
     std::vector<RelativePoseFactor<ScanId>> closures;
     std::vector<HeadingFactor<ScanId>> headings;
+    std::vector<DoubtedMotion> doubted;
   };
   [[nodiscard]] Known known_of(const PoseGraph& graph, const ScanRange& range) const;
   [[nodiscard]] Known known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const;
   [[nodiscard]] Known known_of_stretch(const PoseGraph& graph, const ScanRange& stretch) const;
+  void add_ties(const PoseGraph& graph, const ScanRange& stretch, Known& known) const;
   [[nodiscard]] ScanRange newest_stretch() const;
   bool take_stretch(const KeyframePoses& T_map_keyframe);
   [[nodiscard]] BatchRefinement batch(const Hypothesis& hypothesis, const Known& known) const;

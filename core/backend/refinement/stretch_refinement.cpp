@@ -5,8 +5,20 @@
 #include <utility>
 
 #include "core/backend/refinement/joint_refinement.hpp"
+#include "core/geometry/rigid_alignment.hpp"
 
 namespace swiftlet {
+
+namespace {
+
+std::vector<Point2> positions(std::span<const Pose2> poses) {
+  std::vector<Point2> points;
+  points.reserve(poses.size());
+  for (const Pose2& T : poses) points.push_back(T.position());
+  return points;
+}
+
+}  // namespace
 
 StretchRefinement::Job::Job(const BatchRefinement& what, std::vector<Pose2> T_map_begun,
                             std::vector<Pose2> T_map_start)
@@ -48,8 +60,16 @@ Status StretchRefinement::Job::step() {
   if (Status status = together->step(); !status) return status;
   if (++steps < tuning.joint.steps_per_association) return {};
   T_map_body = path_of(*together, T_map_body.front());
+  if (batch.scan_range().first != batch.scans.all().first_id()) lay_onto_graph();
   is_solved = true;
   return {};
+}
+
+/// Its first scan alone holds a stretch in the middle of a run, and an error of that one's heading would move
+/// its end by metres. Where it lies as a whole the graph knows better.
+void StretchRefinement::Job::lay_onto_graph() {
+  const Pose2 T_graph_body = rigid_alignment(positions(T_map_body), positions(T_map_graph));
+  for (Pose2& T : T_map_body) T = T_graph_body * T;
 }
 
 double StretchRefinement::Job::held_out_m(const std::vector<Pose2>& T_map) const {

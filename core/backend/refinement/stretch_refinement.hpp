@@ -26,8 +26,9 @@ class StretchRefinement {
   };
 
   [[nodiscard]] bool is_busy() const { return job_ != nullptr; }
-  /// Begins with poses by the graph. `T_graph_refined`: the offset of the first scan, which is held. The
-  /// store, sensor and settings of `batch` must outlive what is begun. Precondition: two scans.
+  /// Begins with poses by the graph. `T_graph_refined`: the offset of the first scan, which is held; what
+  /// does not begin with the run is laid onto the graph as a whole. The store, sensor and settings of `batch`
+  /// must outlive what is begun. Precondition: two scans.
   void begin(const BatchRefinement& batch, std::vector<Pose2> T_map_graph, const Pose2& T_graph_refined);
   /// The next slice, if any is left. Errors: kSolver; what was begun is given up then.
   Status step();
@@ -43,6 +44,7 @@ class StretchRefinement {
   struct Job {
     Job(const BatchRefinement& what, std::vector<Pose2> T_map_begun, std::vector<Pose2> T_map_start);
     Status step();
+    void lay_onto_graph();
     [[nodiscard]] double held_out_m(const std::vector<Pose2>& T_map) const;
 
     BatchRefinement batch;  // without closures and headings, which the problem has

@@ -10,19 +10,16 @@ namespace swiftlet {
 
 /// `first_pose`: of the window's first scan.
 void WindowRefinement::take_returns(const ScanRange& window, std::size_t first_pose) {
-  const std::size_t count = scans_->return_count(window);
-  const std::size_t every = (count + tuning_.max_window_returns - 1) / tuning_.max_window_returns;
+  const std::size_t every = thinned_by(scans_->return_count(window), tuning_.max_window_returns, tuning_);
   problem_.clear();
-  std::size_t number = 0;
   const std::span<const StoredScan> scans = scans_->all().values(window);
   const std::size_t first = scans_->all().position(window.first);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const ScanId id = scans_->all().id_at(first + i);
-    const std::span<const ScanReturn> beams = scans_->returns(scans[i]);
-    for (std::size_t k = 0; k < beams.size(); ++k, ++number) {
-      if (!beams[k].is_hit || number % every != 0) continue;
+    for (const ScanReturn& beam : scans_->returns(scans[i])) {
+      if (!beam.is_hit || (i + beam.beam) % every != 0) continue;
       problem_.add({make_id<PoseIndex>(first_pose + i), index_of(traversal_of(scans[i])), scans[i].storey,
-                    is_held_out(id, beams[k].beam, tuning_), scans_->point_body(beams[k])});
+                    is_held_out(id, beam.beam, tuning_), scans_->point_body(beam)});
     }
   }
 }
@@ -38,6 +35,7 @@ void WindowRefinement::take_steps(const WindowPoses& poses) {
     step.information = tuning_.step_weight * motion_information(scans[to - 1], scans[to], noise_);
     steps_.push_back(step);
   }
+  weaken_doubted(poses.doubted, *scans_, poses.scans, steps_);
 }
 
 void WindowRefinement::add_ties(const WindowPoses& poses) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/backend/pose_graph/pose_chain.hpp"
+#include "core/backend/refinement/doubted_motion.hpp"
 #include "core/backend/refinement/refinement_problem.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
@@ -25,6 +26,7 @@ struct WindowPoses {
   std::vector<Pose2> T_map_body;    ///< as refined so far: in and out; the first is held
   std::vector<Pose2> T_map_graph;   ///< where the pose graph puts them
   std::vector<Pose2> T_local_body;  ///< along the frontend's path, which gives the steps between them
+  std::span<const DoubtedMotion> doubted{};
 };
 
 /// One Gauss-Newton step of joint refinement over a window of consecutive scans: point-to-line factors to the

@@ -12,14 +12,15 @@ namespace {
 
 constexpr double kStepM = 0.1;
 
-/// Along a line, to and fro: a keyframe every half metre.
-StoredRun flight(double out_m, double back_m) {
+/// Along a line, to and fro: a keyframe every half metre. The way back may lie on another storey.
+StoredRun flight(double out_m, double back_m, StoreyId storey_back = {}) {
   std::vector<RangeSample> samples;
   const auto steps = static_cast<int>((out_m + back_m) / kStepM);
   for (int i = 0; i <= steps; ++i) {
     const double way_m = i * kStepM;
     RangeSample sample;
     sample.sequence = static_cast<std::uint32_t>(i);
+    if (way_m > out_m) sample.storey = storey_back;
     sample.T_odom_body = Pose2(way_m <= out_m ? way_m : 2.0 * out_m - way_m, 0.0, 0.0);
     samples.push_back(sample);
   }
@@ -78,6 +79,13 @@ TEST(PoseCovariances, OnOldGroundTheyAreWhatWasFlownLongAgo) {
   const PoseCovariances after = newest_pose_covariances(graph, run.chain(), {});
   EXPECT_LT(after.from_surroundings.xx, 0.02);
   EXPECT_LT(after.from_start.xx, 0.02);
+}
+
+TEST(PoseCovariances, TheSurroundingsLieOnTheSameStorey) {
+  const StoredRun run = flight(12.0, 12.0, make_id<StoreyId>(1));
+  const ConfidenceTuning tuning;
+  const PoseCovariances P = newest_pose_covariances(graph_of(run), run.chain(), {});
+  EXPECT_LT(P.from_surroundings.xx, (tuning.near_m + 0.5) * tuning.slip_along_m2_per_m + 0.01);
 }
 
 TEST(PoseConfidence, IsCarriedOnAlongTheAxesOfTheMap) {

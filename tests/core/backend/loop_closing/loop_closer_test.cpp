@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "core/backend/loop_closing/return_evidence.hpp"
 #include "core/backend/store/frontend_estimates.hpp"
@@ -51,6 +53,7 @@ class FlownLoops {
   void feed_metres(double way_m) {
     for (const double from_m = here_m(); here_m() - from_m < way_m && !is_over();) feed_one();
   }
+  void doubt_newest_motion() { loops_.doubt_since(chain_.all().last_id(), 9.8); }
   void drop_contact() { loops_.drop_contact(graph_); }
   [[nodiscard]] std::optional<LoopCloser::Contact> contact_that_moved() const {
     return loops_.contact_that_moved(graph_.graph());
@@ -157,6 +160,31 @@ TEST(LoopCloser, APlaceBehindABreakIsAContactThatMovedTheMap) {
   for (int metre = 0; flown.loops().unplaced_since() && metre < 30; ++metre) flown.feed_metres(1.0);
   ASSERT_FALSE(flown.loops().unplaced_since());
   EXPECT_TRUE(flown.contact_that_moved());
+}
+
+TEST(LoopCloser, ABreakBeforeAnythingIsMappedLeavesNoPlaceToBeFound) {
+  const TextRoom room = loop_corridor();
+  const Point2 start = room.place('a');
+  TestVehicle vehicle = vehicle_at_start({}, 3);
+  vehicle.fly_to(room, {start.x_m + 2.0, start.y_m});
+  vehicle.carry_to(room, Pose2(start.x_m, start.y_m, 0.0));
+  fly_along(vehicle, room, "bcd");
+  FlownLoops flown(vehicle);
+  flown.feed_metres(20.0);
+  EXPECT_FALSE(flown.loops().unplaced_since());
+  EXPECT_FALSE(flown.loops().submaps().empty());
+}
+
+TEST(LoopCloser, APlaceThatTrackingHadAllTheTimeAddsNoClosureTwice) {
+  const TestVehicle vehicle = two_laps(0.0);
+  FlownLoops flown(vehicle);
+  flown.feed_until_contact();
+  flown.doubt_newest_motion();
+  for (int metre = 0; flown.loops().unplaced_since() && metre < 30; ++metre) flown.feed_metres(1.0);
+  ASSERT_FALSE(flown.loops().unplaced_since());
+  std::set<std::pair<KeyframeId, KeyframeId>> joined;
+  for (const LoopClosure& closure : flown.loops().closures().values())
+    EXPECT_TRUE(joined.insert({closure.from, closure.to}).second);
 }
 
 TEST(LoopCloser, AContactThatMovedNothingIsNotAtFault) {

@@ -35,6 +35,28 @@ TEST(RefinementProblem, AWallIsThatOfItsOwnStorey) {
   EXPECT_FALSE(walls.wall_near(kAbove, {{0.4, 0.05}, 2}).has_value()) << "no other traversal was there";
 }
 
+TEST(RefinementProblem, ThinningLeavesSomeOfTheReturnsThatJudge) {
+  const RefinementTuning tuning;
+  for (const std::size_t count :
+       {std::size_t{900}, std::size_t{3190}, std::size_t{4200}, std::size_t{18000}}) {
+    const std::size_t every = thinned_by(count, tuning.max_window_returns, tuning);
+    EXPECT_LE(count / every, tuning.max_window_returns);
+    for (std::uint32_t first = 0; first < tuning.hold_out_every; ++first) {
+      std::size_t left = 0;
+      std::size_t held_out = 0;
+      for (std::uint32_t scan = 0; scan < 300; ++scan) {
+        for (std::uint8_t beam = 0; beam < 11; ++beam) {
+          if ((scan + beam) % every != 0) continue;
+          ++left;
+          held_out += is_held_out(make_id<ScanId>(first + scan), beam, tuning) ? 1U : 0U;
+        }
+      }
+      EXPECT_NEAR(static_cast<double>(held_out) / static_cast<double>(left), 0.1, 0.02)
+          << count << " returns from scan " << first;
+    }
+  }
+}
+
 TEST(RefinementProblem, PointsOfOthersAddToTheirStorey) {
   std::vector<TraversalPoint> others(40, TraversalPoint{{0.0, 0.1}, 9});
   for (std::size_t i = 0; i < others.size(); ++i) others[i].p_map.x_m = 0.02 * static_cast<double>(i);

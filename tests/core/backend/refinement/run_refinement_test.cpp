@@ -76,11 +76,14 @@ struct FinalMap {
 FinalMap final_map(const StoredRun& run, const std::vector<Pose2>& T_graph_body,
                    std::span<const RelativePoseFactor<KeyframeId>> closures = {},
                    const BackendConfig& config = {}, const SensorModel& sensor = SensorModel::crazyflie(),
-                   const MapAgain& map_again = {}) {
+                   const MapAgain& map_again = {},
+                   std::span<const RelativePoseFactor<KeyframeId>> doubted = {}) {
   PoseGraph graph;
   for (const auto& [keyframe, scan] : run.chain().all())
     graph.T_map_keyframe.push_back(T_graph_body[index_of(scan)]);
   for (const RelativePoseFactor<KeyframeId>& closure : closures) graph.factors.push_back(closure);
+  for (const RelativePoseFactor<KeyframeId>& motion : doubted)
+    graph.doubted.push_back(graph.factors.push_back(motion));
   RunRefinement refinement(config, sensor, run.scans(), run.chain());
   for (std::size_t i = 0; i < run.scans().size(); ++i) refinement.add_scan();
   refinement.refine_all(graph, run.T_local_keyframe(), map_again);
@@ -157,6 +160,37 @@ TEST(RunRefinement, AFalseClosureDoesNotBendTheMap) {
   const FinalMap map = final_map(run, T_round, std::vector{closure});
   EXPECT_NE(map.counters.map_source, MapSource::kPoseGraph);
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, odometry(vehicle)), 0.1);
+}
+
+/// The odometry stands still from one sample to the other, as that of a flow sensor over a shiny floor does.
+std::vector<RangeSample> slipped(std::vector<RangeSample> samples, std::size_t from, std::size_t to) {
+  const Pose2 T_odom_stands = samples[from].T_odom_body;
+  const Pose2 T_stands_moved = T_odom_stands * samples[to].T_odom_body.inverse();
+  for (std::size_t i = from; i < samples.size(); ++i)
+    samples[i].T_odom_body = i < to ? T_odom_stands : T_stands_moved * samples[i].T_odom_body;
+  return samples;
+}
+
+TEST(RunRefinement, AMotionInDoubtIsAsLongAsTheGraphHasIt) {
+  TestVehicle vehicle = vehicle_at_start({}, 72);
+  fly_along(vehicle, loop_corridor(), "bcdabcda");
+  const std::size_t from = vehicle.samples().size() / 3;
+  std::size_t to = from;
+  while (distance_m(vehicle.samples()[to].T_odom_body.position(),
+                    vehicle.samples()[from].T_odom_body.position()) < 2.0)
+    ++to;
+  const StoredRun run(slipped(vehicle.samples(), from, to));
+  const std::vector<Pose2> truth = true_poses(vehicle);
+  const KeyframeId before = run.scans().all().values()[from].keyframe;
+  RelativePoseFactor<KeyframeId> motion{
+      before, before + 1, between(run.T_local_keyframe()[before], run.T_local_keyframe()[before + 1])};
+  motion.information = Eigen::Vector3d(1600.0, 1600.0, 1e4).asDiagonal();
+  motion.is_closure = true;
+  motion.dcs_scale = 1e-3;
+  ASSERT_LT(to, index_of(run.chain().scan_of(before + 1)) + 1);
+  const FinalMap map = final_map(run, truth, {}, {}, SensorModel::crazyflie(), {}, std::vector{motion});
+  ASSERT_EQ(map.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.06);
 }
 
 TEST(RunRefinement, WhereTheOdometryRestartedNothingHasMoved) {
@@ -335,6 +369,14 @@ TEST_F(NewestStretch, WithoutAClosureItGoesBackToDeadReckoning) {
   refinement_.refine_stretch(graph_, true);
   ASSERT_TRUE(solve());
   EXPECT_LT(off_m(), -0.2);
+}
+
+TEST_F(NewestStretch, OneInTheMiddleOfTheRunStaysWhereTheGraphHasIt) {
+  graph_.factors.values().front().information.setZero();
+  config_.tuning.online.max_stretch_scans = run_.scans().size() - 50;
+  refinement_.refine_stretch(graph_, true);
+  ASSERT_TRUE(solve());
+  EXPECT_LT(std::abs(off_m()), 0.1);
 }
 
 TEST_F(NewestStretch, OneThatPruningInterruptsIsBegunAgain) {
