@@ -25,6 +25,9 @@ void CommandExecutor::save_map(const MapBuilder& map) const {
 }
 
 void CommandExecutor::mark_place(const Command& command, std::optional<HostTime> newest) {
+  if (!run_.directory)
+    return spdlog::warn("the place {} is not marked: this run writes no outputs (--no-output)",
+                        command.name_text());
   if (!newest) return spdlog::warn("the place {} is not marked: there is no pose yet", command.name_text());
   places_.push_back({.stamp = *newest, .name = std::string(command.name_text())});
   spdlog::info("place {} marked", command.name_text());

@@ -28,15 +28,17 @@ TEST(CommandExecutor, SavesTheMapAsItIs) {
   EXPECT_THAT(text_of(directory.path() / "map.yaml"), testing::HasSubstr("map.pgm"));
 }
 
-TEST(CommandExecutor, WithoutADirectoryNothingIsSaved) {
+TEST(CommandExecutor, WithoutADirectoryNothingIsSavedOrMarked) {
   const FinishedRun run;
   CommandExecutor executor({.directory = {}, .is_live = true, .end = {}});
   executor.execute({.kind = Command::Kind::kSaveMap, .name = {}}, run.map, kNow);
+  executor.execute(mark("kitchen"), run.map, kNow);
+  EXPECT_TRUE(executor.places().empty());
 }
 
 TEST(CommandExecutor, MarksTheNewestSample) {
   const FinishedRun run;
-  CommandExecutor executor({.directory = {}, .is_live = true, .end = {}});
+  CommandExecutor executor({.directory = "out", .is_live = true, .end = {}});
   executor.execute(mark("too early"), run.map, std::nullopt);
   executor.execute(mark("kitchen"), run.map, kNow);
   ASSERT_EQ(executor.places().size(), 1U);
