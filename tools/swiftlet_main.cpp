@@ -246,7 +246,7 @@ CLI::App* add_view_command(CLI::App& app, swiftlet::ViewCommand& command) {
       app.add_subcommand("view", "Show the live map of a running swiftletd, or a recording, in a browser");
   CLI::Option* input =
       view->add_option("INPUT", command.input,
-                       "To be mapped and shown; without it a running swiftletd is\n" + finite_inputs());
+                       "To be mapped and shown; without it a running swiftletd is.\n" + finite_inputs());
   view->add_option("--listen", command.listen, "ADDRESS:PORT where the browser finds the page")
       ->capture_default_str();
   view->add_option("--allow-origin", command.foreign_origins,

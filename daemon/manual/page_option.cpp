@@ -38,8 +38,8 @@ OptionText option_text(const CLI::Option& option, bool is_argument, const Manual
   OptionText text;
   text.names = names_of(option, is_argument);
   if (option.get_items_expected_max() > 0) {
-    const std::string type = option.get_type_name();  // "INT:INT in [2 - 64]"
-    text.value = type.substr(0, type.find(':'));
+    const std::string type = option.get_type_name();  // "INT:INT in [2 - 64]" or "[ADDRESS:PORT]"
+    text.value = type.substr(0, type.find(':', type.starts_with('[') ? type.find(']') : 0));
     if (text.value.size() < type.size()) text.limits = type.substr(text.value.size() + 1);
   }
   text.value_may_be_left_out = option.get_items_expected_min() == 0;

@@ -73,6 +73,15 @@ class ManualTest(unittest.TestCase):
                 entries = re.findall(r"^\.TP\n(-.*)", section, re.MULTILINE)
                 self.assertEqual({name for entry in entries for name in re.findall(OPTION, entry)}, options)
 
+    def test_a_value_that_may_be_left_out_stands_whole(self):
+        page = re.sub(r"\\f[BIR]", "", output_of("swiftletd", "--print-page", "man")).replace("\\-", "-")
+        for entry in ("--view [ADDRESS:PORT]", "--commands [ADDRESS:PORT]", "--share [ADDRESS]", "--record [FILE]"):
+            self.assertIn(f".TP\n{entry}\n", page)
+        self.assertNotIn("Takes PORT", page)
+
+    def test_a_sentence_ends_before_the_line_of_inputs(self):
+        self.assertIn("without it a running swiftletd is.\n.br\n", output_of("swiftlet", "--print-page", "man"))
+
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_roff_has_nothing_to_warn_of(self):
         for program in PROGRAMS:
