@@ -143,6 +143,14 @@ class DocumentsTest(unittest.TestCase):
             for option in re.findall(r"(?<![\w-])--[a-z][a-z-]*", text):
                 self.assertIn(option, known, page)
 
+    def test_security_names_every_port_that_is_listened_on_by_default(self):
+        text = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
+        shown = "".join([output_of("swiftletd", "--help"), *(output_of("swiftlet", "help", name) for name in COMMANDS)])
+        ports = set(re.findall(r"127\.0\.0\.1:(\d+)", shown))
+        self.assertLessEqual({"8440", "8450", "19850"}, ports)
+        for port in ports:
+            self.assertIn(f"port {port} ", text)
+
     @staticmethod
     def pages():
         for path in [ROOT / "README.md", ROOT / "SECURITY.md", *sorted((ROOT / "docs").glob("*.md"))]:
