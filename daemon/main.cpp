@@ -171,8 +171,15 @@ Result<std::unique_ptr<Recorder>> open_recorder(const Options& options, const Co
   return std::unique_ptr<Recorder>();
 }
 
+/// Whether a link to `vehicle` would end at our own socket on `share`.
+bool is_own_client(const UdpAddress& vehicle, const UdpAddress& share) {
+  const auto number = [](const std::string& host) { return host == "localhost" ? "127.0.0.1" : host; };
+  return share.port == vehicle.port &&
+         (share.host == "0.0.0.0" || number(share.host) == number(vehicle.host));
+}
+
 /// Where a client may connect. The configuration counts for live vehicles alone. Error: kInvalidInput: it is
-/// no address.
+/// no address, or the vehicle's.
 Result<std::optional<UdpAddress>> share_address(const Options& options, const Configuration& config) {
   std::string_view text = options.share ? *options.share : config.share.address;
   const Result<InputUri> input = parse_input_uri(options.input_uri);
@@ -184,6 +191,10 @@ Result<std::optional<UdpAddress>> share_address(const Options& options, const Co
   text.remove_prefix(kUdpScheme.size());
   Result<UdpAddress> address = parse_udp_address(text);
   if (!address) return Error{ErrorCode::kInvalidInput, "--share: " + address.error().message};
+  const UdpAddress* const vehicle = input ? input->as<UdpAddress>() : nullptr;
+  if (vehicle != nullptr && is_own_client(*vehicle, *address))
+    return Error{ErrorCode::kInvalidInput,
+                 fmt::format("--share {}{}: INPUT is at that port; choose another one", kUdpScheme, text)};
   return std::optional<UdpAddress>(std::move(address).value());
 }
 

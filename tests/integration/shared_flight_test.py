@@ -152,6 +152,10 @@ def refuses_what_cannot_be_shared(bench):
            "no UDP")
     expect("not an IPv4 address" in refusal("--input", "udp://127.0.0.1:1", "--no-record", "--share", "udp://pilot"),
            "a name")
+    for vehicle, share in (("127.0.0.1", ()), ("127.0.0.1", ("udp://localhost",)), ("localhost", ()),
+                           ("192.0.2.1", ("udp://0.0.0.0:19850",))):
+        expect("INPUT is at that port" in refusal("--input", f"udp://{vehicle}:19850", "--no-record", "--share", *share),
+               f"its own client: {vehicle}, {share}")
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
