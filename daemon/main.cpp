@@ -487,6 +487,35 @@ int run(const Options& options) {
   }
 }
 
+/// An option that takes a word may have taken INPUT for it.
+std::string why_no_input(const Options& options) {
+  const auto taken = [](const std::string& text, std::string_view value, std::string_view option) {
+    return fmt::format("{} is taken for the {} of {}; name INPUT before {}", text, value, option, option);
+  };
+  const auto is_uri = [](const std::string& text) { return text.find("://") != std::string::npos; };
+  const auto is_no_address = [](const std::string& text) {
+    return !text.empty() && !parse_listen_address(text);
+  };
+  const std::string share = options.share.value_or("");
+  const std::string view = options.view.value_or("");
+  const std::string commands = options.commands.value_or("");
+  if (is_uri(options.record.file)) return taken(options.record.file, "file", "--record");
+  if (is_uri(share)) return taken(share, "address", "--share");
+  if (is_no_address(view)) return taken(view, "address", "--view");
+  if (is_no_address(commands)) return taken(commands, "address", "--commands");
+  return "no INPUT is named; for example: swiftletd radio://0/80/2M/E7E7E7E7E7 -o out";
+}
+
+/// Of options that were given without one.
+void name_addresses(const CLI::App& app, Options& options) {
+  const auto name = [&app](const char* option, const char* here, std::optional<std::string>& address) {
+    if (app.count(option) > 0 && address.value_or("").empty()) address = here;
+  };
+  name("--share", kShareHere, options.share);
+  name("--view", kViewHere, options.view);
+  name("--commands", kCommandsHere, options.commands);
+}
+
 int main_without_exceptions(int argc, char** argv) {
   // Whoever read the log may be gone (a pipe to a program that the same Ctrl-C ended): write the outputs.
   static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
@@ -499,10 +528,6 @@ int main_without_exceptions(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     options.record.asked = app.count("--record") > 0;
-    if (app.count("--share") > 0 && options.share.value_or("").empty()) options.share = kShareHere;
-    if (app.count("--commands") > 0 && options.commands.value_or("").empty())
-      options.commands = kCommandsHere;
-    if (app.count("--view") > 0 && options.view.value_or("").empty()) options.view = kViewHere;
   } catch (const CLI::Success& question) {
     return answer(app, question);
   } catch (const CLI::ParseError& error) {
@@ -516,10 +541,8 @@ int main_without_exceptions(int argc, char** argv) {
     std::fputs(tuning_text({}).c_str(), stdout);
     return 0;
   }
-  if (options.input_uri.empty() && options.view && options.view->find("://") != std::string::npos)
-    return refuse(*options.view + " is taken for the address of --view; name INPUT before --view");
-  if (options.input_uri.empty())
-    return refuse("no INPUT is named; for example: swiftletd radio://0/80/2M/E7E7E7E7E7 -o out");
+  if (options.input_uri.empty()) return refuse(why_no_input(options));
+  name_addresses(app, options);
   const auto colours = wants_colours(STDERR_FILENO) ? spdlog::color_mode::always : spdlog::color_mode::never;
   spdlog::set_default_logger(spdlog::stderr_color_mt("swiftletd", colours));
   spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::info);

@@ -193,7 +193,13 @@ def bad_input_gets_one_line_and_exit_code_2(bench):
             (["--input", "sim://loop", "--rate", "inf"], "--rate: inf is no number"),
             (["--input", "sim://loop", "-o", ""], "-o names no directory"),
             (["--input", "sim://loop", "-o", "/proc/nowhere"], "/proc/nowhere"),
-            ([], "for example: swiftletd radio://0/80/2M/E7E7E7E7E7")]:
+            ([], "for example: swiftletd radio://0/80/2M/E7E7E7E7E7"),
+            (["--share", "--view", "--commands"], "no INPUT is named"),
+            (["--view", "127.0.0.1:8441", "--commands", "127.0.0.1:8451", "--record", "flight.pcap"], "no INPUT is named"),
+            (["--record", "udp://127.0.0.1:1"], "taken for the file of --record; name INPUT before --record"),
+            (["--share", "udp://127.0.0.1:1"], "taken for the address of --share; name INPUT before --share"),
+            (["--view", "flight.pcap"], "taken for the address of --view; name INPUT before --view"),
+            (["--commands", "sim://loop"], "taken for the address of --commands; name INPUT before --commands")]:
         code, lines = bench.daemon(*arguments)
         expect(code == 2, f"{arguments}: exit code {code}")
         expect(len(lines) == 1 and part in lines[0], f"{arguments}: {lines}")
