@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "daemon/publish/lcm_url.hpp"
 #include "daemon/recording/recording_files.hpp"
 #include "daemon/system/terminal.hpp"
 #include "firmware_link/file/input_file.hpp"
@@ -20,7 +21,6 @@
 #include "firmware_link/link/radio_scan.hpp"
 #include "firmware_link/session/toc_cache.hpp"
 #include "tools/doctor/examination.hpp"
-#include "tools/doctor/lcm_url.hpp"
 #include "tools/doctor/network.hpp"
 #include "tools/doctor/report.hpp"
 

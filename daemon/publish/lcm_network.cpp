@@ -21,9 +21,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::string_view kMulticast = "udpm://";
 constexpr std::string_view kServer = "tcpq://";
-constexpr const char* kDefaultGroup = "239.255.76.67";
 constexpr const char* kDefaultHost = "127.0.0.1";
 constexpr const char* kDefaultPort = "7700";
 constexpr std::chrono::seconds kLookEvery{5};
@@ -44,10 +42,10 @@ class Socket {
   int file_;
 };
 
-/// Host and port of a URL of this scheme, either may be empty.
-std::optional<std::pair<std::string, std::string>> place_in(const std::string& url, std::string_view scheme) {
-  if (!url.starts_with(scheme)) return std::nullopt;
-  std::string place = url.substr(scheme.size());
+/// Host and port of a tcpq:// URL, either may be empty.
+std::optional<std::pair<std::string, std::string>> place_in(const std::string& url) {
+  if (!url.starts_with(kServer)) return std::nullopt;
+  std::string place = url.substr(kServer.size());
   place = place.substr(0, place.find('?'));
   const std::size_t colon = place.find(':');
   if (colon == std::string::npos) return std::pair(place, std::string());
@@ -71,12 +69,6 @@ bool is_greeted(int socket) {
 
 }  // namespace
 
-std::optional<std::string> lcm_group_of(const std::string& url) {
-  const auto place = place_in(url, kMulticast);
-  if (!place) return std::nullopt;
-  return place->first.empty() ? kDefaultGroup : place->first;
-}
-
 bool has_route_to(const std::string& address) {
   sockaddr_in to{};
   to.sin_family = AF_INET;
@@ -94,7 +86,7 @@ std::string lcm_server_url(const sockaddr_in& address) {
 }
 
 std::optional<LcmServer> LcmServer::of_url(const std::string& url) {
-  const auto place = place_in(url, kServer);
+  const auto place = place_in(url);
   if (!place) return std::nullopt;
   return LcmServer(place->first.empty() ? kDefaultHost : place->first,
                    place->second.empty() ? kDefaultPort : place->second);

@@ -13,9 +13,6 @@ namespace swiftlet {
 
 // What is known of the network before LCM is asked, which reports every failure in several lines on stderr.
 
-/// The address of a udpm:// URL's group, or LCM's default; nullopt for other URLs.
-[[nodiscard]] std::optional<std::string> lcm_group_of(const std::string& url);
-
 /// Whether datagrams to this IPv4 address leave by any way. True for what is no address.
 [[nodiscard]] bool has_route_to(const std::string& address);
 

@@ -5,18 +5,16 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <lcm/lcm-cpp.hpp>
 #include <list>
 #include <optional>
-#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "daemon/publish/lcm_network.hpp"
+#include "daemon/publish/lcm_url.hpp"
 
 namespace swiftlet {
 namespace {
@@ -31,13 +29,6 @@ constexpr timeval kServerWait{.tv_sec = 0, .tv_usec = 500'000};
 bool limit_waits(int socket) {
   return ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &kServerWait, sizeof kServerWait) == 0 &&
          ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &kServerWait, sizeof kServerWait) == 0;
-}
-
-/// LCM itself answers an unknown provider with two lines on stderr and no reason.
-bool has_known_provider(std::string_view url) {
-  constexpr std::array<std::string_view, 4> kProviders{"udpm://", "file://", "tcpq://", "memq://"};
-  return std::any_of(kProviders.begin(), kProviders.end(),
-                     [&](std::string_view provider) { return url.substr(0, provider.size()) == provider; });
 }
 
 }  // namespace
@@ -86,17 +77,17 @@ struct LcmTransport::State {
 };
 
 Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url) {
-  if (!has_known_provider(url))
+  const Result<LcmUrl> parsed = parse_lcm_url(url);
+  if (!parsed) return parsed.error();
+  const bool is_multicast = parsed->provider == LcmUrl::Provider::kMulticast;
+  if (is_multicast && !has_route_to(parsed->group))
     return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": must begin with udpm://, file://, tcpq:// or memq://"};
-  if (const std::optional<std::string> group = lcm_group_of(url); group && !has_route_to(*group))
-    return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": no route to " + *group +
+                 "LCM URL \"" + url + "\": no route to " + parsed->group +
                      " on this machine's network; keep it within the machine: " + kRouteOverLoopback};
   auto state = std::make_unique<State>(url);
   if (state->connected() == nullptr && !state->server)
-    return Error{ErrorCode::kInvalidInput,
-                 "LCM URL \"" + url + "\": LCM could not open it; swiftlet doctor finds the reason"};
+    return Error{ErrorCode::kInvalidInput, "LCM URL \"" + url + "\": LCM could not open it" +
+                                               (is_multicast ? "; swiftlet doctor finds the reason" : "")};
   return std::unique_ptr<LcmTransport>(new LcmTransport(std::move(state)));
 }
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "daemon/publish/lcm_url.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/link/radio_address.hpp"
 #include "firmware_link/link/usb_device.hpp"
 #include "firmware_link/session/toc_cache.hpp"
 #include "tools/doctor/finding.hpp"
-#include "tools/doctor/lcm_url.hpp"
 #include "tools/doctor/network.hpp"
 #include "tools/doctor/system_files.hpp"
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include "daemon/publish/lcm_url.hpp"
 #include "tools/doctor/finding.hpp"
-#include "tools/doctor/lcm_url.hpp"
 #include "tools/doctor/network.hpp"
 #include "tools/doctor/system_files.hpp"
 

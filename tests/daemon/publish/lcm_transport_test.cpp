@@ -26,8 +26,10 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(LcmTransport, BringsWhatWasPublishedToWhoeverListensOnTheChannel) {
   const auto lcm = LcmTransport::open("memq://");
@@ -146,10 +148,20 @@ TEST(LcmTransport, AServerThatNeverAnswersIsAbsent) {
   EXPECT_LT(steady_clock::now() - before, milliseconds(3000));
 }
 
+std::string refusal_of(const std::string& url) {
+  const auto lcm = LcmTransport::open(url);
+  return lcm ? "opened" : lcm.error().message;
+}
+
 TEST(LcmTransport, RefusesAUrlThatLcmDoesNotKnow) {
-  const auto lcm = LcmTransport::open("mqtt://here");
-  ASSERT_FALSE(lcm.ok());
-  EXPECT_THAT(lcm.error().message, HasSubstr("\"mqtt://here\": must begin with udpm://"));
+  EXPECT_THAT(refusal_of("mqtt://here"), HasSubstr("'mqtt://here': must begin with udpm://"));
+  EXPECT_THAT(refusal_of("udpm://1.2.3.4:7667"), HasSubstr("'1.2.3.4' is no multicast address"));
+  EXPECT_THAT(refusal_of("udpm://239.255.76.67:7667?ttl=300"), HasSubstr("ttl must be"));
+}
+
+TEST(LcmTransport, TheDoctorIsNotAskedAboutAFile) {
+  EXPECT_THAT(refusal_of("file:///proc/nowhere/run.lcm?mode=w"),
+              AllOf(HasSubstr("LCM could not open it"), Not(HasSubstr("doctor"))));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "tools/doctor/lcm_url.hpp"
+#include "daemon/publish/lcm_url.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
