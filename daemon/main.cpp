@@ -254,9 +254,9 @@ std::int64_t new_map_id() {
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
 }
 
-/// Also to the page, where there is one; `view` must outlive the publisher.
-Result<std::unique_ptr<Publisher>> open_publisher(const Options& options, const Configuration& config,
-                                                  LiveView* view) {
+/// Also to the page, where there is one; `lcm` and `view` must outlive the publisher.
+std::unique_ptr<Publisher> make_publisher(const Options& options, const Configuration& config,
+                                          LcmTransport& lcm, LiveView* view) {
   MessageSink also;
   if (view != nullptr)
     also = [view](const std::string& channel, std::span<const std::uint8_t> message) {
@@ -264,8 +264,7 @@ Result<std::unique_ptr<Publisher>> open_publisher(const Options& options, const 
       return true;
     };
   const Compatibility compatibility = options.compat == "mbot" ? Compatibility::kMbot : Compatibility::kNone;
-  return open_lcm_publisher(options.lcm_url, config.publish.channel_prefix, new_map_id(), std::move(also),
-                            compatibility);
+  return make_lcm_publisher(lcm, config.publish.channel_prefix, new_map_id(), std::move(also), compatibility);
 }
 
 /// nullptr: the log goes to stderr.
@@ -371,6 +370,7 @@ struct RunParts {
   std::unique_ptr<SampleSource> source;
   std::unique_ptr<Outputs> outputs;
   std::unique_ptr<LiveView> view;
+  std::unique_ptr<LcmTransport> lcm;
   std::unique_ptr<Publisher> publisher;
   std::unique_ptr<CommandListener> commands;
 };
@@ -388,7 +388,8 @@ Status open_parts(const Options& options, const Configuration& config, RunParts&
     opened = take(open_input(options, config, run.recorder ? &run.recorder->sink() : nullptr), run.source);
   if (opened) opened = take(prepare_outputs(options), run.outputs);
   if (opened) opened = take(open_view(options, config), run.view);
-  if (opened) opened = take(open_publisher(options, config, run.view.get()), run.publisher);
+  if (opened) opened = take(LcmTransport::open(options.lcm_url), run.lcm);
+  if (opened) run.publisher = make_publisher(options, config, *run.lcm, run.view.get());
   if (opened) opened = take(open_commands(options, config), run.commands);
   return opened;
 }
@@ -419,8 +420,10 @@ int finish_run(const Options& options, const Configuration& config, const RunPar
   // A live vehicle's notes are the events that were logged when they happened.
   const InputReport& report = run.source->report();
   const std::size_t first_note = run.source->is_live() ? report.notes.size() : 0;
-  const int exit_code = log_problems(options, daemon, report, first_note, outcome);
-  return written ? exit_code : refuse(written.error().message);
+  int exit_code = log_problems(options, daemon, report, first_note, outcome);
+  for (const Status& kept : {written, run.lcm->check_log()})
+    if (!kept) exit_code = refuse(kept.error().message);
+  return exit_code;
 }
 
 RunEnd run_once(const Options& options, const Configuration& config, const std::stop_token& signalled) {

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/base/check.hpp"
-#include "daemon/publish/lcm_transport.hpp"
 #include "daemon/publish/mbot_publisher.hpp"
 #include "daemon/publish/message_parts.hpp"
 #include "swiftlet/landmarks_t.hpp"
@@ -417,26 +416,22 @@ void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {
 
 }  // namespace
 
-Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
-                                                      const std::string& channel_prefix, std::int64_t map_id,
-                                                      MessageSink also, Compatibility compatibility) {
-  Result<std::unique_ptr<LcmTransport>> transport = LcmTransport::open(url);
-  if (!transport) return transport.error();
-  const std::shared_ptr<LcmTransport> transport_of_all = std::move(transport).value();
-  const MessageSink lcm = [transport_of_all](const std::string& channel,
-                                             std::span<const std::uint8_t> message) {
-    return transport_of_all->publish(channel, message);
+std::unique_ptr<Publisher> make_lcm_publisher(LcmTransport& lcm, const std::string& channel_prefix,
+                                              std::int64_t map_id, MessageSink also,
+                                              Compatibility compatibility) {
+  const MessageSink to_lcm = [&lcm](const std::string& channel, std::span<const std::uint8_t> message) {
+    return lcm.publish(channel, message);
   };
-  const auto sink = [lcm, also = std::move(also)](const std::string& channel,
-                                                  std::span<const std::uint8_t> message) {
-    const bool is_taken = lcm(channel, message);
+  const auto sink = [to_lcm, also = std::move(also)](const std::string& channel,
+                                                     std::span<const std::uint8_t> message) {
+    const bool is_taken = to_lcm(channel, message);
     const int why = errno;
     if (also) static_cast<void>(also(channel, message));
     errno = why;
     return is_taken;
   };
   std::unique_ptr<Publisher> own = make_message_publisher(sink, channel_prefix, map_id);
-  if (compatibility == Compatibility::kMbot) return make_mbot_publisher(std::move(own), lcm);
+  if (compatibility == Compatibility::kMbot) return make_mbot_publisher(std::move(own), to_lcm);
   return own;
 }
 

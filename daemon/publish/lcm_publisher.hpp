@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "core/base/result.hpp"
+#include "daemon/publish/lcm_transport.hpp"
 #include "daemon/publish/publisher.hpp"
 
 namespace swiftlet {
@@ -27,15 +27,14 @@ enum class Compatibility : std::uint8_t {
   kMbot,  ///< as make_mbot_publisher()
 };
 
-/// Publishes over LCM with the types in proto/; docs/lcm.md lists the channels. Every message fits one
-/// datagram. `map_id` names the run. kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or
-/// memq://). A message that LCM does not take is lost; the first one is logged. `also`, where it is set, is
-/// given each message of swiftlet's own after LCM, whether LCM took it or not.
-[[nodiscard]] Result<std::unique_ptr<Publisher>> open_lcm_publisher(const std::string& url,
-                                                                    const std::string& channel_prefix,
-                                                                    std::int64_t map_id,
-                                                                    MessageSink also = {},
-                                                                    Compatibility compatibility = {});
+/// Publishes over `lcm`, which must outlive the publisher, with the types in proto/; docs/lcm.md lists the
+/// channels. Every message fits one datagram. `map_id` names the run. A message that LCM does not take is
+/// lost; the first one is logged. `also`, where it is set, is given each message of swiftlet's own after LCM,
+/// whether LCM took it or not.
+[[nodiscard]] std::unique_ptr<Publisher> make_lcm_publisher(LcmTransport& lcm,
+                                                            const std::string& channel_prefix,
+                                                            std::int64_t map_id, MessageSink also = {},
+                                                            Compatibility compatibility = {});
 
 /// The same messages for `sink`, without LCM.
 [[nodiscard]] std::unique_ptr<Publisher> make_message_publisher(MessageSink sink,

@@ -7,9 +7,12 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
+#include <filesystem>
 #include <lcm/lcm-cpp.hpp>
 #include <list>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -19,7 +22,8 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kWaitingMessages = 1000;  // of a channel; LCM's own 30 are fewer than tiles come at once
+constexpr std::size_t kLogEventBytes = 28;  // of each message in a log, beside channel and content
+constexpr int kWaitingMessages = 1000;      // of a channel; LCM's own 30 are fewer than tiles come at once
 
 /// How long a server of tcpq:// may take or give not a byte. LCM waits again after some bytes: a stalled
 /// server holds a thread up for some times as long; the service's watchdog waits for 10 s.
@@ -29,6 +33,13 @@ constexpr timeval kServerWait{.tv_sec = 0, .tv_usec = 500'000};
 bool limit_waits(int socket) {
   return ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &kServerWait, sizeof kServerWait) == 0 &&
          ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &kServerWait, sizeof kServerWait) == 0;
+}
+
+/// 0 of what has no size.
+std::uintmax_t size_of(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
+  return failure ? 0 : bytes;
 }
 
 }  // namespace
@@ -44,7 +55,8 @@ struct LcmTransport::State {
     }
   };
 
-  explicit State(const std::string& of_url) : url(of_url), server(LcmServer::of_url(of_url)) {}
+  State(const std::string& of_url, std::string file)
+      : url(of_url), server(LcmServer::of_url(of_url)), log(std::move(file)) {}
 
   /// nullptr while the server of tcpq:// is absent, or LCM cannot use the URL.
   lcm::LCM* connected() {
@@ -74,6 +86,8 @@ struct LcmTransport::State {
   std::list<Channel> channels;  // LCM keeps their addresses
   std::optional<lcm::LCM> lcm;
   bool has_ended = false;
+  std::filesystem::path log;     // of file://
+  std::uintmax_t log_bytes = 0;  // that it has when all of it is on the disk
 };
 
 Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url) {
@@ -84,10 +98,11 @@ Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url)
     return Error{ErrorCode::kInvalidInput,
                  "LCM URL \"" + url + "\": no route to " + parsed->group +
                      " on this machine's network; keep it within the machine: " + kRouteOverLoopback};
-  auto state = std::make_unique<State>(url);
+  auto state = std::make_unique<State>(url, parsed->file);
   if (state->connected() == nullptr && !state->server)
     return Error{ErrorCode::kInvalidInput, "LCM URL \"" + url + "\": LCM could not open it" +
                                                (is_multicast ? "; swiftlet doctor finds the reason" : "")};
+  state->log_bytes = size_of(state->log);
   return std::unique_ptr<LcmTransport>(new LcmTransport(std::move(state)));
 }
 
@@ -105,7 +120,19 @@ bool LcmTransport::publish(const std::string& channel, std::span<const std::uint
     state_->disconnect();
     errno = ENOTCONN;
   }
+  if (is_taken) state_->log_bytes += kLogEventBytes + channel.size() + message.size();
   return is_taken;
+}
+
+Status LcmTransport::check_log() const {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(state_->log, ignored)) return {};
+  static_cast<void>(std::fflush(nullptr));  // LCM does not hand out its file
+  const std::uintmax_t bytes = size_of(state_->log);
+  if (bytes >= state_->log_bytes) return {};
+  return Error{ErrorCode::kOutOfSpace,
+               state_->log.string() + ": the LCM log is not complete: " + std::to_string(bytes) + " of " +
+                   std::to_string(state_->log_bytes) + " bytes were written; make room there"};
 }
 
 void LcmTransport::listen(const std::string& channel, Listener listener) {

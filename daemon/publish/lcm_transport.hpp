@@ -36,6 +36,8 @@ class LcmTransport {
 
   /// False, with errno, when LCM did not take the message (ENOTCONN: the server of tcpq:// is absent).
   [[nodiscard]] bool publish(const std::string& channel, std::span<const std::uint8_t> message);
+  /// kOutOfSpace: a log that is written (file://) lacks some of what publish() gave it; LCM does not notice.
+  [[nodiscard]] Status check_log() const;
   /// `listener` is called from within receive(), with each message on that channel.
   void listen(const std::string& channel, Listener listener);
   /// Waits for messages for so long at most. False when none came.

@@ -62,12 +62,14 @@ Status parse_option(const std::string& url, std::string_view option, LcmUrl& par
 
 Result<LcmUrl> parse_lcm_url(const std::string& url) {
   constexpr std::string_view kMulticast = "udpm://";
-  constexpr std::array<std::string_view, 3> kOthers{"file://", "tcpq://", "memq://"};
+  constexpr std::string_view kFile = "file://";
+  constexpr std::array<std::string_view, 3> kOthers{kFile, "tcpq://", "memq://"};
   LcmUrl parsed;
   std::string_view rest(url);
   for (const std::string_view other : kOthers) {
     if (!rest.starts_with(other)) continue;
     parsed.provider = LcmUrl::Provider::kOther;
+    if (other == kFile) parsed.file = rest.substr(kFile.size(), rest.find('?') - kFile.size());
     return parsed;
   }
   if (!rest.starts_with(kMulticast))

@@ -9,6 +9,7 @@ CASE is the name of one of the functions below. Exit code 77: skipped, the last 
 import json
 import os
 import pty
+import resource
 import signal
 import subprocess
 import sys
@@ -264,6 +265,15 @@ def an_absent_server_of_messages_is_told_of_once(bench):
     lines = done.stderr.splitlines()
     expect(done.returncode == 0 and len(lines) < 20, f"{len(lines)} lines: {lines[:20]}")
     expect(sum("start its server" in line for line in lines) == 1, lines)
+
+
+def a_full_disk_is_told_of_at_the_end(bench):
+    url = f"file://{bench.folder}/run.lcm?mode=w"
+    done = subprocess.run([bench.swiftletd, "sim://loop", "--rate", "1000", "--lcm-url", url, "--no-output"],
+                          capture_output=True, text=True, timeout=TIMEOUT_S, check=False, restore_signals=False,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+    said = [line for line in done.stderr.splitlines() if "the LCM log is not complete: 4096 of" in line]
+    expect(done.returncode == 2 and len(said) == 1, f"{done.returncode}: {done.stderr}")
 
 
 def a_truncated_capture_is_used_up_to_the_damage(bench):

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <bit>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -63,6 +65,71 @@ TEST(LcmTransport, KnowsTheEndOfALogThatItReads) {
   for (int i = 0; i < 100 && !(*lcm)->has_ended(); ++i) EXPECT_FALSE((*lcm)->receive(milliseconds(100)));
   EXPECT_TRUE((*lcm)->has_ended());
   std::filesystem::remove(log);
+}
+
+/// While it lives no file of this process grows beyond so many bytes.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit full{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &full);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    static_cast<void>(std::signal(SIGXFSZ, handler_));
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(LcmTransport, NoticesThatALogIsNotComplete) {
+  const std::string log = testing::TempDir() + "swiftlet_lcm_transport_full_test.lcm";
+  const std::vector<std::uint8_t> message{1, 2, 3};
+  const auto publish_ten = [&message](LcmTransport& lcm) {
+    int taken = 0;
+    for (int i = 0; i < 10; ++i) taken += lcm.publish("HERE", message) ? 1 : 0;
+    return taken;
+  };
+  const auto lcm = LcmTransport::open("file://" + log + "?mode=w");
+  ASSERT_TRUE(lcm.ok());
+  EXPECT_EQ(publish_ten(**lcm), 10);
+  EXPECT_TRUE((*lcm)->check_log().ok());
+  Status lost;
+  {
+    const FullDisk disk(400);
+    EXPECT_EQ(publish_ten(**lcm), 10);
+    lost = (*lcm)->check_log();
+  }
+  ASSERT_FALSE(lost.ok());
+  EXPECT_THAT(lost.error().message, HasSubstr(": the LCM log is not complete: 400 of 700 bytes"));
+  std::filesystem::remove(log);
+}
+
+TEST(LcmTransport, ALogThatIsContinuedKeepsWhatItHad) {
+  const std::string log = testing::TempDir() + "swiftlet_lcm_transport_continued_test.lcm";
+  std::filesystem::remove(log);
+  for (const std::uintmax_t bytes : {33U, 66U}) {
+    const auto lcm = LcmTransport::open("file://" + log + "?mode=a");
+    ASSERT_TRUE(lcm.ok());
+    EXPECT_TRUE((*lcm)->publish("HERE", std::vector<std::uint8_t>{1}));
+    EXPECT_TRUE((*lcm)->check_log().ok());
+    EXPECT_EQ(std::filesystem::file_size(log), bytes);
+  }
+  std::filesystem::remove(log);
+}
+
+TEST(LcmTransport, KnowsNoLogOfOtherUrls) {
+  for (const char* url : {"memq://", "file:///dev/null?mode=w"}) {
+    const auto lcm = LcmTransport::open(url);
+    ASSERT_TRUE(lcm.ok());
+    EXPECT_TRUE((*lcm)->publish("HERE", std::vector<std::uint8_t>{1}));
+    EXPECT_TRUE((*lcm)->check_log().ok());
+  }
 }
 
 TEST(LcmTransport, SaysNothingOfAnAbsentServerHoweverMuchIsPublished) {

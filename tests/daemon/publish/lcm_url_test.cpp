@@ -38,6 +38,12 @@ TEST(LcmUrl, OtherProvidersDoNotConcernTheNetwork) {
   }
 }
 
+TEST(LcmUrl, NamesTheFileOfALog) {
+  EXPECT_EQ(parse_lcm_url("file://run.lcm")->file, "run.lcm");
+  EXPECT_EQ(parse_lcm_url("file:///tmp/run.lcm?mode=w")->file, "/tmp/run.lcm");
+  EXPECT_EQ(parse_lcm_url("tcpq://localhost")->file, "");
+}
+
 TEST(LcmUrl, RefusesWhatLcmCannotUse) {
   const auto message = [](const std::string& text) {
     const Result<LcmUrl> url = parse_lcm_url(text);
