@@ -17,6 +17,7 @@ constexpr double kTextPx = 13.0;
 constexpr double kEdgePx = 24.0;
 constexpr double kGapPx = 34.0;
 constexpr double kScaleBarMostPx = 320.0;
+constexpr double kScaleBarShare = 0.2;  // of the width, at most: the keys need the rest
 constexpr int kTimeBarPx = 120;
 constexpr double kTickPx = 7.0;
 constexpr double kTickTextPx = 11.0;
@@ -34,7 +35,8 @@ class LegendLine {
       : image_(image), middle_(top_px + kLegendHeightPx / 2.0), left_(kEdgePx) {}
 
   void scale_bar(double px_per_m) {
-    const double length_m = scale_bar_length_m(px_per_m, kScaleBarMostPx);
+    const double length_m =
+        scale_bar_length_m(px_per_m, std::min(kScaleBarMostPx, image_.width() * kScaleBarShare));
     const double end = left_ + length_m * px_per_m;
     const Pen pen{map_style::kInk, 2.0, 1.0};
     draw_line(image_, {left_, middle_}, {end, middle_}, pen);

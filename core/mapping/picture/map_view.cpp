@@ -58,6 +58,13 @@ Extent extent_of(const MapScene& scene) {
   return extent;
 }
 
+/// Evenly to both sides, where they are fewer.
+void widen(CellIndex& low, CellIndex& high, int columns) {
+  const int missing = std::max(columns - (high.x - low.x + 1), 0);
+  low.x -= missing / 2;
+  high.x += missing - missing / 2;
+}
+
 int round_down(int value, int step) {
   return (value >= 0 ? value / step : -((-value + step - 1) / step)) * step;
 }
@@ -66,12 +73,13 @@ int round_down(int value, int step) {
 
 MapView::MapView(const MapScene& scene) : resolution_m_(scene.resolution_m) {
   const Extent extent = extent_of(scene);
-  const CellIndex low = cell_of(extent.low, resolution_m_);
-  const CellIndex high = cell_of(extent.high, resolution_m_);
+  CellIndex low = cell_of(extent.low, resolution_m_);
+  CellIndex high = cell_of(extent.high, resolution_m_);
   const int longest_cells = std::max(high.x - low.x, high.y - low.y) + 1;
   px_in_cell_ = std::clamp(kMaxSidePx / longest_cells, 1, kMaxPxInCell);
   cells_in_px_ = (longest_cells + kMaxSidePx - 1) / kMaxSidePx;
   px_per_cell_ = static_cast<double>(px_in_cell_) / cells_in_px_;
+  widen(low, high, (kMinWidthPx * cells_in_px_ + px_in_cell_ - 1) / px_in_cell_);
   first_ = {round_down(low.x, cells_in_px_), round_down(low.y, cells_in_px_)};
   width_px_ = ((high.x - first_.x) / cells_in_px_ + 1) * px_in_cell_;
   height_px_ = ((high.y - first_.y) / cells_in_px_ + 1) * px_in_cell_;

@@ -14,11 +14,15 @@ struct PixelRectangle {
   int size = 0;
 };
 
+/// Title and legend need it.
+inline constexpr int kMinWidthPx = 1060;
+
 /// Which part of the map a picture shows and how large. A cell is a whole number of pixels, or a pixel a
 /// whole number of cells, so that walls are sharp everywhere.
 class MapView {
  public:
   /// Frames the whole scene; odometry may add a sixth of that on each side, what strays farther is cut off.
+  /// A narrow scene stands in the middle of kMinWidthPx.
   explicit MapView(const MapScene& scene);
 
   [[nodiscard]] int width_px() const { return width_px_; }

@@ -78,6 +78,22 @@ TEST(MapLegend, AxesStandAtTheMetresThatTheySay) {
   EXPECT_FALSE(is_inked({view.pixel({0.37, 0.0}).x, 0.0}, 0, 5));
 }
 
+TEST(MapLegend, TheNarrowestMapHasRoomForTheKeyOfClosures) {
+  MapScene scene;
+  scene.scans.resize(2);
+  scene.duration = std::chrono::minutes(12);
+  scene.walls.resize(1);
+  for (const double px_per_m : {10.0, 20.0, 60.0, 160.0}) {
+    RgbImage without(kMinWidthPx, kLegendHeightPx, map_style::kUnknown);
+    RgbImage with = without;
+    draw_legend(without, 0, px_per_m, scene);
+    MapScene closed = scene;
+    closed.closures.resize(12);
+    draw_legend(with, 0, px_per_m, closed);
+    EXPECT_LT(count_of(with, map_style::kPaper), count_of(without, map_style::kPaper)) << px_per_m;
+  }
+}
+
 TEST(MapLegend, ExplainsOnlyWhatIsThere) {
   RgbImage bare(1500, kLegendHeightPx, map_style::kUnknown);
   RgbImage full(1500, kLegendHeightPx, map_style::kUnknown);

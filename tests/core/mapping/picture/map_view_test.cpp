@@ -53,6 +53,15 @@ TEST(MapView, OdometryThatStraysDoesNotShrinkTheMap) {
   EXPECT_LT(view.width_px() / view.px_per_m(), 12.0 * (1.0 + 1.0 / 6.0) + 1.5);
 }
 
+TEST(MapView, ANarrowSceneStandsInTheMiddleOfAReadableWidth) {
+  for (const double length_m : {1.0, 20.0, 60.0, 400.0}) {
+    const MapView view(scene_between({-1.0, 0.0}, {1.0, length_m}));
+    EXPECT_GE(view.width_px(), kMinWidthPx) << length_m;
+    EXPECT_LT(view.width_px(), kMinWidthPx + 10) << length_m;
+    EXPECT_NEAR(view.pixel({0.0, 0.0}).x, view.width_px() / 2.0, 10.0) << length_m;
+  }
+}
+
 TEST(MapView, ShowsSomethingOfAnEmptyScene) {
   const MapView view{MapScene{}};
   EXPECT_GT(view.width_px(), 0);
