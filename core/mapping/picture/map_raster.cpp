@@ -52,13 +52,17 @@ void draw_odometry(RgbImage& image, const MapScene& scene, const MapView& view) 
   }
 }
 
+/// Of the whole run's time, as the legend has it.
+Colour colour_at_time_of(const ScenePoint& scan, const MapScene& scene) {
+  if (scene.duration <= Duration::zero()) return map_style::time_colour(0.0);
+  return map_style::time_colour(to_seconds(scan.stamp - scene.began) / to_seconds(scene.duration));
+}
+
 void draw_path(RgbImage& image, const MapScene& scene, const MapView& view) {
-  const std::size_t count = scene.scans.size();
-  for (std::size_t i = 1; i < count; ++i) {
+  for (std::size_t i = 1; i < scene.scans.size(); ++i) {
     if (scene.scans[i].starts_segment) continue;
-    const double age = static_cast<double>(i) / static_cast<double>(count - 1);
     draw_line(image, view.pixel(scene.scans[i - 1].corrected_map), view.pixel(scene.scans[i].corrected_map),
-              {map_style::time_colour(age), map_style::kPathWidthPx, 1.0});
+              {colour_at_time_of(scene.scans[i], scene), map_style::kPathWidthPx, 1.0});
   }
 }
 
@@ -81,11 +85,15 @@ void draw_mark(RgbImage& image, const PixelPoint& centre, double radius_px, cons
 }
 
 /// Named to either side, the end on a smaller disc: both can be read where a run ends at its start.
-void draw_marks(RgbImage& image, const PixelPoint& start, const PixelPoint& end) {
+void draw_marks(RgbImage& image, const MapScene& scene, const MapView& view) {
   constexpr double kPlaceTextPx = 14.0;
   constexpr double kToText = 1.5 * map_style::kStartRadiusPx;
-  draw_mark(image, start, map_style::kStartRadiusPx, map_style::time_colour(0.0));
-  draw_mark(image, end, map_style::kEndRadiusPx, map_style::time_colour(1.0));
+  const ScenePoint& first = scene.scans.front();
+  const ScenePoint& last = scene.scans.back();
+  const PixelPoint start = view.pixel(first.corrected_map);
+  const PixelPoint end = view.pixel(last.corrected_map);
+  draw_mark(image, start, map_style::kStartRadiusPx, colour_at_time_of(first, scene));
+  draw_mark(image, end, map_style::kEndRadiusPx, colour_at_time_of(last, scene));
   draw_text_with_halo(image, {start.x + kToText, start.y + kPlaceTextPx / 2.0}, kPlaceTextPx, "start",
                       map_style::kInk, map_style::kPaper);
   draw_text_with_halo(image,
@@ -103,9 +111,7 @@ RgbImage draw_map(const MapScene& scene) {
   draw_walls(image, scene, view);
   draw_closures(image, scene, view);
   draw_path(image, scene, view);
-  if (!scene.scans.empty())
-    draw_marks(image, view.pixel(scene.scans.front().corrected_map),
-               view.pixel(scene.scans.back().corrected_map));
+  if (!scene.scans.empty()) draw_marks(image, scene, view);
   draw_axes(image, view);
   const bool cuts_odometry =
       !std::all_of(scene.scans.begin(), scene.scans.end(),

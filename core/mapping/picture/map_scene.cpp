@@ -70,7 +70,8 @@ MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId 
     const bool starts_segment = scan.starts_segment || !was_here;
     const Pose2 T_map_body = backend.T_map_body(id);
     if (starts_segment) T_map_odom = T_map_body * scan.T_odom_body.inverse();
-    scene.scans.push_back({T_map_body.position(), T_map_odom * scan.T_odom_body.position(), starts_segment});
+    scene.scans.push_back(
+        {T_map_body.position(), T_map_odom * scan.T_odom_body.position(), starts_segment, scan.stamp});
   }
   if (scans.size() > 0) scene.began = scans.all().values().front().stamp;
   if (scans.size() > 0)

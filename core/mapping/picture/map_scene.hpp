@@ -24,6 +24,7 @@ struct ScenePoint {
   Point2 corrected_map;
   Point2 odometry_map;          ///< dead reckoning, begun at the corrected pose of its segment's first scan
   bool starts_segment = false;  ///< dead reckoning does not lead here from the scan before on this storey
+  HostTime stamp{};
 };
 
 /// What a picture of one storey of a run shows, as plain values. All points are in the map frame.
@@ -35,8 +36,8 @@ struct MapScene {
   std::vector<MapSegment> closures;  ///< accepted, from keyframe to keyframe
   std::vector<MapSegment> dropped_closures;
   std::string title;      ///< of the run; empty: it has none
-  HostTime began{};       ///< stamp of the first scan
-  Duration duration{0};   ///< from the first scan to the last
+  HostTime began{};       ///< stamp of the run's first scan, on whatever storey
+  Duration duration{0};   ///< from the run's first scan to its last
   double length_m = 0.0;  ///< travelled on the storey, by dead reckoning, with what was pruned
 };
 

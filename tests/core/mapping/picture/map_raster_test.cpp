@@ -21,7 +21,8 @@ MapScene small_scene() {
   scene.tiles.push_back(tile);
   for (int i = 0; i <= 20; ++i) {
     const Point2 p{0.5 + 0.1 * i, 1.0};
-    scene.scans.push_back({p, {p.x_m, p.y_m + 0.3}, i == 0});
+    scene.scans.push_back(
+        {p, {p.x_m, p.y_m + 0.3}, i == 0, scene.began + i * std::chrono::milliseconds(100)});
   }
   scene.duration = std::chrono::seconds(2);
   return scene;
@@ -49,6 +50,24 @@ TEST(MapRaster, ColoursThePathByTime) {
   const Colour middle = colour_at(scene, image, {1.5, 1.0});
   EXPECT_NEAR(middle.red, map_style::time_colour(0.5).red, 20);
   EXPECT_NEAR(middle.blue, map_style::time_colour(0.5).blue, 20);
+}
+
+TEST(MapRaster, ColoursAStoreyByTheTimeOfTheWholeRun) {
+  MapScene scene = small_scene();
+  scene.began -= std::chrono::seconds(2);
+  scene.duration = std::chrono::seconds(8);
+  const RgbImage image = draw_map(scene);
+  EXPECT_EQ(colour_at(scene, image, {0.5, 1.0}), map_style::time_colour(0.25));
+  EXPECT_EQ(colour_at(scene, image, {2.5, 1.0}), map_style::time_colour(0.5));
+}
+
+TEST(MapRaster, ASilenceTakesItsTime) {
+  MapScene scene = small_scene();
+  for (std::size_t i = 11; i < scene.scans.size(); ++i) scene.scans[i].stamp += std::chrono::seconds(8);
+  scene.duration += std::chrono::seconds(8);
+  const Colour middle = colour_at(scene, draw_map(scene), {1.45, 1.0});
+  EXPECT_NEAR(middle.red, map_style::time_colour(0.1).red, 10);
+  EXPECT_NEAR(middle.blue, map_style::time_colour(0.1).blue, 10);
 }
 
 TEST(MapRaster, DoesNotJoinPathsAcrossABreak) {

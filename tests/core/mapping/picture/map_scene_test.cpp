@@ -24,6 +24,7 @@ TEST(MapScene, ShowsEveryScanWithItsOdometryBegunAtTheCorrectedStart) {
   EXPECT_NEAR(scene.scans[40].odometry_map.x_m, 4.0, 1e-9);
   EXPECT_EQ(scene.tiles.size(), map.tiles().size());
   EXPECT_EQ(scene.duration, std::chrono::seconds(4));
+  EXPECT_EQ(scene.scans[40].stamp, scene.began + scene.duration);
 }
 
 TEST(MapScene, CarriesWallsWithTheirKeyframeAsFarAsTheGridBearsThemOut) {
