@@ -26,6 +26,7 @@
 #include "daemon/config/configuration.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/manual/page_option.hpp"
+#include "daemon/outputs/map_notes.hpp"
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/peak_memory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
@@ -416,6 +417,7 @@ int finish_run(const Options& options, const Configuration& config, const RunPar
   const BackendCounters& counters = daemon.pipeline().backend().counters();
   spdlog::info("{} samples, {} keyframes, {} loop closures ({} of them dropped)", counters.scans,
                counters.keyframes, counters.closures_accepted, counters.closures_dropped);
+  for (const std::string& note : map_notes(counters)) spdlog::info("{}", note);
   const Status written = write_outputs(run.outputs.get(), options, config, daemon, *run.source, places);
   // A live vehicle's notes are the events that were logged when they happened.
   const InputReport& report = run.source->report();

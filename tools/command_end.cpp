@@ -4,9 +4,10 @@
 
 #include <cstddef>
 #include <cstdio>
-#include <string>
 
 namespace swiftlet {
+
+void print_note(const std::string& note) { std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str()); }
 
 Status damage_of(const InputReport& report) {
   if (report.problems.empty()) return {};
@@ -16,7 +17,7 @@ Status damage_of(const InputReport& report) {
 }
 
 Status conclude(const Status& written, const InputReport& input) {
-  for (const std::string& note : input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
+  for (const std::string& note : input.notes) print_note(note);
   Status damage = damage_of(input);
   if (written) return damage;
   if (damage) return written;

@@ -2,10 +2,15 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <string>
+
 #include "core/base/result.hpp"
 #include "firmware_link/sample/sample_source.hpp"
 
 namespace swiftlet {
+
+/// On stderr.
+void print_note(const std::string& note);
 
 /// All that was wrong with the input, in one line: kDamaged.
 [[nodiscard]] Status damage_of(const InputReport& report);

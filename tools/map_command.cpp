@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "daemon/outputs/map_notes.hpp"
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
 #include "tools/command_end.hpp"
@@ -19,31 +20,15 @@ namespace swiftlet {
 namespace {
 
 void print_summary(const OutputDirectory& output, const WrittenOutputs& outputs, const RunView& run) {
-  for (const std::string& note : run.input.notes) std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str());
+  for (const std::string& note : run.input.notes) print_note(note);
   const BackendCounters& counters = run.backend.counters();
   std::printf("%llu samples, %llu keyframes, %llu loop closures (%llu of them dropped), %zu input problems\n",
               static_cast<unsigned long long>(counters.scans),
               static_cast<unsigned long long>(counters.keyframes),
               static_cast<unsigned long long>(counters.closures_accepted),
               static_cast<unsigned long long>(counters.closures_dropped), run.input.problems.size());
-  if (counters.map_source == MapSource::kOtherYawNoise)
-    std::fprintf(
-        stderr,
-        "swiftlet: note: the map is that of the run mapped again with %g times the noise of the heading: "
-        "it explains the ranges better\n",
-        counters.yaw_noise_factor);
-  else if (counters.map_source == MapSource::kDeadReckoning || counters.map_source == MapSource::kFrontend)
-    std::fprintf(stderr,
-                 "swiftlet: note: the map follows %s alone, which explains the ranges no worse than loop "
-                 "closures do\n",
-                 std::string(name_of(counters.map_source)).c_str());
-  if (counters.floor_cost > 0.0)
-    std::fprintf(
-        stderr,
-        "swiftlet: note: over some floors the flow sensor misses a part of the motion: the map makes "
-        "up for it\n");
-  if (const auto note = replacement_note(output.path(), outputs))
-    std::fprintf(stderr, "swiftlet: note: %s\n", note->c_str());
+  for (const std::string& note : map_notes(counters)) print_note(note);
+  if (const auto note = replacement_note(output.path(), outputs)) print_note(*note);
   std::string files;
   for (const std::string& name : outputs.files) files += " " + name;
   std::printf("files: %s:%s\n", output.path().c_str(), files.c_str());

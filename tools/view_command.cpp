@@ -78,8 +78,6 @@ Status view_live(const ViewCommand& command, const std::stop_token& stop) {
   return viewed;
 }
 
-void print_note(const std::string& note) { std::fprintf(stderr, "swiftlet: note: %s\n", note.c_str()); }
-
 /// Damage is told when it is known, and once more as the reason of the exit code.
 Status view_recording(const ViewCommand& command, const std::stop_token& stop) {
   MapCommand mapping;

@@ -16,6 +16,11 @@ enum class MapSource : std::uint8_t {
   kFloorKnown,     ///< likewise, once the floors had been found (FloorField)
 };
 
+/// Of the others no loop closure has moved a pose.
+constexpr bool follows_closures(MapSource source) {
+  return source != MapSource::kDeadReckoning && source != MapSource::kFrontend;
+}
+
 constexpr std::string_view name_of(MapSource source) {
   switch (source) {
     case MapSource::kDeadReckoning:

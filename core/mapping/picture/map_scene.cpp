@@ -48,6 +48,16 @@ void add_walls(MapScene& scene, const Backend& backend, StoreyId storey, const W
   scene.walls = distinct_walls(std::move(scene.walls), tuning);
 }
 
+void add_closures(MapScene& scene, const Backend& backend, StoreyId storey) {
+  if (!follows_closures(backend.counters().map_source)) return;
+  for (const LoopClosure& closure : backend.closures().values()) {
+    if (backend.keyframes().storey(closure.to) != storey) continue;
+    const MapSegment ends{backend.T_map_keyframe(closure.from).position(),
+                          backend.T_map_keyframe(closure.to).position()};
+    (closure.dropped ? scene.dropped_closures : scene.closures).push_back(ends);
+  }
+}
+
 }  // namespace
 
 MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId storey) {
@@ -77,12 +87,7 @@ MapScene make_map_scene(const Backend& backend, const MapBuilder& map, StoreyId 
   if (scans.size() > 0)
     scene.duration = scans.all().values().back().stamp - scans.all().values().front().stamp;
   add_walls(scene, backend, storey, map.config().tuning.walls);
-  for (const LoopClosure& closure : backend.closures().values()) {
-    if (backend.keyframes().storey(closure.to) != storey) continue;
-    const MapSegment ends{backend.T_map_keyframe(closure.from).position(),
-                          backend.T_map_keyframe(closure.to).position()};
-    (closure.dropped ? scene.dropped_closures : scene.closures).push_back(ends);
-  }
+  add_closures(scene, backend, storey);
   return scene;
 }
 

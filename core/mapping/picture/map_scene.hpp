@@ -33,7 +33,8 @@ struct MapScene {
   std::vector<MapTile> tiles;
   std::vector<ScenePoint> scans;     ///< in order of time
   std::vector<MapSegment> walls;     ///< as far as the grid bears them out
-  std::vector<MapSegment> closures;  ///< accepted, from keyframe to keyframe
+  std::vector<MapSegment> closures;  ///< accepted, from keyframe to keyframe; none where the map
+                                     ///< does not follow them
   std::vector<MapSegment> dropped_closures;
   std::string title;      ///< of the run; empty: it has none
   HostTime began{};       ///< stamp of the run's first scan, on whatever storey
