@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <utility>
 
 #include "daemon/outputs/map_notes.hpp"
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/outputs/run_outputs.hpp"
+#include "daemon/system/signal_watcher.hpp"
 #include "tools/command_end.hpp"
 #include "tools/mapped_run.hpp"
 #include "tools/prepared_run.hpp"
@@ -44,16 +46,23 @@ Result<OutputDirectory> output_of(const MapCommand& command) {
   return OutputDirectory::of_run(command.output_directory, command.input, now);
 }
 
+/// The input is read as a whole to be calibrated.
+Result<std::unique_ptr<MappedRun>> mapped(const MapCommand& command, const OutputDirectory& output,
+                                          const std::stop_token& stop) {
+  Result<PreparedRun> prepared = prepare_run(command, stop);
+  if (!prepared) return prepared.error();
+  return map_with_progress_bar(command, std::move(prepared).value(), output.path(), stop);
+}
+
 }  // namespace
 
 Status run_map_command(const MapCommand& command) {
-  // First: the input is read as a whole to be calibrated.
-  const Result<OutputDirectory> output = output_of(command);
+  const SignalWatcher signals;
+  const Result<OutputDirectory> output = output_of(command);  // first: the rest takes time
   if (!output) return output.error();
-  Result<PreparedRun> prepared = prepare_run(command);
-  if (!prepared) return prepared.error();
-  const Result<std::unique_ptr<MappedRun>> run =
-      map_with_progress_bar(command, std::move(prepared).value(), output->path());
+  const Result<std::unique_ptr<MappedRun>> run = mapped(command, *output, signals.token());
+  if (signals.token().stop_requested())
+    return Error{ErrorCode::kTimeout, "mapping stopped before its end; nothing was written"};
   if (!run) return run.error();
   RunView view = (*run)->view();
   view.has_plan = command.plan;

@@ -28,7 +28,8 @@ struct MapCommand {
 /// Errors: kDamaged: the input is damaged after usable samples; the outputs are written from what came
 /// before, and report.json names the damage too. kNotFound, kInvalidInput: input, configuration or output
 /// directory cannot be used, or the input holds no usable sample; nothing was written. kOutOfSpace: an output
-/// could not be written; those before it stay.
+/// could not be written; those before it stay. kTimeout: a signal came before the outputs were begun; nothing
+/// was written, and no folder stays that was made for them.
 [[nodiscard]] Status run_map_command(const MapCommand& command);
 
 }  // namespace swiftlet

@@ -128,9 +128,11 @@ std::span<const DoubtedPose> MappedRun::poses_with_doubt() const {
 }
 
 Result<std::unique_ptr<MappedRun>> map_with_progress_bar(const MapCommand& command, PreparedRun prepared,
-                                                         const std::filesystem::path& scratch) {
+                                                         const std::filesystem::path& scratch,
+                                                         const std::stop_token& stop) {
   ProgressBar bar(stderr, ProgressBar::Clock::now());
   MappingWatch watch;
+  watch.stop = stop;
   watch.after_sample = [&bar](std::optional<double> progress) {
     bar.update(progress, ProgressBar::Clock::now());
   };

@@ -55,6 +55,7 @@ class MappedRun {
 /// The same, with progress on stderr where that is a terminal.
 [[nodiscard]] Result<std::unique_ptr<MappedRun>> map_with_progress_bar(const MapCommand& command,
                                                                        PreparedRun prepared,
-                                                                       const std::filesystem::path& scratch);
+                                                                       const std::filesystem::path& scratch,
+                                                                       const std::stop_token& stop = {});
 
 }  // namespace swiftlet

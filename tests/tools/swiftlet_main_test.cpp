@@ -121,6 +121,14 @@ TEST_F(SwiftletCommand, MapLooksAtTheOutputDirectoryBeforeTheInput) {
   EXPECT_FALSE(fs::exists(file("new")));
 }
 
+TEST_F(SwiftletCommand, MapThatIsStoppedSaysSoAndLeavesNoFolder) {
+  for (const char* const how : {"", "--no-calibrate "})
+    EXPECT_THAT(run_as(std::string("timeout --preserve-status --signal INT 2 ") + SWIFTLET_COMMAND,
+                       std::string("map 'sim://patrol?laps=1000' -o {}/new/out ") + how),
+                refuses_with("mapping stopped before its end; nothing was written"));
+  EXPECT_FALSE(fs::exists(file("new")));
+}
+
 TEST_F(SwiftletCommand, ViewTellsOfADamagedInput) {
   write("log.clf", small_log() + "FLASER 180 garbled\n");
   const Outcome viewed = run_as(std::string("timeout --preserve-status --signal INT 5 ") + SWIFTLET_COMMAND,
