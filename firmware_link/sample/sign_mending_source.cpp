@@ -7,13 +7,35 @@
 
 namespace swiftlet {
 
+void SignMendingSource::keep_reading() {
+  const InputReport& now = recording_->report();
+  readings_.push_back({now.counters, now.problems.size(), recording_->progress()});
+}
+
+void SignMendingSource::report_next_reading() {
+  const Reading& reading = readings_.front();
+  report_.counters = reading.counters;
+  while (report_.problems.size() < reading.problems)
+    report_.problems.push_back(recording_->report().problems[report_.problems.size()]);
+  progress_ = reading.progress;
+  readings_.pop_front();
+}
+
 Result<ReceivedSample> SignMendingSource::next() {
   for (;;) {
-    if (const std::optional<RangeSample> sample = signs_.take()) return ReceivedSample{.sample = *sample};
-    if (outcome_) return *outcome_;
+    if (const std::optional<RangeSample> sample = signs_.take()) {
+      report_next_reading();
+      return ReceivedSample{.sample = *sample};
+    }
+    if (outcome_) {
+      report_ = recording_->report();
+      progress_ = recording_->progress();
+      return *outcome_;
+    }
     const Result<ReceivedSample> received = recording_->next();
     if (received) {
       signs_.add(received->sample);
+      keep_reading();
     } else if (received.error().code == ErrorCode::kTimeout) {
       return received.error();
     } else {
@@ -27,7 +49,6 @@ void SignMendingSource::end() {
   recording_->end();
   report_ = recording_->report();
   report_.reversed_m = signs_.reversed_m();
-  ended_ = true;
   if (signs_.mended().empty()) return;
   char way[32];
   std::snprintf(way, sizeof way, "%.1f m", report_.reversed_m);

@@ -48,6 +48,17 @@ TEST(SignMendingSource, DeliversAllBeforeItSaysWhatEndedTheRecording) {
   EXPECT_TRUE(source.mended().empty());
 }
 
+TEST(SignMendingSource, ReportsWhatWasReadWithTheSampleDelivered) {
+  SignMendingSource source(std::make_unique<ScriptedSampleSource>(flight_in_square_room(100, 2.0, 1.0)));
+  EXPECT_EQ(source.report().counters.samples, 0U);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    ASSERT_TRUE(source.next()) << i;
+    EXPECT_EQ(source.report().counters.samples, i + 1);
+    ASSERT_TRUE(source.progress());
+    EXPECT_DOUBLE_EQ(*source.progress(), (i + 1) / 100.0);
+  }
+}
+
 TEST(SignMendingSource, ReportsTheWayTakenAsReversed) {
   const std::string path = reference_file("radish/fr079.clf.gz");
   SWIFTLET_REQUIRE_REFERENCE(path);
