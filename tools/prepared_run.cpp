@@ -164,7 +164,9 @@ InputReport report_of(const PreparedRun& run, const Status& ended) {
   if (!ended && std::find(problems.begin(), problems.end(), ended.error().message) == problems.end())
     problems.push_back(ended.error().message);
   report.notes.insert(report.notes.end(), run.notes.begin(), run.notes.end());
-  if (run.calibration) report.notes.push_back(calibration_note(*run.calibration));
+  if (!run.calibration) return report;
+  const SensorModel used = run.config.sensor.applied_to(run.source->sensor());
+  if (const auto note = calibration_note(*run.calibration, used)) report.notes.push_back(*note);
   return report;
 }
 

@@ -4,6 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <cmath>
 #include <vector>
 
 #include "core/calibration/stretch_estimate.hpp"
@@ -28,19 +29,38 @@ Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorM
   return calibrated_by(weighed(*estimate, expected, prior), expected);
 }
 
-std::string calibration_note(const InputCalibration& calibration) {
+namespace {
+
+/// Standard deviation of what the input shows, to that of what was expected.
+constexpr double kShowsNothing = 0.9;
+
+bool shows(const InputCalibration& calibration, SystematicError error) {
+  const OdometryNoise& noise = calibration.expected.odometry;
+  const SystematicCovariance prior = covariance_of(systematic_prior(noise), yaw_goes_with_travel(noise));
+  const Eigen::Index k = index_of(error);
+  return calibration.sigma(k) > 0.0 && calibration.sigma(k) < kShowsNothing * std::sqrt(prior(k, k));
+}
+
+}  // namespace
+
+std::optional<std::string> calibration_note(const InputCalibration& calibration, const SensorModel& used) {
+  constexpr double kAlike = 1e-6;
   std::string note = "by the input itself: ";
   const auto add = [&](SystematicError error, const char* name, const char* unit) {
-    const double sigma = calibration.sigma(index_of(error));
-    if (sigma == 0.0) return;
+    if (!shows(calibration, error)) return;
     if (!note.ends_with(": ")) note += ", ";
-    note += fmt::format("{} {:.3f} +- {:.3f}{} ({:.3f} expected)", name, value_in(calibration.found, error),
-                        sigma, unit, value_in(calibration.expected, error));
+    const double value = value_in(calibration.found, error);
+    const double kept = value_in(used, error);
+    note += fmt::format("{} {:.3f} +- {:.3f}{} ", name, value, calibration.sigma(index_of(error)), unit);
+    note += std::abs(kept - value) < kAlike
+                ? fmt::format("({:.3f} expected)", value_in(calibration.expected, error))
+                : fmt::format("({:.3f} set, kept)", kept);
   };
   add(SystematicError::kRangeAge, "age of the ranges", " s");
   add(SystematicError::kForwardScale, "scale of the odometry", "");
   add(SystematicError::kSidewaysScale, "sideways", "");
   add(SystematicError::kYawPerMetre, "missed yaw", " rad/m");
+  if (note.ends_with(": ")) return std::nullopt;
   return note;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -17,7 +18,9 @@ namespace swiftlet {
 [[nodiscard]] Result<InputCalibration> calibrate_by_itself(SampleSource& source, const SensorModel& expected,
                                                            const std::stop_token& stop = {});
 
-/// One line.
-[[nodiscard]] std::string calibration_note(const InputCalibration& calibration);
+/// One line on what the input shows of its sensors; nullopt: nothing. Where the sensor model `used` has
+/// another value than the one found, a configuration set it.
+[[nodiscard]] std::optional<std::string> calibration_note(const InputCalibration& calibration,
+                                                          const SensorModel& used);
 
 }  // namespace swiftlet
