@@ -174,8 +174,8 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
   eval->add_option("--config", command.config_file, "With --live: TOML file with settings")
       ->check(swiftlet::named_file())
       ->needs(live);
-  eval->add_option("--json", command.json_file,
-                   "Write all figures to this file; - for stdout, not the table");
+  eval->add_option("--json", command.json_file, "Write all figures to this file; - for stdout, not the table")
+      ->check(swiftlet::named_file());
   return eval;
 }
 
@@ -183,8 +183,10 @@ CLI::App* add_calibrate_command(CLI::App& app, swiftlet::CalibrateCommand& comma
   CLI::App* calibrate = app.add_subcommand(
       "calibrate", "Estimate from one run how old its ranges are and how its dead reckoning errs");
   calibrate->add_option("LOG", command.input, finite_inputs())->required();
-  calibrate->add_option("-o,--output", command.toml_file,
-                        "Write what matters to this TOML file, for --config; it must not be there yet");
+  calibrate
+      ->add_option("-o,--output", command.toml_file,
+                   "Write what matters to this TOML file, for --config; it must not be there yet")
+      ->check(swiftlet::named_file());
   calibrate->add_option("--beams", command.beams, "Laser logs: how many beams to keep")
       ->check(CLI::Range(2, static_cast<int>(swiftlet::kMaxBeams)));
   calibrate->add_flag("--json", command.json, "For programs");
@@ -246,7 +248,8 @@ CLI::App* add_view_command(CLI::App& app, swiftlet::ViewCommand& command) {
       app.add_subcommand("view", "Show the live map of a running swiftletd, or a recording, in a browser");
   CLI::Option* input =
       view->add_option("INPUT", command.input,
-                       "To be mapped and shown; without it a running swiftletd is.\n" + finite_inputs());
+                       "To be mapped and shown; without it a running swiftletd is.\n" + finite_inputs())
+          ->check(swiftlet::named_file());
   view->add_option("--listen", command.listen, "ADDRESS:PORT where the browser finds the page")
       ->capture_default_str();
   view->add_option("--allow-origin", command.foreign_origins,

@@ -226,6 +226,9 @@ TEST_F(SwiftletCommand, TakesNoFileWithoutAName) {
         "eval --live {}/run.clf --config ''", "view {}/run.clf --config ''"})
     EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, arguments), refuses_with(": --config: names no file"));
   EXPECT_THAT(run("latency {}/report.json --picture ''"), refuses_with("latency: --picture: names no file"));
+  EXPECT_THAT(run("calibrate {}/log.clf -o ''"), refuses_with("calibrate: --output: names no file"));
+  EXPECT_THAT(run("eval {}/path.tum --json ''"), refuses_with("eval: --json: names no file"));
+  EXPECT_THAT(run_as("timeout 20 " SWIFTLET_COMMAND, "view ''"), refuses_with("view: INPUT: names no file"));
 }
 
 TEST_F(SwiftletCommand, TellsOnlyWhatIsAnAddressWithAPort) {
