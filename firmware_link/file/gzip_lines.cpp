@@ -13,6 +13,8 @@
 namespace swiftlet {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin UTF-8 with it
+
 gzFile gzip_file(void* file) { return static_cast<gzFile>(file); }
 
 }  // namespace
@@ -44,6 +46,7 @@ Result<std::string_view> GzipLines::next() {
                             complete ? static_cast<std::size_t>(line_end - text) - begin_ : waiting);
       begin_ += line.size() + (complete ? 1 : 0);
       if (line.ends_with('\r')) line.remove_suffix(1);
+      if (line_number_ == 0 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
       ++line_number_;
       return line;
     }

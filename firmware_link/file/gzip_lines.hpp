@@ -13,7 +13,8 @@
 
 namespace swiftlet {
 
-/// The lines of a text file, plain or gzip (detected by content). One thread at a time.
+/// The lines of a text file, plain or gzip (detected by content), without a byte order mark of UTF-8. One
+/// thread at a time.
 class GzipLines {
  public:
   /// Errors: as size_of_input_file.

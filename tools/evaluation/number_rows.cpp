@@ -17,7 +17,6 @@ namespace swiftlet {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors begin UTF-8 with it
 
 std::vector<std::string_view> columns_of(std::string_view line) {
   std::vector<std::string_view> columns;
@@ -70,8 +69,6 @@ Result<std::vector<NumberRow>> read_number_rows(const std::string& path) {
   std::vector<NumberRow> rows;
   Result<std::string_view> line = lines->next();
   for (; line; line = lines->next()) {
-    if (lines->line_number() == 1 && line->starts_with(kByteOrderMark))
-      line->remove_prefix(kByteOrderMark.size());
     const std::vector<std::string_view> columns = columns_of(*line);
     if (columns.empty() || columns.front().starts_with('#')) continue;
     NumberRow row{.line = lines->line_number()};

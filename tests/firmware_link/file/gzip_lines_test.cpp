@@ -53,6 +53,13 @@ TEST(GzipLines, ReadsPlainTextWithAnyLineEnd) {
   EXPECT_EQ(read.end.code, ErrorCode::kEndOfRecording);
 }
 
+TEST(GzipLines, LeavesOutAByteOrderMark) {
+  const TemporaryFile file("marked.csv",
+                           "\xEF\xBB\xBF"
+                           "one\n\xEF\xBB\xBFtwo\n");
+  EXPECT_THAT(read_all(file.path()).lines, ElementsAre("one", "\xEF\xBB\xBFtwo"));
+}
+
 TEST(GzipLines, DetectsGzipByContentNotByName) {
   const TemporaryFile file("plain.txt");
   write_gzip(file.path(), "one\ntwo\n");
