@@ -10,7 +10,7 @@ namespace swiftlet::stroke_font {
 namespace {
 
 TEST(StrokeFont, HasLettersDigitsAndSigns) {
-  for (const char letter : std::string("abcdefghijklmnopqrstuvwxyz0123456789.,:-+/()%"))
+  for (const char letter : std::string("abcdefghijklmnopqrstuvwxyz0123456789.,:-+/()%_=?@"))
     EXPECT_FALSE(glyph_of(letter).strokes.empty()) << letter;
   EXPECT_TRUE(glyph_of(' ').strokes.empty());
 }
