@@ -25,7 +25,6 @@ struct Backend::State {
   bool refine_stretch(const BackendUpdate& update);
   ScanRange refine_window(const BackendUpdate& update);
   void correct_newest(const Pose2& T_local_body);
-  [[nodiscard]] KeyframePoses T_map_submaps() const;
   void compare_newest_scan(const FrontendStep& step);
   [[nodiscard]] bool newest_contact_is_at_fault() const;
   bool doubt_motion_if_contradicted();
@@ -79,20 +78,12 @@ void Backend::State::correct_newest(const Pose2& T_local_body) {
   if (distance_m(was, is) > config.tuning.confidence.tolerance_m) agreement.begin_again();
 }
 
-/// Of the keyframes that are frames of submaps; the others are where the graph has them.
-KeyframePoses Backend::State::T_map_submaps() const {
-  KeyframePoses T_map = T_map_keyframe();
-  for (const auto& submap : loops.submaps())
-    T_map[submap->reference] = refinement.T_map_body(chain.scan_of(submap->reference), T_map_keyframe());
-  return T_map;
-}
-
-/// With the older map, at the pose that the newest correction gives it, both as refined.
+/// With the older map, at the pose that the newest correction gives it.
 void Backend::State::compare_newest_scan(const FrontendStep& step) {
   const Pose2 T_map_body = correction.T_map_local * step.T_local_body;
   if (step.has_keyframe)
     agreement.look_around(T_map_body, chain.path_m(step.made.id), step.sample.storey, loops.submaps(),
-                          T_map_submaps());
+                          T_map_keyframe());
   if (!has_restarted_unplaced()) agreement.add_newest_scan(T_map_body);
 }
 
