@@ -233,10 +233,10 @@ class PageTest(unittest.TestCase):
         return daemon, int(url.rsplit(":", 1)[1])
 
     def look_back(self):
-        """To the first pose. The tiles that were there already."""
+        """To ten seconds after the first pose, in the air. The tiles that were there already."""
         tiles = self.js("swiftletPage.tileMap.tiles.size")
         self.press(" ")
-        self.js("swiftletPage.player.seek(0)")
+        self.js("swiftletPage.player.seek(swiftletPage.model.first_us + 10_000_000)")
         self.wait_until(f"swiftletPage.isSynced && swiftletPage.tileMap.tiles.size < {tiles}")
         return self.js("swiftletPage.tileMap.tiles.size")
 

@@ -220,10 +220,10 @@ class TwoBlocks {
 
 TEST(LogSession, AClockThatHasRestartedIsBelievedFromItsSecondPacketOn) {
   TwoBlocks vehicle;
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(vehicle.pair(11'000 + 100 * i, 100 * i), 2);
+  for (std::int64_t i = 0; i < 5; ++i) EXPECT_EQ(vehicle.pair(11'000 + 100 * i, 100 * i), 2);
   EXPECT_EQ(vehicle.pair(500, 500), 1);
   int read = 0;
-  for (int i = 1; i <= 50; ++i) read += vehicle.pair(500 + 100 * i, 500 + 100 * i);
+  for (std::int64_t i = 1; i <= 50; ++i) read += vehicle.pair(500 + 100 * i, 500 + 100 * i);
   EXPECT_EQ(read, 100);
 }
 
@@ -231,8 +231,8 @@ TEST(LogSession, AStepOfTheHostsClockCostsNothing) {
   for (const int step : {5000, -5000}) {
     TwoBlocks vehicle;
     int read = 0;
-    for (int i = 0; i < 50; ++i) read += vehicle.pair(1000 + 100 * i, 100 * i);
-    for (int i = 50; i < 100; ++i) read += vehicle.pair(1000 + 100 * i, step + 100 * i);
+    for (std::int64_t i = 0; i < 50; ++i) read += vehicle.pair(1000 + 100 * i, 100 * i);
+    for (std::int64_t i = 50; i < 100; ++i) read += vehicle.pair(1000 + 100 * i, step + 100 * i);
     EXPECT_EQ(read, 200) << step;
   }
 }
@@ -240,16 +240,16 @@ TEST(LogSession, AStepOfTheHostsClockCostsNothing) {
 TEST(LogSession, WhatWaitedInTheVehicleIsReadWhole) {
   TwoBlocks vehicle;
   int read = vehicle.pair(1000, 0);
-  for (int i = 1; i < 80; ++i) read += vehicle.pair(1000 + 100 * i, 8000);
+  for (std::int64_t i = 1; i < 80; ++i) read += vehicle.pair(1000 + 100 * i, 8000);
   EXPECT_EQ(read, 160);
   // What did not fit into its queue was dropped there.
-  for (int i = 120; i < 130; ++i) read += vehicle.pair(1000 + 100 * i, 100 * i);
+  for (std::int64_t i = 120; i < 130; ++i) read += vehicle.pair(1000 + 100 * i, 100 * i);
   EXPECT_EQ(read, 180);
 }
 
 TEST(LogSession, AQueueThatWasFlushedIsNoReboot) {
   TwoBlocks vehicle;
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(vehicle.pair(1000 + 100 * i, 190 * i), 2);
+  for (std::int64_t i = 0; i < 100; ++i) EXPECT_EQ(vehicle.pair(1000 + 100 * i, 190 * i), 2);
   vehicle.connect();
   EXPECT_EQ(vehicle.pair(21'000, 20'000), 2);  // 9 s less late than the packets before
   EXPECT_EQ(vehicle.boot(), 0U);
