@@ -256,7 +256,7 @@ TEST_F(SampleAssemblerTest, TheRangesOfAVehicleThatStandsAreTheFloorsWhateverItR
 
 TEST_F(SampleAssemblerTest, WhatTravelsOnTheFloorHasAHeightThatNothingMeasures) {
   for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
-    position(ms, 0.2 * static_cast<double>(ms / 100));
+    position(ms, 0.002 * static_cast<double>(ms));
     Reading height;
     height.stream = 3;
     height.at = device_ms(ms);
