@@ -89,6 +89,7 @@ TEST(StretchRefinement, ASliceIsARoundOrAStep) {
 
 std::vector<Point2> positions(const std::vector<Pose2>& poses) {
   std::vector<Point2> points;
+  points.reserve(poses.size());
   for (const Pose2& T : poses) points.push_back(T.position());
   return points;
 }
