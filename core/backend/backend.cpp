@@ -108,7 +108,8 @@ bool Backend::State::newest_contact_is_at_fault() const {
 }
 
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
-/// True: the poses have moved, since the next loops are looked for from where a false one no longer holds.
+/// True: the poses have moved. They do so at once where a contact was dropped: the next loops are looked for
+/// from there.
 bool Backend::State::doubt_motion_if_contradicted() {
   if (!agreement.is_contradicted()) {
     loops.end_doubt();

@@ -194,7 +194,8 @@ RunRefinement::Known RunRefinement::known_of_stretch(const PoseGraph& graph, con
 }
 
 /// What lies before the stretch the graph knows: where no wall says otherwise each keyframe stays about where
-/// it is. Unlike closures these are no evidence of the same returns, and count in full.
+/// it is. The joint steps weigh closures by closure_weight; ties, which no returns share, count in full
+/// there.
 void RunRefinement::add_ties(const PoseGraph& graph, const ScanRange& stretch, Known& known) const {
   const RefinementTuning& tuning = config_->tuning.refinement;
   const OdometrySigma sigma{tuning.tie_sigma_m, tuning.tie_sigma_rad};
