@@ -216,7 +216,7 @@ struct RefinementTuning {
   std::size_t hold_out_every = 10;    ///< one return in so many
   double cap_sigmas = 3.0;            ///< of wall_sigma_m: greater distances count as this
   double refined_gain_sigmas = 1.64;  ///< 95 %, one-sided: refined dead reckoning must explain that much more
-  double correction_odds = 2.0;       ///< to one: that a correction of dead reckoning is right, a priori
+  double correction_odds = 4.0;       ///< to one, a priori: of a correction between walls, against it without
   double median_drift = 0.03;         ///< of dead reckoning on real logs: position error over way
 
   // Batch refinement

@@ -16,6 +16,10 @@ struct Judged {
   std::vector<double> misfit;   ///< RefinementReport's
 };
 
+bool is_on_wall(double judged_distance_m, const RefinementTuning& tuning) {
+  return judged_distance_m < tuning.cap_sigmas * tuning.wall_sigma_m;
+}
+
 Judged judge(const BatchRefinement& batch, const BatchProblem& problem,
              std::span<const BatchProblem::Factor> motions, const std::vector<Pose2>& T_map_body) {
   const RefinementTuning& tuning = batch.config.tuning.refinement;
@@ -30,7 +34,7 @@ Judged judge(const BatchRefinement& batch, const BatchProblem& problem,
   problem.hits().for_held_out(walls, T_map_body, [&](std::uint32_t traversal, double distance_m) {
     judged.misfit[traversal - first] += distance_m / tuning.wall_sigma_m;
     judged.held_out_m += distance_m;
-    judged.share_on_walls += distance_m < tuning.cap_sigmas * tuning.wall_sigma_m ? 1.0 : 0.0;
+    judged.share_on_walls += is_on_wall(distance_m, tuning) ? 1.0 : 0.0;
     ++count;
   });
   if (count == 0) return judged;
@@ -79,6 +83,24 @@ RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<
   report.misfit = judged.misfit;
   report.misfit_at_start = std::move(judged.misfit);
   return report;
+}
+
+double share_on_walls_of_any(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body) {
+  const RefinementTuning& tuning = batch.config.tuning.refinement;
+  RefinementProblem hits(tuning);
+  const BatchProblem problem(batch);
+  for (PlacedReturn placed : problem.hits().returns()) {
+    placed.traversal = index_of(placed.pose);  // each scan is one of its own
+    hits.add(placed);
+  }
+  std::size_t on_walls = 0;
+  std::size_t count = 0;
+  hits.for_held_out(hits.walls_at(T_map_body, tuning.walls.radius_m), T_map_body,
+                    [&](std::uint32_t, double distance_m) {
+                      on_walls += is_on_wall(distance_m, tuning) ? 1U : 0U;
+                      ++count;
+                    });
+  return count > 0 ? static_cast<double>(on_walls) / static_cast<double>(count) : 0.0;
 }
 
 Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vector<Pose2>& T_map_body) {

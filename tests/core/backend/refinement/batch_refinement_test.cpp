@@ -134,6 +134,24 @@ std::vector<Pose2> shaken(const std::vector<Pose2>& path) {
   return T_map_body;
 }
 
+double share_on_walls_of_any(const std::vector<RangeSample>& samples, const std::vector<Pose2>& path) {
+  const StoredRun run(samples);
+  const SensorModel sensor = SensorModel::crazyflie();
+  return share_on_walls_of_any({.scans = run.scans(), .sensor = sensor, .config = {}}, path);
+}
+
+TEST(Refinement, KnowsABuildingFromABushWithoutASecondVisit) {
+  TestVehicle vehicle = vehicle_at_start({}, 22);
+  fly_along(vehicle, loop_corridor(), "b");
+  std::vector<RangeSample> samples = vehicle.samples();
+  EXPECT_GT(share_on_walls_of_any(samples, true_poses(vehicle)), 0.75);
+  std::mt19937 random(23);
+  for (RangeSample& sample : samples)
+    for (std::size_t beam = 0; beam < sample.beam_count; ++beam)
+      sample.distance_m[beam] = static_cast<float>(random_in(random, 0.3, 3.0));
+  EXPECT_LT(share_on_walls_of_any(samples, true_poses(vehicle)), 0.3);
+}
+
 TEST(Refinement, BringsPassesThroughACorridorTogether) {
   const TestVehicle vehicle = to_and_fro(drifting());
   const std::vector<Pose2> truth = true_poses(vehicle);

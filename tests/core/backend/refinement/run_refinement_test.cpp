@@ -120,6 +120,20 @@ TEST(RunRefinement, TheRangesPayForACorrectionThatDriftAloneMakesUnlikely) {
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.3);
 }
 
+/// Once along three sides of the block: no wall is met again.
+TEST(RunRefinement, BetweenWallsACorrectionNeedsNoSecondVisit) {
+  TestVehicleModel drifting;
+  drifting.drift_rad_per_m = 0.005;
+  TestVehicle vehicle = vehicle_at_start(drifting, 74);
+  fly_along(vehicle, loop_corridor(), "bcd");
+  const StoredRun run(vehicle.samples());
+  const std::vector<Pose2> truth = true_poses(vehicle);
+  ASSERT_LT(apart_over_way(odometry(vehicle), truth, run), RefinementTuning().median_drift);
+  const FinalMap map = final_map(run, in_small_waves(truth));
+  EXPECT_EQ(map.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.5 * aligned_rms_error_m(odometry(vehicle), truth));
+}
+
 TEST(RunRefinement, WhereNoWallContradictsTheOdometryItIsTheMapAsReported) {
   const TestVehicle vehicle = along_the_corridor();
   const std::vector<Pose2> T_wound_up = bent(vehicle, 0.02);
@@ -254,8 +268,9 @@ TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
 
 TEST(RunRefinement, WhereDeadReckoningIsTheMapTheRunIsNotMappedAgain) {
   const TestVehicle vehicle = along_the_corridor();
+  const std::vector<Pose2> T_wound_up = bent(vehicle, 0.02);
   bool was_asked = false;
-  const FinalMap map = final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {},
+  const FinalMap map = final_map(StoredRun(vehicle.samples(), T_wound_up), T_wound_up, {}, {},
                                  SensorModel::crazyflie(), [&](std::span<const double>) {
                                    was_asked = true;
                                    return std::vector{OtherPath{1.4, true_poses(vehicle)}};
