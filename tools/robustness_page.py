@@ -264,6 +264,20 @@ def plain_table(all_outcomes):
     return page.table(["log", *(f"{beams} beams:" for beams in runs.PLAIN_BEAMS), "flight:"], rows)
 
 
+def pieces_row(name, pieces):
+    ratios = [one.ratio for one in pieces if one.ratio]
+    over = sum(one.is_worse_than_odometry() for one in pieces)
+    mean, worst = (f"{statistics.geometric_mean(ratios):.3f}", f"{max(ratios):.2f}") if ratios else (NONE, NONE)
+    return [name, str(len(pieces)), str(sum(bool(one.failed) for one in pieces)), mean, str(over), worst]
+
+
+def pieces_table(all_outcomes):
+    """Ratios to dead reckoning, their geometric mean. No best quarter: each piece is another run."""
+    by_name = grouped(all_outcomes, lambda run: "Vicon" if runs.is_captured(run.log) else run.log.name)
+    rows = [pieces_row(name, pieces) for name, pieces in [*by_name.items(), ("**all**", all_outcomes)]]
+    return page.table(["log", "pieces:", "failed:", "mean ratio:", f"over {OVER_ODOMETRY:g}:", "worst:"], rows)
+
+
 def both_limits(before, after):
     """The lower quarter of two sets of outcomes, so that both are held against the same."""
     first, second = quarters(before), quarters(after)
@@ -391,7 +405,7 @@ def captured_text(all_outcomes):
     return f"\nEach flight of Vicon has {min(poses)} to {max(poses)} true poses, at its stops.\n" if poses else ""
 
 
-def document(real, plain, buildings, shown, report):
+def document(real, plain, pieces, buildings, shown, report):
     """`shown`: [(file name, outcome)] of the pictures. `report`: circumstances and what is missing."""
     limits = quarters(real)
     of_logs = [(name, one) for name, one in shown if one.run.log.files()]
@@ -440,6 +454,14 @@ Error, and its ratio to that of dead reckoning; the ratio alone where there is n
 {OVER_ODOMETRY:g} times that of dead reckoning.
 
 {plain_table(plain)}
+
+## Short runs
+
+{runs.PIECES} pieces of each log and flight, as recorded: {runs.PIECE_OF_LOG[0]:.0%} to {runs.PIECE_OF_LOG[1]:.0%} of a
+log, {runs.PIECE_OF_FLIGHT[0]:.0%} to {runs.PIECE_OF_FLIGHT[1]:.0%} of a flight. They meet few places again. "Mean" is
+the geometric one of the ratio to dead reckoning.
+
+{pieces_table(pieces)}
 {simulated_text(buildings, of_buildings)}
 ## Pictures
 

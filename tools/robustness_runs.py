@@ -23,6 +23,8 @@ STOPPED = [-signal.SIGINT, -signal.SIGTERM, -signal.SIGKILL]  # exit codes of a 
 LEAD_MAX_S = 0.02
 PLAIN_BEAMS = [4, 11, DENSE_BEAMS]
 CUT_MAX = 0.3  # of the start
+PIECES = 6  # of each log and flight
+PIECE_OF_LOG, PIECE_OF_FLIGHT = (0.05, 0.35), (0.3, 0.7)  # shares of it
 KIND = "kind of building: "  # a note of the report
 
 PLAIN = [Change("as recorded")]
@@ -177,6 +179,19 @@ def screen_runs():
     return [run for ensemble in ENSEMBLES
             for run in drawn(ensemble, ensemble.screened, random.Random(f"screen {SEED} {ensemble.log.name}"),
                              ensemble.window)]
+
+
+def piece_runs():
+    """A piece of a log or flight, as recorded, is a short run: it meets few places again."""
+    runs = []
+    for ensemble in ENSEMBLES:
+        chance = random.Random(f"pieces {SEED} {ensemble.log.name}")
+        for number, beams in enumerate(beams_of(ensemble, PIECES, chance)):
+            share = chance.uniform(*(PIECE_OF_LOG if ensemble.is_laser else PIECE_OF_FLIGHT))
+            first = (1.0 - share) * (number + chance.random()) / PIECES  # evenly from start to end
+            change = dataclasses.replace(*PLAIN, first=round(first, 3), last=round(first + share, 3))
+            runs.append(Run(dataclasses.replace(ensemble.log, lines_ahead=0), beams, change))
+    return runs
 
 
 def plain_runs():

@@ -118,6 +118,7 @@ class RecordedPage(unittest.TestCase):
         for where, name, value in ((tool, "RECORDED_BUILDINGS", (1, 3)), (mapped_runs, "DATASETS", self.folder),
                                    (robustness_runs, "ensemble_runs", lambda: runs),
                                    (robustness_runs, "plain_runs", lambda: runs),
+                                   (robustness_runs, "piece_runs", lambda: runs),
                                    (tool.page, "RESULTS", self.folder / "results")):
             patch = mock.patch.object(where, name, value)
             patch.start()
@@ -129,7 +130,7 @@ class RecordedPage(unittest.TestCase):
         """The page."""
         self.image = mock.MagicMock()
         options = argparse.Namespace(output=self.folder / "kept", jobs=1, kept=kept, record=True, buildings=None,
-                                     plain=False, screen=False, only=None)
+                                     plain=False, pieces=False, screen=False, only=None)
         circumstances = {"date": "2026-11-22", "commit": "abc", "machine": "some"}
         with mock.patch.object(tool.page, "record") as written, mock.patch("sys.stdout"), mock.patch("sys.stderr"):
             tool.record(options, self.bad, circumstances, self.image)

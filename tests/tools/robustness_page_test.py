@@ -165,7 +165,7 @@ class RobustnessPage(unittest.TestCase):
     def test_pictures_of_buildings_stand_beside_their_kinds(self):
         [one] = rates.pictured_buildings(buildings({3: (2.0, "maze")}))
         [log] = made([0.5])
-        text = rates.document([log], [], [one], [("log.png", log), ("building_3.png", one)], PAGE)
+        text = rates.document([log], [], [], [one], [("log.png", log), ("building_3.png", one)], PAGE)
         of_buildings, of_logs = text.split("## Simulated buildings")[1].split("## Pictures")
         self.assertIn("building 3, maze: error 2.000, 2.00 of dead reckoning.\n\n![map](robustness/building_3.png)",
                       of_buildings)
@@ -178,11 +178,21 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("| Robot 4 | 1.000 m, 0.50 | **1.000 m, 2.00** | **1.000 m, 2.00** |  |", text)
         self.assertIn("| Vicon, mean of 10 |  |  |  | 1.000 m (odometry 0.500) |", text)
 
+    def test_pieces_have_a_mean_and_those_with_motion_capture_a_row(self):
+        pieces = [rates.outcome(one, result(1.0, 4.0) if one.log.name == "Vicon icp_d0" else result(2.0, 1.0))
+                  for one in runs.piece_runs() if one.log.name in ("Robot 4", "Vicon icp_d0", "Vicon icp_d1")]
+        pieces[-1] = rates.outcome(pieces[-1].run, {"failed": "it broke"})
+        text = rates.pieces_table(pieces)
+        self.assertIn("| Vicon | 12 | 0 | 0.707 | 6 | 2.00 |", text)
+        self.assertIn("| Robot 4 | 6 | 1 | 2.000 | 5 | 2.00 |", text)
+        self.assertIn("| **all** | 18 | 1 |", text)
+        self.assertIn("| **all** | 0 | 0 | – | 0 | – |", rates.pieces_table([]))
+
     def test_the_page_has_all_parts_and_the_worst_picture_of_a_log(self):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
         shown = [("robot_4.png", one) for one in rates.pictured(group, rates.quarters(group))]
         self.assertEqual([one.error for _, one in shown], [0.9])
-        text = rates.document(group, [], [], shown, PAGE)
+        text = rates.document(group, [], [], [], shown, PAGE)
         self.assertIn("commit abc", text)
         self.assertNotIn("Left out", text)
         self.assertIn("![map](robustness/robot_4.png)", text)
@@ -190,7 +200,7 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
 
     def test_the_page_says_what_its_figures_cannot_show(self):
-        text = " ".join(rates.document(made([0.1]), [], [], [], PAGE).split())
+        text = " ".join(rates.document(made([0.1]), [], [], [], [], PAGE).split())
         self.assertIn("A map that lays two corridors on each other covers fewer cells, so logs without truth (Duke "
                       "loop, Malaga, Mines 1, Mines 2, Mines 3, Mines 4, Olsson Hall, Rice Hall) do not show it.",
                       text)
@@ -201,17 +211,17 @@ class RobustnessPage(unittest.TestCase):
         flights = [ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name.startswith("Vicon")][:3]
         real = [one for log in flights for one in made([0.1], beams=None, log=log)]
         with mock.patch.object(runs, "true_poses", lambda log: 9 if log == flights[1] else 16):
-            text = rates.document(real, [], [], [], PAGE)
+            text = rates.document(real, [], [], [], [], PAGE)
             self.assertIn("Each flight of Vicon has 9 to 16 true poses, at its stops.", text)
-            self.assertNotIn("true poses", rates.document(made([0.1]), [], [], [], PAGE))
+            self.assertNotIn("true poses", rates.document(made([0.1]), [], [], [], [], PAGE))
 
     def test_lines_are_not_too_long(self):
         built = buildings({seed: (1.0 + seed, "symmetrical") for seed in range(1, 20)})
-        for line in rates.document(made([0.1]), [], built, [], PAGE).splitlines():
+        for line in rates.document(made([0.1]), [], [], built, [], PAGE).splitlines():
             self.assertTrue(len(line) <= 120 or line.startswith("|"), line)
 
     def test_the_page_names_the_data_that_were_missing(self):
-        text = rates.document(made([0.1]), [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})
+        text = rates.document(made([0.1]), [], [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})
         self.assertIn("\nLeft out, for lack of data: a.clf; b.tum.\n", text)
 
 

@@ -43,12 +43,21 @@ class RobustnessRuns(unittest.TestCase):
         self.assertGreater(max(change.first for change in changes), 0.8 * runs.CUT_MAX)
         self.assertGreater(sum(change.first == 0.0 for change in changes), 0.2 * len(changes))
 
+    def test_pieces_are_short_and_begin_anywhere(self):
+        changes = [run.change for run in runs.piece_runs()]
+        self.assertEqual(len(changes), runs.PIECES * len(runs.ENSEMBLES))
+        self.assertTrue(all(0.0 <= change.first < change.last <= 1.0 for change in changes))
+        self.assertLessEqual(max(change.last - change.first for change in changes), runs.PIECE_OF_FLIGHT[1] + 1e-9)
+        self.assertLess(min(change.first for change in changes), 0.1)
+        self.assertGreater(max(change.last for change in changes), 0.9)
+
     def test_flights_are_not_played_backwards(self):
         for ensemble in runs.ENSEMBLES:
             self.assertTrue(ensemble.is_laser or not any(change.backwards for change in ensemble.changes))
 
     def test_each_run_has_a_title_of_its_own(self):
-        for drawn in (runs.ensemble_runs(), runs.screen_runs(), runs.plain_runs(), runs.building_runs(1000, 1010)):
+        for drawn in (runs.ensemble_runs(), runs.screen_runs(), runs.plain_runs(), runs.piece_runs(),
+                      runs.building_runs(1000, 1010)):
             self.assertEqual(len({run.title() for run in drawn}), len(drawn))
 
     def test_a_run_that_fails_is_a_result(self):
