@@ -16,13 +16,13 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "daemon/command_line.hpp"
 #include "daemon/commands/command_executor.hpp"
 #include "daemon/commands/command_listener.hpp"
+#include "daemon/commands/numbered_path.hpp"
 #include "daemon/config/configuration.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/manual/page_option.hpp"
@@ -454,27 +454,12 @@ RunEnd run_once(const Options& options, const Configuration& config, const std::
           .wants_new_map = executor.wants_new_map()};
 }
 
-/// Without a slash at its end, and with a name: not "." or "..".
-std::filesystem::path named_path(const std::string& path) {
-  std::filesystem::path named = std::filesystem::path(path).lexically_normal();
-  std::error_code ignored;
-  if (named == "." || named.filename() == "..")
-    named = std::filesystem::absolute(named, ignored).lexically_normal();
-  return named.has_filename() ? named : named.parent_path();
-}
-
-/// Beside what the runs before it wrote: out_2, flight_2.pcap.
-std::string numbered(const std::string& path, int number) {
-  const std::filesystem::path first = named_path(path);
-  const std::string name = first.stem().string() + "_" + std::to_string(number) + first.extension().string();
-  return (first.parent_path() / name).string();
-}
-
 Options options_of_run(const Options& options, int number) {
   Options of_run = options;
   if (number == 1) return of_run;
-  if (options.output_directory) of_run.output_directory = numbered(*options.output_directory, number);
-  if (!options.record.file.empty()) of_run.record.file = numbered(options.record.file, number);
+  if (options.output_directory) of_run.output_directory = numbered_path(*options.output_directory, number);
+  if (!options.record.file.empty()) of_run.record.file = numbered_path(options.record.file, number);
+  of_run.lcm_url = numbered_lcm_url(options.lcm_url, number);
   return of_run;
 }
 

@@ -25,8 +25,8 @@ LCM_PORT = 7667
 NO_NAMESPACE = 77
 
 
-def commanded_flight(bench, vehicle):
-    flight = bench.flight(vehicle.port, "--commands", "127.0.0.1:0")
+def commanded_flight(bench, vehicle, **lcm):
+    flight = bench.flight(vehicle.port, "--commands", "127.0.0.1:0", **lcm)
     flight.wait_for("commands are taken on")
     flight.wait_for("connected to the vehicle")
     return flight
@@ -59,7 +59,7 @@ def a_place_is_marked_and_the_map_saved_while_the_flight_goes_on(bench):
 
 def a_new_map_is_a_run_of_its_own(bench):
     vehicle = bench.vehicle()
-    flight = commanded_flight(bench, vehicle)
+    flight = commanded_flight(bench, vehicle, lcm_url=f"file://{bench.folder}/run.lcm?mode=w")
     time.sleep(2.0)
     expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
     flight.wait_for("commands are taken on", times=2)
@@ -75,7 +75,8 @@ def a_new_map_is_a_run_of_its_own(bench):
               for name in ("out", "out_2")]
     expect(all(len(run) > 5 for run in stamps), [len(run) for run in stamps])
     expect(stamps[0][-1] < stamps[1][0], "the second run holds samples of the first")
-    expect((bench.folder / "flight_2.pcap").exists(), sorted(os.listdir(bench.folder)))
+    for name in ("flight_2.pcap", "run.lcm", "run_2.lcm"):
+        expect((bench.folder / name).stat().st_size > 1000, sorted(os.listdir(bench.folder)))
 
 
 def the_exit_code_is_the_worst_of_all_runs(bench):

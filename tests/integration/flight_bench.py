@@ -16,13 +16,13 @@ from simulation import PATIENCE_S, Failed, Simulation, expect
 class Flight:
     """swiftletd on a vehicle, recording."""
 
-    def __init__(self, bench, port, *options):
+    def __init__(self, bench, port, *options, lcm_url="memq://"):
         self.folder, self.swiftlet = bench.folder, bench.swiftlet
         self.out, self.recording = self.folder / "out", self.folder / "flight.pcap"
         environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
         self.log = open(self.folder / "daemon.log", "w+", encoding="utf-8")
         self.process = subprocess.Popen(
-            [bench.swiftletd, "--input", f"udp://127.0.0.1:{port}", "--lcm-url", "memq://", "-o", f"{self.out}/",
+            [bench.swiftletd, "--input", f"udp://127.0.0.1:{port}", "--lcm-url", lcm_url, "-o", f"{self.out}/",
              "--record", str(self.recording), *options], stderr=self.log, env=environment)
 
     def said(self):
@@ -61,8 +61,8 @@ class Bench:
     def vehicle(self, *options, port=0):
         return Simulation(self.swiftlet, "--world", "loop", *options, port=port)
 
-    def flight(self, port, *options):
-        return Flight(self, port, *options)
+    def flight(self, port, *options, **lcm):
+        return Flight(self, port, *options, **lcm)
 
 
 def run_case(cases, case, swiftletd, swiftlet):
