@@ -255,17 +255,20 @@ void RunRefinement::complete(Hypothesis& hypothesis, const PoseGraph& graph) {
 }
 
 /// By the log odds: those beforehand, which are against a correction where the place has no walls to correct
-/// by; what the ranges give (those of a standard normal variable), as far as they meet walls again; against
-/// dead reckoning that errs as far as the two lie apart, which each further median error makes half as
-/// likely.
+/// by, and even for a frontend whose pose graph has lost; what the ranges give (those of a standard normal
+/// variable), as far as they meet walls again; against dead reckoning that errs as far as the two lie apart,
+/// which each further median error makes half as likely.
 bool RunRefinement::is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const {
   const RefinementTuning& tuning = config_->tuning.refinement;
   const double z = gain_sigmas(hypothesis.report.misfit, simpler.report.misfit);
   const double way_m = scans_->all().values().back().path_m - scans_->all().values().front().path_m;
   const double apart = rms_distance_m(hypothesis.T_map_body, simpler.T_map_body) / std::max(way_m, 1.0);
-  const double walled = share_on_walls_of_any(batch(hypothesis, {}), hypothesis.T_map_body);
-  return (2.0 * walled - 1.0) * std::log(tuning.correction_odds) +
-             hypothesis.report.share_on_walls * 0.5 * z * std::abs(z) >
+  double log_odds_before = 0.0;
+  if (hypothesis.source == MapSource::kPoseGraph) {
+    const double walled = share_on_walls_of_any(batch(hypothesis, {}), hypothesis.T_map_body);
+    log_odds_before = (2.0 * walled - 1.0) * std::log(tuning.correction_odds);
+  }
+  return log_odds_before + hypothesis.report.share_on_walls * 0.5 * z * std::abs(z) >
          std::log(2.0) * apart / tuning.median_drift;
 }
 

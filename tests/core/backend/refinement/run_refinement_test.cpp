@@ -268,9 +268,8 @@ TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
 
 TEST(RunRefinement, WhereDeadReckoningIsTheMapTheRunIsNotMappedAgain) {
   const TestVehicle vehicle = along_the_corridor();
-  const std::vector<Pose2> T_wound_up = bent(vehicle, 0.02);
   bool was_asked = false;
-  const FinalMap map = final_map(StoredRun(vehicle.samples(), T_wound_up), T_wound_up, {}, {},
+  const FinalMap map = final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {},
                                  SensorModel::crazyflie(), [&](std::span<const double>) {
                                    was_asked = true;
                                    return std::vector{OtherPath{1.4, true_poses(vehicle)}};
