@@ -90,7 +90,7 @@ double share_on_walls_of_any(const BatchRefinement& batch, const std::vector<Pos
   RefinementProblem hits(tuning);
   const BatchProblem problem(batch);
   for (PlacedReturn placed : problem.hits().returns()) {
-    placed.traversal = index_of(placed.pose);  // each scan is one of its own
+    placed.traversal = index_of(placed.pose);  // each scan is a traversal of its own
     hits.add(placed);
   }
   std::size_t on_walls = 0;

@@ -30,8 +30,8 @@ struct RefinementReport : HeldOutVerdict {
 Result<RefinementReport> refine_in_turn(const BatchRefinement& batch, std::vector<Pose2>& T_map_body);
 /// Judges a path, by the same returns and dead reckoning, and leaves it alone. One pose per scan. Allocates.
 RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body);
-/// Of the held-out returns, the share that lies on walls, which others of the same traversal may have drawn:
-/// about 1 in a building, 0 where nothing is straight. Needs no second visit. One pose per scan. Allocates.
+/// Share of the held-out returns that lie on walls of any other scan, one of the same traversal, too: about 1
+/// in a building, 0 where nothing is straight. Needs no second visit. One pose per scan. Allocates.
 [[nodiscard]] double share_on_walls_of_any(const BatchRefinement& batch,
                                            const std::vector<Pose2>& T_map_body);
 /// Then walls and poses together, by refine_jointly(), from what refine_in_turn() reports and returns.
