@@ -27,6 +27,7 @@ Json input_json(const RunView& run) {
           {"out_of_order", counters.out_of_order},
           {"gaps", counters.gaps},
           {"missing_packets", counters.missing_packets},
+          {"repeated", counters.repeated},
           {"unpaired", counters.unpaired},
           {"segments", counters.segments},
           {"beams",

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample/sample_assembler.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -108,6 +109,7 @@ void SampleAssembler::restart() {
   while (!pending_.empty()) drop_oldest();
   last_by_stream_.fill(std::nullopt);
   last_ranges_at_.reset();
+  last_measurement_.reset();
   positions_.restart();
   yaws_.restart();
   tilts_.restart();
@@ -125,6 +127,10 @@ void SampleAssembler::hold_ranges(const Reading& reading) {
   }
   ++counters_.range_packets;
   count_gap(reading);
+  if (repeats_measurement(reading)) {
+    ++counters_.repeated;
+    return;
+  }
   if (pending_.full()) drop_oldest();
   static_cast<void>(
       pending_.try_push_back({reading.at - config_.sensor.range_age, reading.received, reading.distance_m}));
@@ -143,6 +149,15 @@ void SampleAssembler::count_gap(const Reading& reading) {
   }
   last_ranges_at_ = reading.at;
   last_ranges_received_ = reading.received;
+}
+
+bool SampleAssembler::repeats_measurement(const Reading& reading) {
+  const auto is_same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  if (last_measurement_ && reading.at - last_measurement_->first_at < config_.ranging_period &&
+      std::ranges::equal(reading.distance_m, last_measurement_->distance_m, is_same))
+    return true;
+  last_measurement_ = {reading.at, reading.distance_m};
+  return false;
 }
 
 std::optional<RangeSample> SampleAssembler::take() {

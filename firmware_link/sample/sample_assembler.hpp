@@ -39,6 +39,9 @@ struct AssemblyConfig {
   BeamLayout beams;
   SensorModel sensor;
   Duration range_period{};  ///< nominal, to count gaps by; 0: irregular, gaps are not counted
+  /// A packet that comes sooner after a reading and holds the same distances holds that reading, not a new
+  /// one, and makes no sample; 0: each is measured anew.
+  Duration ranging_period{};
   ContinuityLimits continuity;
   /// Dead reckoning that was not received for that long is a guess: RangeSample::odometry_ran_on.
   Duration unwatched_after = Duration::max();
@@ -47,10 +50,12 @@ struct AssemblyConfig {
 /// Assembles range samples from readings: pairs ranges with dead reckoning of the same instant (the packet's
 /// time less the range's age), position and yaw each interpolated on its own time line, because they may come
 /// in different packets. Waits for dead reckoning that is still to come, for a short time; keeps the order;
-/// counts what it drops. Where tilt and height of that instant are known, too (they are waited for while they
-/// come often enough to be interpolated), ranges become horizontal distances, and those that can be the
-/// floor's become invalid; by the height alone, all that were measured from kStandingM or less, whatever the
-/// vehicle reports. Altitude and height tell the storey. Fixed storage, no allocation, one thread at a time.
+/// counts what it drops. Where packets come faster than the sensors measure, each measurement makes one
+/// sample, at the first packet that holds it: more would draw it again at places where it was not taken.
+/// Where tilt and height of that instant are known, too (they are waited for while they come often enough to
+/// be interpolated), ranges become horizontal distances, and those that can be the floor's become invalid; by
+/// the height alone, all that were measured from kStandingM or less, whatever the vehicle reports. Altitude
+/// and height tell the storey. Fixed storage, no allocation, one thread at a time.
 class SampleAssembler {
  public:
   /// Counts into `counters`, which must outlive the assembler.
@@ -86,6 +91,8 @@ class SampleAssembler {
   void restart();
   void follow_ground(const Reading& reading);
   void count_gap(const Reading& reading);
+  /// Whether no sensor has measured since the last ranges that were held.
+  bool repeats_measurement(const Reading& reading);
   void hold_ranges(const Reading& reading);
   /// Of tilt or height at that time: a reading that is close enough comes with the next packets.
   template <typename Timeline>
@@ -114,6 +121,11 @@ class SampleAssembler {
   FixedVector<PendingRanges, 32> pending_;  ///< 100 scans a second that are newer by kMinRangeAge
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
   std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart
+  struct Measurement {
+    DeviceTime first_at{};
+    FixedVector<float, kMaxBeams> distance_m;
+  };
+  std::optional<Measurement> last_measurement_;  ///< likewise
   std::optional<HostTime> last_ranges_received_;
   std::uint32_t boot_ = 0;
   DeviceTime latest_{};  ///< of all readings since the last restart

@@ -90,6 +90,52 @@ TEST_F(SampleAssemblerTest, PairsRangesWithTheDeadReckoningOfTheTimeTheyWereMeas
   EXPECT_EQ(counters_.segments, 1U);
 }
 
+/// A log at 50 Hz of sensors that measure at 10 Hz.
+TEST(SampleAssembler, MakesOneSampleOfEachMeasurementHoweverOftenItIsLogged) {
+  AssemblyConfig fast = config();
+  fast.range_period = milliseconds(20);
+  fast.ranging_period = milliseconds(95);
+  InputCounters counters;
+  SampleAssembler assembler(fast, counters);
+  std::vector<RangeSample> samples;
+  for (std::int64_t ms = 0; ms <= 2000; ms += 20) {
+    Reading reading;
+    reading.at = device_ms(ms);
+    reading.position_odom = Point2{1e-3 * static_cast<double>(ms), 0.0};
+    reading.yaw_odom_rad = 0.0;
+    const auto nothing_m = std::numeric_limits<float>::quiet_NaN();
+    for (const float distance_m : {1.F + 0.01F * static_cast<float>(ms / 100), nothing_m, 2.F, 32.766F})
+      ASSERT_TRUE(reading.distance_m.try_push_back(distance_m));
+    assembler.add(reading);
+    while (const auto sample = assembler.take()) samples.push_back(*sample);
+  }
+  ASSERT_EQ(samples.size(), 20U);  // the first is older than all dead reckoning
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].measured_at - samples[i - 1].measured_at, milliseconds(100));
+    EXPECT_NEAR(samples[i].distance_m[0] - samples[i - 1].distance_m[0], 0.01, 1e-5);
+  }
+  EXPECT_EQ(counters.range_packets, 101U);
+  EXPECT_EQ(counters.repeated, 80U);
+  EXPECT_EQ(counters.gaps, 0U);
+}
+
+TEST(SampleAssembler, TakesEqualDistancesAPeriodLaterForAMeasurement) {
+  AssemblyConfig usual = config();
+  usual.ranging_period = milliseconds(95);
+  InputCounters counters;
+  SampleAssembler assembler(usual, counters);
+  for (std::int64_t ms = 0; ms <= 1000; ms += 98) {
+    Reading reading;
+    reading.at = device_ms(ms);
+    reading.position_odom = Point2{};
+    reading.yaw_odom_rad = 0.0;
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+  }
+  EXPECT_EQ(counters.range_packets, 11U);
+  EXPECT_EQ(counters.repeated, 0U);
+}
+
 TEST_F(SampleAssemblerTest, LevelsRangesByTheTiltOfTheMomentOfMeasurement) {
   const auto attitude = [this](std::int64_t ms, double x_up, double height_m) {
     Reading reading;
