@@ -7,12 +7,14 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
-#include "core/base/check.hpp"
+#include "core/geometry/angle.hpp"
 #include "firmware_link/file/gzip_lines.hpp"
+#include "firmware_link/laser_log/scan_geometry.hpp"
 
 namespace swiftlet {
 namespace {
@@ -20,7 +22,7 @@ namespace {
 constexpr std::size_t kMaxNamedLines = 10;
 constexpr std::size_t kMaxReadings = 10'000;  // of any laser
 constexpr const char* kOtherGeometry =
-    "scan whose beams lie otherwise than the first one's, or are fewer than are to be kept";
+    "scan whose beams lie elsewhere than the first one's, or are fewer than are to be kept";
 
 /// The numbers of a line, one after the other.
 class Numbers {
@@ -55,29 +57,13 @@ bool read_stamp(Numbers& numbers, HostTime& stamp) {
   return true;
 }
 
-/// How the readings of a scan lie.
-struct ScanGeometry {
-  std::size_t readings = 0;
-  double start_rad = 0.0;
-  double step_rad = 0.0;
-
-  bool operator==(const ScanGeometry&) const = default;
-};
-
-/// Of a FLASER line, which does not say it.
-std::optional<ScanGeometry> usual_geometry(std::size_t readings) {
-  if (readings == 180 || readings == 181) return ScanGeometry{readings, -kPi / 2.0, radians(1.0)};
-  if (readings == 360 || readings == 361) return ScanGeometry{readings, -kPi / 2.0, radians(0.5)};
-  return std::nullopt;
-}
-
 /// What stands before the readings of ROBOTLASER1 and RAWLASER1 lines.
-std::optional<ScanGeometry> read_geometry(Numbers& numbers) {
+std::optional<ScanGeometry> read_geometry(Numbers& numbers, double& max_range_m) {
   ScanGeometry geometry;
   double ignored = 0.0;
   const bool is_complete = numbers.read(ignored) && numbers.read(geometry.start_rad) &&
                            numbers.read(ignored) && numbers.read(geometry.step_rad) &&
-                           numbers.read(ignored) && numbers.read(ignored) && numbers.read(ignored) &&
+                           numbers.read(max_range_m) && numbers.read(ignored) && numbers.read(ignored) &&
                            numbers.read(geometry.readings);
   const bool is_possible = std::abs(geometry.start_rad) <= 2.0 * kPi && geometry.step_rad > 0.0 &&
                            geometry.readings <= kMaxReadings &&
@@ -95,6 +81,42 @@ bool skip_counted(Numbers& numbers) {
 
 Pose2 pose_of(const CarmenOdometry& odometry) {
   return {odometry.position.x_m, odometry.position.y_m, odometry.yaw_rad};
+}
+
+/// Where the laser is on the robot, from lines that have a pose of each. Of a FLASER line the first may also
+/// be another program's estimate: that moves against the odometry, what is screwed on does not.
+class Mounting {
+ public:
+  void add(const CarmenOdometry& laser, const CarmenOdometry& robot) {
+    const Pose2 T_robot_laser = pose_of(robot).inverse() * pose_of(laser);
+    if (!T_robot_laser_) T_robot_laser_ = T_robot_laser;
+    is_fixed_ = is_fixed_ && is_rounding(T_robot_laser_->inverse() * T_robot_laser);
+  }
+  /// Of the first line; nullopt: there was none.
+  [[nodiscard]] const std::optional<Pose2>& T_robot_laser() const { return T_robot_laser_; }
+  /// nullopt: what the lines have is no mounting, or none that matters.
+  [[nodiscard]] std::optional<Pose2> T_robot_laser_if_fixed() const {
+    const bool is_one = T_robot_laser_ && is_fixed_ && !is_rounding(*T_robot_laser_) &&
+                        std::hypot(T_robot_laser_->x_m(), T_robot_laser_->y_m()) < kMaxLeverM;
+    return is_one ? T_robot_laser_ : std::nullopt;
+  }
+
+ private:
+  static constexpr double kMaxLeverM = 1.0;
+  /// Of poses in two decimals.
+  static bool is_rounding(const Pose2& T) {
+    return std::hypot(T.x_m(), T.y_m()) < 0.01 && std::abs(T.yaw_rad()) < 0.01;
+  }
+  std::optional<Pose2> T_robot_laser_;
+  bool is_fixed_ = true;
+};
+
+void move_to_laser(const Pose2& T_robot_laser, std::vector<CarmenOdometry>& robots) {
+  for (CarmenOdometry& robot : robots) {
+    const Pose2 laser = pose_of(robot) * T_robot_laser;
+    robot.position = laser.position();
+    robot.yaw_rad = laser.yaw_rad();
+  }
 }
 
 /// From the least to the most telling.
@@ -131,7 +153,11 @@ class CarmenParser {
     log_.beams = beams_;
     log_.scans_have_poses = kind_ != ScanLine::kRawLaser;
     sort_scans();
-    if (T_robot_laser_) move_odometry_to_laser();
+    const bool has_robot_poses = kind_ == ScanLine::kFlaser;
+    const std::optional<Pose2> T_robot_laser =
+        has_robot_poses ? mounting_.T_robot_laser_if_fixed() : mounting_.T_robot_laser();
+    if (T_robot_laser && has_robot_poses) move_to_laser(*T_robot_laser, log_.scans);
+    if (T_robot_laser) move_to_laser(*T_robot_laser, log_.odometry);
     std::stable_sort(log_.odometry.begin(), log_.odometry.end(), earlier);
     return std::move(log_);
   }
@@ -144,20 +170,22 @@ class CarmenParser {
     std::size_t readings = 0;
     const bool is_counted = numbers.read(readings);
     const std::optional<ScanGeometry> geometry = usual_geometry(readings);
-    if (!is_counted || !geometry || !is_usable(ScanLine::kFlaser, *geometry))
-      return "FLASER with another number of readings than 180, 181, 360 or 361";
-    CarmenOdometry corrected;  // another program's estimate: not used
-    CarmenOdometry scan;
-    if (!read_distances(numbers, *geometry) || !read_odometry_pose(numbers, corrected) ||
-        !read_odometry_pose(numbers, scan) || !read_stamp(numbers, scan.stamp))
+    if (!is_counted || !geometry) return "FLASER with a number of readings that no known scanner has";
+    if (!is_usable(ScanLine::kFlaser, *geometry)) return kOtherGeometry;
+    CarmenOdometry laser;
+    CarmenOdometry robot;
+    if (!read_distances(numbers, *geometry) || !read_odometry_pose(numbers, laser) ||
+        !read_odometry_pose(numbers, robot) || !read_stamp(numbers, robot.stamp))
       return "FLASER line cut off or garbled";
-    add_scan(ScanLine::kFlaser, *geometry, scan);
+    add_scan(ScanLine::kFlaser, *geometry, robot);
+    mounting_.add(laser, robot);
     return nullptr;
   }
 
   const char* parse_robot_laser(Numbers numbers) {
     if (kind_ > ScanLine::kRobotLaser) return nullptr;
-    const std::optional<ScanGeometry> geometry = read_geometry(numbers);
+    double max_range_m = 0.0;
+    const std::optional<ScanGeometry> geometry = read_geometry(numbers, max_range_m);
     if (!geometry) return "ROBOTLASER1 line cut off or garbled";
     if (!is_usable(ScanLine::kRobotLaser, *geometry)) return kOtherGeometry;
     CarmenOdometry laser;
@@ -168,25 +196,39 @@ class CarmenParser {
     for (int i = 0; i < 5; ++i) is_complete = is_complete && numbers.read(ignored);
     if (!is_complete || !read_stamp(numbers, laser.stamp)) return "ROBOTLASER1 line cut off or garbled";
     add_scan(ScanLine::kRobotLaser, *geometry, laser);
-    if (!T_robot_laser_) T_robot_laser_ = pose_of(robot).inverse() * pose_of(laser);
+    log_.max_range_m = max_range_m;
+    mounting_.add(laser, robot);
     return nullptr;
   }
 
   const char* parse_raw_laser(Numbers numbers) {
     if (kind_ > ScanLine::kRawLaser) return nullptr;
-    const std::optional<ScanGeometry> geometry = read_geometry(numbers);
+    double max_range_m = 0.0;
+    const std::optional<ScanGeometry> geometry = read_geometry(numbers, max_range_m);
     if (!geometry) return "RAWLASER1 line cut off or garbled";
     if (!is_usable(ScanLine::kRawLaser, *geometry)) return kOtherGeometry;
     CarmenOdometry scan;
     if (!read_distances(numbers, *geometry) || !skip_counted(numbers) || !read_stamp(numbers, scan.stamp))
       return "RAWLASER1 line cut off or garbled";
     add_scan(ScanLine::kRawLaser, *geometry, scan);
+    log_.max_range_m = max_range_m;
     return nullptr;
   }
 
-  /// Of a more telling kind than the scans so far, or like them.
-  [[nodiscard]] bool is_usable(ScanLine kind, const ScanGeometry& geometry) const {
-    return kind > kind_ ? geometry.readings >= beam_count_ : kind == kind_ && geometry == geometry_;
+  /// Of a more telling kind than the scans so far, or of theirs with most beams where they have them.
+  bool is_usable(ScanLine kind, const ScanGeometry& geometry) {
+    if (kind > kind_) return geometry.readings >= beam_count_;
+    if (kind < kind_) return false;
+    if (geometry != geometry_) follow(geometry);
+    const auto missing = static_cast<std::size_t>(std::count(picked_.begin(), picked_.end(), kNoReading));
+    return 2 * missing < picked_.size();
+  }
+
+  /// A scanner that was started with another resolution: the beams stay where they are.
+  void follow(const ScanGeometry& geometry) {
+    geometry_ = geometry;
+    picked_ = readings_along(beams_, geometry);
+    log_.pose_scan_lag.interrupt();
   }
 
   bool read_distances(Numbers& numbers, const ScanGeometry& geometry) {
@@ -200,11 +242,13 @@ class CarmenParser {
     if (kind > kind_) begin_with(kind, geometry);
     if (!log_.scans.empty() && scan.stamp < log_.scans.back().stamp) {
       ++log_.scan_reversals;
+      log_.longest_step_back = std::max(log_.longest_step_back, log_.scans.back().stamp - scan.stamp);
       log_.pose_scan_lag.interrupt();
     }
     if (kind != ScanLine::kRawLaser) log_.pose_scan_lag.add(scratch_m_, scan.yaw_rad, geometry.step_rad);
     log_.scans.push_back(scan);
-    for (const std::size_t i : picked_) log_.distances_m.push_back(scratch_m_[i]);
+    for (const std::size_t i : picked_)
+      log_.distances_m.push_back(i == kNoReading ? std::numeric_limits<float>::quiet_NaN() : scratch_m_[i]);
   }
 
   void begin_with(ScanLine kind, const ScanGeometry& geometry) {
@@ -213,8 +257,10 @@ class CarmenParser {
     log_.scans.clear();
     log_.distances_m.clear();
     log_.scan_reversals = 0;
+    log_.longest_step_back = {};
     log_.pose_scan_lag = {};
-    T_robot_laser_.reset();
+    log_.max_range_m = 0.0;
+    mounting_ = {};
     choose_beams(geometry);
   }
 
@@ -234,16 +280,7 @@ class CarmenParser {
     picked_ = pick_beams(geometry.readings, beam_count_);
     beams_.count = static_cast<std::uint8_t>(picked_.size());
     for (std::size_t i = 0; i < picked_.size(); ++i)
-      beams_.bearing_rad[i] =
-          wrap_angle(geometry.start_rad + static_cast<double>(picked_[i]) * geometry.step_rad);
-  }
-
-  void move_odometry_to_laser() {
-    for (CarmenOdometry& odometry : log_.odometry) {
-      const Pose2 laser = pose_of(odometry) * *T_robot_laser_;
-      odometry.position = laser.position();
-      odometry.yaw_rad = laser.yaw_rad();
-    }
+      beams_.bearing_rad[i] = wrap_angle(geometry.bearing_rad(picked_[i]));
   }
 
   void sort_scans() {
@@ -276,23 +313,13 @@ class CarmenParser {
   BeamLayout beams_;
   ScanLine kind_ = ScanLine::kNone;
   ScanGeometry geometry_;
-  std::optional<Pose2> T_robot_laser_;
-  std::vector<std::size_t> picked_;
+  Mounting mounting_;
+  std::vector<std::size_t> picked_;  // of geometry_, for beams_
   std::vector<float> scratch_m_;
   std::uint64_t malformed_ = 0;
 };
 
 }  // namespace
-
-std::vector<std::size_t> pick_beams(std::size_t readings, std::size_t beam_count) {
-  SWIFTLET_CHECK(beam_count >= 2 && beam_count <= readings,
-                 "beams are picked from at least as many readings");
-  std::vector<std::size_t> picked;
-  const std::size_t stride = readings / (beam_count - 1);
-  for (std::size_t i = 0; i + 1 < beam_count; ++i) picked.push_back(i * stride);
-  picked.push_back(readings - 1);
-  return picked;
-}
 
 Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_count) {
   Result<GzipLines> lines = GzipLines::open(path);

@@ -34,12 +34,15 @@ struct CarmenOdometry {
 /// where SCAN is: type start_angle field_of_view step max_range accuracy remission_mode n r_1 .. r_n m s_1 ..
 /// s_m. A log that has several kinds tells of the same scans in each: the first of this list counts.
 ///
-/// All poses are those of the laser, as far as the log says where on the robot it is (ROBOTLASER1).
+/// All poses are those of the laser, as far as the log says where on the robot it is: ROBOTLASER1 always
+/// does, FLASER where its first pose has the same place on the robot in all lines. Elsewhere that pose is
+/// another program's estimate and is not used.
 ///
 /// Scans and odometry are in the order of their stamps, lines with equal stamps in the order of the file.
 struct CarmenLog {
   BeamLayout beams;
   const char* scan_line = "";            ///< the kind: "FLASER"
+  double max_range_m = 0.0;              ///< of the scanner, as logged; 0: not said
   bool scans_have_poses = true;          ///< RAWLASER1 lines have none
   std::vector<CarmenOdometry> scans;     ///< stamp of each scan and the odometry in its line (odom_*)
   std::vector<float> distances_m;        ///< beams.count a scan, as logged
@@ -47,6 +50,7 @@ struct CarmenLog {
   std::uint64_t odometry_reversals =
       0;  ///< ODOM lines with a stamp before that of the line before, in file order
   std::uint64_t scan_reversals = 0;   ///< the same of scans
+  Duration longest_step_back{};       ///< of these
   std::uint64_t duplicate_scans = 0;  ///< same stamp, same distances: dropped
   PoseScanLag pose_scan_lag;          ///< of the odometry in scans' lines, from all their readings
   std::uint64_t lines = 0;
@@ -57,15 +61,11 @@ struct CarmenLog {
   }
 };
 
-/// Sparse sensing as in the IROS 2022 paper: of `readings` takes `beam_count`: 0, k, 2k, .. with k = readings
-/// / (beam_count - 1) in whole numbers, and the last one. Precondition: 2 <= beam_count <= readings.
-[[nodiscard]] std::vector<std::size_t> pick_beams(std::size_t readings, std::size_t beam_count);
-
-/// Reads a whole log, plain or gzip. FLASER lines have 180 or 181 readings 1 degree apart, or 360 or 361
-/// readings half a degree apart, the first at -90 degrees; the others say how theirs lie. All are the same as
-/// the first. Other lines are ignored. Errors:
-/// kNotFound, kInvalidInput: no such log; kDamaged: damaged before the first scan. Precondition: 2 <=
-/// beam_count <= kMaxBeams.
+/// Reads a whole log, plain or gzip. FLASER lines lie as usual_geometry() has it; the others say how theirs
+/// lie. The first line decides where the beams are; where later readings lie otherwise, the nearest ones
+/// count, and a scan that lacks half of them or more is left out. Other lines are ignored. Errors: kNotFound,
+/// kInvalidInput: no such log; kDamaged: damaged before the first scan. Precondition: 2 <= beam_count <=
+/// kMaxBeams.
 [[nodiscard]] Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_count);
 
 }  // namespace swiftlet

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/geometry/angle.hpp"
 #include "firmware_link/laser_log/line_times.hpp"
 
 namespace swiftlet {
@@ -19,14 +21,40 @@ constexpr std::size_t kUsualBeamCount = 11;
 // Measured on the ACES log against its reference relations: the ranges fit the odometry of 0.1 s before.
 constexpr Duration kAgeAgainstOdometryLines = std::chrono::milliseconds(100);
 constexpr Duration kMaxUncovered = std::chrono::seconds(1);
+// Intel's scans step back 630 times, by 0.9 s at most.
+constexpr Duration kLongestDisorder = std::chrono::seconds(5);
+// Wheels that have moved do not come to stand at zero in all three numbers: their counters were reset.
+constexpr double kMovedM = 0.3;
+constexpr double kTurnedRad = radians(20.0);
 constexpr std::uint8_t kScanStream = 0;
 constexpr std::uint8_t kOdometryStream = 1;
 
+/// Whether nearly all lines have a stamp of their own: some loggers write whole seconds, or one stamp for
+/// all.
+bool advances(std::span<const CarmenOdometry> lines) {
+  std::size_t shared = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) shared += lines[i].stamp == lines[i - 1].stamp ? 1U : 0U;
+  return shared <= lines.size() / 10;
+}
+
+/// Whether both ends and all but one in a hundred scans lie between ODOM lines that are near in time.
+bool spans_scans(std::span<const CarmenOdometry> odometry, std::span<const CarmenOdometry> scans) {
+  if (odometry.front().stamp > scans.front().stamp + kMaxUncovered ||
+      odometry.back().stamp < scans.back().stamp - kMaxUncovered)
+    return false;
+  std::size_t uncovered = 0;
+  std::size_t next = 1;
+  for (const CarmenOdometry& scan : scans) {
+    while (next + 1 < odometry.size() && odometry[next].stamp < scan.stamp) ++next;
+    uncovered += odometry[next].stamp - odometry[next - 1].stamp > kMaxUncovered ? 1U : 0U;
+  }
+  return uncovered <= scans.size() / 100;
+}
+
 /// Whether the stamps of the ODOM lines can be trusted to place the scans among them.
 bool trusts_odometry_lines(const CarmenLog& log) {
-  return log.odometry.size() >= 2 && log.odometry_reversals == 0 &&
-         log.odometry.front().stamp <= log.scans.front().stamp + kMaxUncovered &&
-         log.odometry.back().stamp >= log.scans.back().stamp - kMaxUncovered;
+  return log.odometry.size() >= 2 && log.odometry_reversals == 0 && advances(log.odometry) &&
+         spans_scans(log.odometry, log.scans);
 }
 
 /// Median of the times from one scan to the next; 0 for fewer than two.
@@ -51,6 +79,7 @@ SensorModel sensor_model(const CarmenLog& log, std::span<const DeviceTime> scan_
   sensor.range_age = range_age(log, scan_times);
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
+  if (log.max_range_m > 0.0) sensor.max_range_m = std::min(sensor.max_range_m, log.max_range_m);
   if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
   return sensor;
 }
@@ -71,6 +100,12 @@ AssemblyConfig assembly_config(const CarmenLog& log, const SensorModel& sensor) 
 /// The log has one clock: its stamps are device time, too.
 DeviceTime device_time(HostTime stamp) { return DeviceTime(stamp.time_since_epoch()); }
 
+bool is_reset(const CarmenOdometry& before, const CarmenOdometry& now) {
+  const bool is_zero = now.position.x_m == 0.0 && now.position.y_m == 0.0 && now.yaw_rad == 0.0;
+  return is_zero && (distance_m(before.position, now.position) > kMovedM ||
+                     std::abs(wrap_angle(before.yaw_rad)) > kTurnedRad);
+}
+
 std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Duration range_age) {
   if (uses_odometry_lines)
     return "dead reckoning from the ODOM lines, " +
@@ -81,6 +116,7 @@ std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Du
   if (log.odometry_reversals > 0)
     return choice + "the stamps of the ODOM lines go back " + std::to_string(log.odometry_reversals) +
            " times";
+  if (!advances(log.odometry)) return choice + "many ODOM lines have the stamp of the line before";
   return choice + "the ODOM lines do not span the scans";
 }
 
@@ -131,6 +167,11 @@ CarmenSampleSource::CarmenSampleSource(std::shared_ptr<const CarmenLog> log,
   if (log_->scan_reversals > 0)
     report_.notes.push_back("scans out of time order were sorted (" + std::to_string(log_->scan_reversals) +
                             " steps back)");
+  if (log_->longest_step_back > kLongestDisorder)
+    report_.problems.push_back(
+        "the clock of the scans steps back by " +
+        std::to_string(std::chrono::duration_cast<std::chrono::seconds>(log_->longest_step_back).count()) +
+        " s: scans of different times are mixed; cut the log there");
 }
 
 Result<ReceivedSample> CarmenSampleSource::next() {
@@ -176,9 +217,15 @@ void CarmenSampleSource::feed_odometry(const CarmenOdometry& odometry) {
   reading.stream = kOdometryStream;
   reading.at = device_time(odometry.stamp);
   reading.received = odometry.stamp;
+  add_pose(odometry, reading);
+  assembler_.add(reading);
+}
+
+void CarmenSampleSource::add_pose(const CarmenOdometry& odometry, Reading& reading) {
   reading.position_odom = odometry.position;
   reading.yaw_odom_rad = wrap_angle(odometry.yaw_rad);
-  assembler_.add(reading);
+  reading.odometry_restarted = last_odometry_ && is_reset(*last_odometry_, odometry);
+  last_odometry_ = odometry;
 }
 
 void CarmenSampleSource::feed_scan() {
@@ -190,10 +237,7 @@ void CarmenSampleSource::feed_scan() {
   if (next_scan_ > 0) reading.at = std::max(reading.at, last_scan_at_ + Duration(1));
   last_scan_at_ = reading.at;
   reading.received = scan.stamp;
-  if (!uses_odometry_lines_) {
-    reading.position_odom = scan.position;
-    reading.yaw_odom_rad = wrap_angle(scan.yaw_rad);
-  }
+  if (!uses_odometry_lines_) add_pose(scan, reading);
   for (const float distance_m : log_->distances_of(next_scan_))
     static_cast<void>(reading.distance_m.try_push_back(distance_m));
   ++next_scan_;

@@ -16,7 +16,7 @@
 namespace swiftlet {
 
 /// Range samples from a CARMEN laser log. Dead reckoning comes from the ODOM lines, taken 0.1 s before the
-/// scan, when their stamps can be trusted (they never go back and span the scans) or there is nothing else
+/// scan, when their stamps can be trusted (they advance and span the scans) or there is nothing else
 /// (RAWLASER1), else from the pose in each scan's line; report().notes names the choice. Stamps are the
 /// ipc_timestamps as logged; where a scan and its pose share one, an age of the ranges is applied in regular
 /// times (line_times.hpp). One thread at a time.
@@ -39,6 +39,7 @@ class CarmenSampleSource final : public SampleSource {
   bool feed();
   void feed_odometry(const CarmenOdometry& odometry);
   void feed_scan();
+  void add_pose(const CarmenOdometry& odometry, Reading& reading);
   void finish_report();
 
   std::shared_ptr<const CarmenLog> log_;
@@ -51,6 +52,7 @@ class CarmenSampleSource final : public SampleSource {
   std::size_t next_odometry_ = 0;
   std::size_t next_scan_ = 0;
   DeviceTime last_scan_at_{};
+  std::optional<CarmenOdometry> last_odometry_;
   bool is_finished_ = false;
 };
 

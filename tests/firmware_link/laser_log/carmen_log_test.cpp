@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "tests/firmware_link/laser_lines.hpp"
@@ -20,14 +21,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 HostTime at_us(std::int64_t us) { return HostTime(microseconds(us)); }
-
-TEST(PickBeams, FollowsThePapersRule) {
-  EXPECT_THAT(pick_beams(180, 11), ElementsAre(0, 18, 36, 54, 72, 90, 108, 126, 144, 162, 179));
-  EXPECT_THAT(pick_beams(180, 4), ElementsAre(0, 60, 120, 179));
-  EXPECT_THAT(pick_beams(181, 2), ElementsAre(0, 180));
-  EXPECT_EQ(pick_beams(180, 64)[62], 124U);
-  EXPECT_EQ(pick_beams(180, 64)[63], 179U);
-}
 
 TEST(CarmenLog, ReadsScansAndOdometry) {
   const TemporaryFile file("a.clf", "# a comment\nPARAM robot_length 1\n" +
@@ -82,7 +75,7 @@ TEST(CarmenLog, SortsByTimeAndDropsScansThatRepeat) {
 TEST(CarmenLog, ReportsMalformedLinesAndContinues) {
   const std::string good = flaser_line(180, 0.0, "5");
   const std::string cut = good.substr(0, good.size() / 2) + "\n";
-  std::string text = good + cut + "ODOM 1 2 x 0 0 0 5\n" + flaser_line(361, 0.0, "6") + "FLASER\n" +
+  std::string text = good + cut + "ODOM 1 2 x 0 0 0 5\n" + flaser_line(90, 0.0, "6") + "FLASER\n" +
                      flaser_line(180, 0.0, "nan") + flaser_line(180, 0.0, "7");
   for (int i = 0; i < 20; ++i) text += "ODOM broken\n";
   const TemporaryFile file("a.clf", text);
@@ -93,7 +86,7 @@ TEST(CarmenLog, ReportsMalformedLinesAndContinues) {
   EXPECT_THAT(log->problems[0],
               HasSubstr(file.path() + ":2: FLASER line cut off or garbled; the line is left out"));
   EXPECT_THAT(log->problems[1], HasSubstr(":3: ODOM line"));
-  EXPECT_THAT(log->problems[2], HasSubstr(":4: FLASER with another number of readings"));
+  EXPECT_THAT(log->problems[2], HasSubstr(":4: FLASER with a number of readings that no"));
   EXPECT_THAT(log->problems[3], HasSubstr(":6: FLASER line"));
   EXPECT_THAT(log->problems.back(), HasSubstr("14 more malformed lines were left out"));
 }
@@ -103,8 +96,53 @@ TEST(CarmenLog, ReportsWhyThereIsNothingToRead) {
   EXPECT_THAT(read_carmen_log(other.path(), 4).error().message,
               HasSubstr("neither a capture (pcap) nor a table (.csv) nor a CARMEN"));
   const TemporaryFile odd("b.clf", flaser_line(90, 0.0, "1"));
-  EXPECT_THAT(read_carmen_log(odd.path(), 4).error().message, HasSubstr(":1: FLASER with another number"));
+  EXPECT_THAT(read_carmen_log(odd.path(), 4).error().message,
+              HasSubstr(":1: FLASER with a number of readings"));
   EXPECT_EQ(read_carmen_log("/nonexistent/a.clf", 4).error().code, ErrorCode::kNotFound);
+}
+
+/// FLASER 181 n .. with poses of laser and robot.
+std::string flaser_line_with_poses(const Pose2& laser, const Pose2& robot, const std::string& stamp) {
+  char poses[160];
+  std::snprintf(poses, sizeof poses, "%.3f %.3f %.4f %.3f %.3f %.4f", laser.x_m(), laser.y_m(),
+                laser.yaw_rad(), robot.x_m(), robot.y_m(), robot.yaw_rad());
+  std::string line = "FLASER 181";
+  for (int i = 0; i < 181; ++i) line += " 2.5";
+  return line + " " + poses + " " + stamp + " host " + stamp + "\n";
+}
+
+TEST(CarmenLog, FindsTheLaserOnTheRobotByTheTwoPosesOfEachLine) {
+  const Pose2 T_robot_laser(0.3, 0.05, 0.0);
+  std::string mounted = odometry_line(4.0, 0.0, 1.0, "1");
+  std::string estimated;
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 robot(0.1 * i, 0.05 * i, 0.3 * i);
+    const Pose2 estimate = Pose2(0.02 * i, -0.01 * i, 0.002 * i) * robot * T_robot_laser;
+    mounted += flaser_line_with_poses(robot * T_robot_laser, robot, std::to_string(i + 1));
+    estimated += flaser_line_with_poses(estimate, robot, std::to_string(i + 1));
+  }
+  const TemporaryFile of_mounted("a.clf", mounted);
+  const auto log = read_carmen_log(of_mounted.path(), 4);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  const Pose2 expected = Pose2(1.0, 0.5, 3.0) * T_robot_laser;
+  EXPECT_NEAR(log->scans.at(10).position.x_m, expected.x_m(), 2e-3);
+  EXPECT_NEAR(log->scans.at(10).position.y_m, expected.y_m(), 2e-3);
+  EXPECT_NEAR(log->odometry.at(0).position.x_m, 4.0 + 0.3 * std::cos(1.0) - 0.05 * std::sin(1.0), 2e-3);
+  const TemporaryFile of_estimated("b.clf", estimated);
+  EXPECT_EQ(read_carmen_log(of_estimated.path(), 4)->scans.at(10).position.x_m, 1.0);
+}
+
+TEST(CarmenLog, KeepsItsBeamsWhereTheScannerIsStartedWithAnotherResolution) {
+  const TemporaryFile file("a.clf", flaser_line(181, 0.0, "1") + flaser_line(361, 0.0, "2") +
+                                        flaser_line(541, 0.0, "3") + flaser_line(401, 0.0, "4"));
+  const auto log = read_carmen_log(file.path(), 3);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  ASSERT_EQ(log->scans.size(), 3U);
+  EXPECT_THAT(log->distances_of(0), ElementsAre(1.00F, 1.90F, 2.80F));
+  EXPECT_THAT(log->distances_of(1), ElementsAre(1.00F, 2.80F, 4.60F));
+  EXPECT_THAT(log->distances_of(2), ElementsAre(1.90F, 3.70F, 5.50F));
+  ASSERT_EQ(log->problems.size(), 1U) << "of three beams one lies within 100 degrees";
+  EXPECT_THAT(log->problems[0], HasSubstr(":4: scan whose beams lie elsewhere"));
 }
 
 TEST(CarmenLog, ReadsScansThatSayHowTheirBeamsLie) {
@@ -115,6 +153,7 @@ TEST(CarmenLog, ReadsScansThatSayHowTheirBeamsLie) {
   ASSERT_TRUE(log.ok()) << log.error().message;
   EXPECT_TRUE(log->problems.empty());
   EXPECT_STREQ(log->scan_line, "ROBOTLASER1");
+  EXPECT_EQ(log->max_range_m, 30.0);
   ASSERT_EQ(log->scans.size(), 1U);
   EXPECT_EQ(log->scans[0].stamp, at_us(10'500'000));
   EXPECT_DOUBLE_EQ(log->scans[0].position.x_m, 1.5);
@@ -163,7 +202,7 @@ TEST(CarmenLog, ReportsScansThatCannotBeUsed) {
   EXPECT_EQ(log->scans.size(), 1U);
   ASSERT_EQ(log->problems.size(), 4U);
   EXPECT_THAT(log->problems[0], HasSubstr("RAWLASER1 line cut off or garbled"));
-  EXPECT_THAT(log->problems[1], HasSubstr("beams lie otherwise"));
+  EXPECT_THAT(log->problems[1], HasSubstr("beams lie elsewhere"));
   EXPECT_THAT(log->problems[2], HasSubstr("RAWLASER1 line cut off or garbled"));
   EXPECT_THAT(log->problems[3], HasSubstr("fewer than are to be kept"));
 }

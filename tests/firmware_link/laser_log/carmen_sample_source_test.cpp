@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -115,6 +116,64 @@ TEST(CarmenSampleSource, TakesThePoseInTheScanWhenThereIsNoOdometryOrTooLittle) 
                                        flaser_line(180, 7, "10.15") + flaser_line(180, 7, "90"));
   EXPECT_THAT((*CarmenSampleSource::open(few.path(), {}))->report().notes,
               ElementsAre(HasSubstr("do not span")));
+}
+
+TEST(CarmenSampleSource, TakesThePoseInTheScanWhenOdometryLinesShareStampsOrHaveHoles) {
+  std::string whole_seconds;
+  std::string holes;
+  for (int i = 0; i < 400; ++i) {
+    const std::string stamp = std::to_string(10.0 + 0.1 * i);
+    const std::string scan = flaser_line(180, 7, stamp);
+    whole_seconds += odometry_line(0, 0, 0, std::to_string(10 + i / 10)) + scan;
+    holes += (i / 20 % 2 == 0 || i == 399 ? odometry_line(0, 0, 0, stamp) : "") + scan;
+  }
+  whole_seconds += odometry_line(0, 0, 0, "50");
+  const auto note_of = [](const std::string& text) {
+    const TemporaryFile file("a.clf", text);
+    return (*CarmenSampleSource::open(file.path(), {}))->report().notes.at(0);
+  };
+  EXPECT_THAT(note_of(whole_seconds), HasSubstr("from the FLASER lines: many ODOM lines have the stamp"));
+  EXPECT_THAT(note_of(holes), HasSubstr("from the FLASER lines: the ODOM lines do not span"));
+}
+
+TEST(CarmenSampleSource, BeginsASegmentWhereTheWheelsAreReset) {
+  std::string text = "ODOM 0 0 0 0 0 0 0.9 h 0.9\n";
+  for (int i = 0; i < 9; ++i) text += flaser_line(180, 0.1 * i, std::to_string(1.0 + 0.2 * i));
+  const std::string zero = flaser_line(180, 0.0, "3.0");
+  const std::string pose = "0.000000 0.2 0.3";
+  text += std::string(zero).replace(zero.find(pose), pose.size(), "0 0 0.0000");
+  text += flaser_line(180, 0.1, "3.2");
+  const TemporaryFile file("a.clf", text);
+  auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  const std::vector<RangeSample> samples = read_all(**source);
+  ASSERT_EQ(samples.size(), 11U);
+  EXPECT_TRUE(samples[9].starts_segment);
+  EXPECT_FALSE(samples[9].odometry_ran_on);
+  EXPECT_EQ((*source)->report().counters.segments, 2U);
+}
+
+TEST(CarmenSampleSource, TellsOfAClockThatStepsFarBack) {
+  const TemporaryFile file("a.clf", flaser_line(180, 0, "100") + flaser_line(180, 0.1, "101") +
+                                        flaser_line(180, 0.2, "40") + flaser_line(180, 0.3, "41"));
+  const auto source = CarmenSampleSource::open(file.path(), {});
+  ASSERT_TRUE(source.ok());
+  EXPECT_THAT((*source)->report().problems, ElementsAre(HasSubstr("steps back by 61 s")));
+}
+
+TEST(CarmenSampleSource, TakesTheScannersOwnRangeWhereItIsLess) {
+  const auto range_of = [](const std::string& max_range, std::optional<double> limit_m) {
+    const TemporaryFile file("a.clf", scan_line("ROBOTLASER1", "0 -1.5 3.0 0.5 " + max_range + " 0.1 0 7", 7,
+                                                "0 1 2 3 1 2 3 0 0 0 0 0", "10.5"));
+    SampleSourceOptions options;
+    options.beam_count = 2;
+    options.max_range_m = limit_m;
+    return (*CarmenSampleSource::open(file.path(), options))->sensor().max_range_m;
+  };
+  EXPECT_EQ(range_of("4.1", {}), 4.1);
+  EXPECT_EQ(range_of("30", {}), 5.0);
+  EXPECT_EQ(range_of("0", {}), 5.0);
+  EXPECT_EQ(range_of("30", 40.0), 30.0);
 }
 
 TEST(CarmenSampleSource, TakesRangesForOneLineOlderIfTheScansTurnWithThePosesOfTheLineBefore) {
