@@ -175,6 +175,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.graph.observe_building_axis(s.estimates);
   const bool was_unplaced = s.loops.unplaced_since().has_value();
   update.new_closures = s.loops.close_loops(s.T_local_keyframe(), s.graph);
+  s.loops.search_elsewhere(s.T_local_keyframe(), s.graph.graph());
   update.poses_changed = s.follow_graph(s.graph.settle());
   if (s.refine_stretch(update)) update.poses_changed = true;
   update.refined = s.refine_window(update);

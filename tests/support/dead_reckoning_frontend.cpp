@@ -44,6 +44,7 @@ void DeadReckoningFrontend::make_keyframe(FrontendStep& step) {
   step.has_keyframe = true;
   step.made.id = newest_;
   step.made.starts_segment = step.sample.starts_segment;
+  step.made.odometry_ran_on = step.sample.odometry_ran_on;
   step.made.motion_covariance = {
       .xx = sigma_m * sigma_m, .yy = sigma_m * sigma_m, .yaw_yaw = sigma_rad * sigma_rad};
   step.made.T_local_keyframe = T_local_keyframe_;

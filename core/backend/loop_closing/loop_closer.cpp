@@ -34,16 +34,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
     leave_storey(made.id, T_local_keyframe);
   if (made.starts_segment) {
     open_submaps_.clear();
-    if (!submaps_.empty()) {  // else there is no map to place it in
-      unplaced_since_ = made.id;
-      unplaced_by_ = made.odometry_ran_on ? UnplacedBy::kSilence : UnplacedBy::kRestart;
-      const ScanId scan = chain_->scan_of(made.id);
-      const Duration unwatched = (*scans_)[scan].stamp - (*scans_)[scans_->all().previous(scan)].stamp;
-      forget_places();
-      MotionBreak motion_break;
-      if (!made.odometry_ran_on) motion_break.unwatched = unwatched;  // else the estimate gives the way
-      places_.begin(motion_break);
-    }
+    if (!submaps_.empty()) begin_break(made);  // else there is no map to place it in
   }
   const double here_m = chain_->path_m(made.id);
   if (open_submaps_.empty() || here_m - chain_->path_m(open_submaps_.back()) >=
@@ -53,6 +44,25 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
     finish_oldest(made.id, T_local_keyframe);
     open_submaps_.erase(open_submaps_.begin());
   }
+}
+
+/// A restart or a doubt that no place has ended goes on across a silence, and a restart across the next one:
+/// what was flown in between is no older map, and says nothing of where in that the vehicle is.
+void LoopCloser::begin_break(const Keyframe& made) {
+  watched_since_ = made.id;
+  forget_places();
+  const bool is_open = unplaced_since_ && unplaced_by_ != UnplacedBy::kSilence;
+  if (is_open && made.odometry_ran_on) return;
+  if (!is_open || unplaced_by_ == UnplacedBy::kContradiction) unplaced_since_ = made.id;
+  unplaced_by_ = made.odometry_ran_on ? UnplacedBy::kSilence : UnplacedBy::kRestart;
+  MotionBreak motion_break;
+  motion_break.estimate_ran_on = made.odometry_ran_on;
+  if (!made.odometry_ran_on) {
+    const ScanId before =
+        scans_->all().previous(chain_->scan_of(chain_->all().at_or_after(*unplaced_since_)));
+    motion_break.unwatched = (*scans_)[chain_->scan_of(made.id)].stamp - (*scans_)[before].stamp;
+  }
+  places_.begin(motion_break);
 }
 
 /// Of the open submaps, up to the keyframe before `end`.
@@ -74,7 +84,7 @@ void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
   if (resume_doubt()) return;
   unplaced_since_ = keyframe;
   forget_places();
-  places_.begin({kUnnoticed, chain_->all().previous(keyframe), log_odds});
+  places_.begin({kUnnoticed, chain_->all().previous(keyframe), log_odds, false});
 }
 
 void LoopCloser::end_doubt() {
@@ -103,7 +113,7 @@ bool LoopCloser::resume_doubt() {
 /// the motion is at fault.
 KeyframeId LoopCloser::watched_since() const {
   const bool is_unwatched = unplaced_since_ && unplaced_by_ != UnplacedBy::kContradiction;
-  return is_unwatched ? *unplaced_since_ : chain_->all().first_id();
+  return is_unwatched ? watched_since_ : chain_->all().first_id();
 }
 
 std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
@@ -212,7 +222,8 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   if (decided.empty()) return true;
   std::vector<RelativePoseFactor<KeyframeId>> factors;
   for (const LoopClosure& closure : decided) factors.push_back(factor_of(closure));
-  const std::optional<Contact> contact_before = contact_;
+  // Travel does not tell how long ago the old contact was: it does not grow across a break.
+  const std::optional<Contact> contact_before = std::exchange(contact_, std::nullopt);
   note_contact(decided.front().to, graph.graph());
   if (!graph.accommodate(factors)) {
     contact_ = contact_before;

@@ -54,8 +54,8 @@ class LoopCloser {
   void end_doubt();
   /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
   std::uint32_t close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
-  /// After each scan that makes no keyframe, while it is not known where the vehicle is: looks elsewhere, in
-  /// one submap, or weighs one place that was found.
+  /// After each scan, while it is not known where the vehicle is: looks elsewhere, in one submap, or weighs one
+  /// place that was found.
   void search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph);
   /// The newest contact, if it is new and has moved the map.
   [[nodiscard]] std::optional<Contact> contact_that_moved(const PoseGraph& graph) const;
@@ -87,6 +87,7 @@ class LoopCloser {
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
                                                     const PoseGraph& graph) const;
+  void begin_break(const Keyframe& made);
   void finish_oldest(KeyframeId end, const KeyframePoses& T_local_keyframe);
   void leave_storey(KeyframeId first_elsewhere, const KeyframePoses& T_local_keyframe);
   void suspend_doubt();
@@ -113,6 +114,7 @@ class LoopCloser {
   std::optional<Contact> contact_;            // the newest
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no place is decided
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
+  KeyframeId watched_since_{};                 // motion to there is not known or is a guess: the newest break
   bool place_is_refused_ = false;              // by the graph, since the newest query
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...
   double suspended_at_m_ = 0.0;                // ... and the travel at its end

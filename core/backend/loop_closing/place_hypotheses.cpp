@@ -13,6 +13,7 @@
 
 #include "core/backend/loop_closing/correlative_matcher.hpp"
 #include "core/backend/loop_closing/cross_check.hpp"
+#include "core/backend/pose_graph/relative_uncertainty.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace swiftlet {
@@ -226,14 +227,16 @@ void PlaceHypotheses::forget_oldest() {
 /// any angle up to a quarter more than its estimate says, or as often not at all: most corridors and many
 /// buildings look the same after half a turn. How far it moved has no scale beyond that of a slip (Student's
 /// t with one degree of freedom).
-double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
-                                  const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const {
+double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, double drift_m,
+                                  std::size_t submaps, const PoseGraph& graph,
+                                  const KeyframePoses& T_path_keyframe) const {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
   const KeyframeId since = break_.moved_at.value_or(query);
   const Pose2 moved = between(graph.T_map_keyframe[since], T_map_path * T_path_keyframe[since]);
   const double far_m = std::hypot(moved.x_m(), moved.y_m());
   const double slip_m = tuning.unmoved_reach_m;
-  if (far_m > slip_m + tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched)) return kImpossible;
+  const double carried_m = tuning.carrying_speed_m_per_s * to_seconds(break_.unwatched);
+  if (far_m > slip_m + carried_m + drift_m) return kImpossible;
   if (!break_.moved_at) return -std::log(tuning.places_per_submap * static_cast<double>(submaps));
   if (std::abs(moved.yaw_rad()) > kMaxTurnRad) return kImpossible;
   const LoopDetectorTuning& window = config_->tuning.detector;
@@ -242,6 +245,17 @@ double PlaceHypotheses::log_prior(const Pose2& T_map_path, KeyframeId query, std
   const double width = 2.0 * window.min_search_radius_m / slip_m;
   return std::log(heading * width * width / (2.0 * kPi)) -
          1.5 * std::log1p(far_m * far_m / (slip_m * slip_m));
+}
+
+/// Across a silence the graph has the travel where the estimate led: as far off as it may be by its
+/// covariance.
+double PlaceHypotheses::drift_m(const LoopClosure& match, const PoseGraph& graph) const {
+  if (!break_.estimate_ran_on) return 0.0;
+  const auto covariances = relative_covariances(graph, match.to, config_->tuning.covariance);
+  const Pose2 T_query_submap = between(graph.T_map_keyframe[match.to], graph.T_map_keyframe[match.from]);
+  const Eigen::Matrix3d J = jacobian_inverse(T_query_submap);
+  const Eigen::Matrix3d P = J * covariances[match.from] * J.transpose();
+  return config_->tuning.detector.search_sigmas * std::sqrt(std::max(P(0, 0), P(1, 1)));
 }
 
 /// By so little at a time that one of the turns is within what evidence() searches.
@@ -275,7 +289,8 @@ void PlaceHypotheses::propose(const LoopClosure& match,
   for (const Hypothesis& h : hypotheses_)
     if (are_alike(h.T_map_path * T_path_query, T_map_query, config_->tuning.detector)) return;
   const Pose2 T_map_path = T_map_query * T_path_query.inverse();
-  const double prior = log_prior(T_map_path, match.to, submaps.size(), graph, T_path_keyframe);
+  const double prior =
+      log_prior(T_map_path, match.to, drift_m(match, graph), submaps.size(), graph, T_path_keyframe);
   if (prior == kImpossible) return;
   hypotheses_.push_back(weighed_over_all(T_map_path, prior, submaps, graph, T_path_keyframe));
   merge(T_path_query);

@@ -25,6 +25,7 @@ struct MotionBreak {
   Duration unwatched{};                ///< the vehicle may have been carried for so long
   std::optional<KeyframeId> moved_at;  ///< its estimate ran on, and it moved here by more than that
   double log_odds_moved = 0.0;         ///< evidence that it did
+  bool estimate_ran_on = false;        ///< nothing was received, but the estimate gives the way
 };
 
 /// Where travel after a break may lie in the map. Each hypothesis is one place of the whole travel. The scans
@@ -89,8 +90,10 @@ class PlaceHypotheses {
                                             const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
   void merge(const Pose2& T_path_query);
   void forget_oldest();
-  [[nodiscard]] double log_prior(const Pose2& T_map_path, KeyframeId query, std::size_t submaps,
-                                 const PoseGraph& graph, const KeyframePoses& T_path_keyframe) const;
+  [[nodiscard]] double log_prior(const Pose2& T_map_path, KeyframeId query, double drift_m,
+                                 std::size_t submaps, const PoseGraph& graph,
+                                 const KeyframePoses& T_path_keyframe) const;
+  [[nodiscard]] double drift_m(const LoopClosure& match, const PoseGraph& graph) const;
   [[nodiscard]] double against(const Query& query, const Pose2& T_map_query,
                                std::span<const std::shared_ptr<const Submap>> submaps,
                                const PoseGraph& graph) const;

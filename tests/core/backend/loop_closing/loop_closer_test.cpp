@@ -34,18 +34,19 @@ TestVehicle two_laps(double drift_rad_per_m) {
 /// A backend without refinement, fed sample by sample.
 class FlownLoops {
  public:
-  explicit FlownLoops(const TestVehicle& vehicle) : vehicle_(vehicle) {}
+  explicit FlownLoops(const TestVehicle& vehicle, const BackendConfig& config = {})
+      : vehicle_(vehicle), config_(config) {}
 
-  void feed_one() {
-    const FrontendStep step = frontend_.process(vehicle_.samples()[scans_.size()]);
-    const ScanId scan = scans_.add(step);
-    if (!step.has_keyframe) return loops_.search_elsewhere(local(), graph_.graph());
-    chain_.add(scan);
-    estimates_.take(step.made);
-    graph_.add_keyframe(step.made, local());
-    loops_.add_keyframe(step.made, local());
-    loops_.close_loops(local(), graph_);
-    graph_.settle();
+  void feed_one() { feed(vehicle_.samples()[scans_.size()]); }
+  /// Nothing was received for a while, but the estimate ran on.
+  void feed_one_after_silence() { feed_one_after_break(true); }
+  /// The estimate began anew.
+  void feed_one_after_reset() { feed_one_after_break(false); }
+  void feed_until_unplaced() {
+    while (!loops_.unplaced_since() && !is_over()) feed_one();
+  }
+  void feed_until_placed() {
+    while (loops_.unplaced_since() && !is_over()) feed_one();
   }
   void feed_until_contact() {
     while (loops_.closures().empty() && !is_over()) feed_one();
@@ -81,9 +82,26 @@ class FlownLoops {
   }
   void optimize() { graph_.optimize(); }
   [[nodiscard]] const LoopCloser& loops() const { return loops_; }
+  [[nodiscard]] bool is_over() const { return scans_.size() == vehicle_.samples().size(); }
 
  private:
-  [[nodiscard]] bool is_over() const { return scans_.size() == vehicle_.samples().size(); }
+  void feed_one_after_break(bool estimate_ran_on) {
+    RangeSample sample = vehicle_.samples()[scans_.size()];
+    sample.starts_segment = true;
+    sample.odometry_ran_on = estimate_ran_on;
+    feed(sample);
+  }
+  void feed(const RangeSample& sample) {
+    const FrontendStep step = frontend_.process(sample);
+    const ScanId scan = scans_.add(step);
+    if (!step.has_keyframe) return loops_.search_elsewhere(local(), graph_.graph());
+    chain_.add(scan);
+    estimates_.take(step.made);
+    graph_.add_keyframe(step.made, local());
+    loops_.add_keyframe(step.made, local());
+    loops_.close_loops(local(), graph_);
+    graph_.settle();
+  }
   [[nodiscard]] const KeyframePoses& local() const { return estimates_.T_local_keyframe(); }
   [[nodiscard]] double here_m() const {
     return chain_.size() == 0 ? 0.0 : chain_.path_m(chain_.all().last_id());
@@ -160,6 +178,70 @@ TEST(LoopCloser, APlaceBehindABreakIsAContactThatMovedTheMap) {
   for (int metre = 0; flown.loops().unplaced_since() && metre < 30; ++metre) flown.feed_metres(1.0);
   ASSERT_FALSE(flown.loops().unplaced_since());
   EXPECT_TRUE(flown.contact_that_moved());
+}
+
+/// Two laps of the corridor, carried off at the end of the second and restarted there.
+TestVehicle carried_behind_two_laps() {
+  TestVehicle vehicle = two_laps(0.0);
+  const Point2 start = loop_corridor().place('a');
+  vehicle.carry_to(loop_corridor(), Pose2(start.x_m + 0.7, start.y_m + 0.5, 0.2));
+  fly_along(vehicle, loop_corridor(), "bcdabc");
+  return vehicle;
+}
+
+TEST(LoopCloser, APlaceBehindABreakIsAContactOfItsOwn) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  ASSERT_FALSE(flown.loops().closures().empty()) << "it was on known ground";
+  const KeyframeId restarted = flown.loops().unplaced_since().value();
+  flown.feed_until_placed();
+  ASSERT_FALSE(flown.loops().unplaced_since());
+  ASSERT_TRUE(flown.contact_that_moved());
+  EXPECT_GE(flown.contact_that_moved()->since, restarted);
+}
+
+TEST(LoopCloser, ASilenceDoesNotPlaceWhoWasCarriedBefore) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  const std::optional<KeyframeId> restarted = flown.loops().unplaced_since();
+  flown.feed_metres(1.0);
+  flown.feed_one_after_silence();
+  flown.feed_metres(1.0);
+  EXPECT_EQ(flown.loops().unplaced_since(), restarted);
+  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kRestart);
+  flown.feed_until_placed();
+  EXPECT_FALSE(flown.loops().unplaced_since());
+}
+
+TEST(LoopCloser, WhatWasFlownBetweenTwoRestartsIsNoOlderMap) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  const KeyframeId restarted = flown.loops().unplaced_since().value();
+  flown.feed_metres(1.0);
+  const std::size_t closures = flown.loops().closures().size();
+  flown.feed_one_after_reset();
+  flown.feed_metres(3.0);
+  EXPECT_EQ(flown.loops().unplaced_since(), restarted);
+  flown.feed_until_placed();
+  ASSERT_FALSE(flown.loops().unplaced_since());
+  for (const LoopClosure& closure : flown.loops().closures().values().subspan(closures))
+    EXPECT_LT(closure.from, restarted);
+}
+
+TEST(LoopCloser, BehindASilenceOldGroundIsFoundAsFarOffAsItsEstimateDrifts) {
+  const TestVehicle vehicle = two_laps(0.008);
+  BackendConfig config;
+  config.tuning.places.unmoved_reach_m = 0.1;
+  FlownLoops flown(vehicle, config);
+  flown.feed_metres(10.0);
+  flown.feed_one_after_silence();
+  ASSERT_EQ(flown.loops().unplaced_by(), UnplacedBy::kSilence);
+  flown.feed_until_placed();
+  EXPECT_FALSE(flown.loops().unplaced_since());
+  EXPECT_GT(flown.correction_m(), 0.5) << "much farther than it moves unseen";
 }
 
 TEST(LoopCloser, ABreakBeforeAnythingIsMappedLeavesNoPlaceToBeFound) {

@@ -73,11 +73,11 @@ struct BrokenFlight {
 class PlaceHypothesesTest : public testing::Test {
  protected:
   static MotionBreak carried_for(Duration unwatched, double log_odds_moved = 0.0) {
-    return {unwatched, std::nullopt, log_odds_moved};
+    return {unwatched, std::nullopt, log_odds_moved, false};
   }
   /// While its estimate ran on.
   [[nodiscard]] MotionBreak moved_unwatched(Duration unwatched, double log_odds_moved = 0.0) const {
-    return {unwatched, since_ - 1, log_odds_moved};
+    return {unwatched, since_ - 1, log_odds_moved, false};
   }
   explicit PlaceHypothesesTest(const BrokenFlight& flight = round_the_corridor(), double scale = 1.0)
       : flight_(flight), run_(flight.vehicle.samples(), flight.T_local_body(scale)) {
