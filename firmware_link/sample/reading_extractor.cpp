@@ -9,6 +9,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "firmware_link/sample/attitude.hpp"
+#include "firmware_link/sample/flight_assembly.hpp"
 
 namespace swiftlet {
 namespace {
@@ -52,8 +53,8 @@ const std::array<ReadingExtractor::Form, 1> ReadingExtractor::kAltitudeForms{
 
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
-  const auto offers_ranges = [](const Slots& of) { return of.has_ranges; };
-  const auto offers_flying = [](const Slots& of) { return of.flying.has_value(); };
+  const auto offers_ranges = [](const Slots& of) { return of.range_count; };
+  const auto offers_flying = [](const Slots& of) -> std::size_t { return of.flying ? 1 : 0; };
   Reading reading;
   reading.stream = record.block_id;
   reading.boot = record.boot;
@@ -66,7 +67,7 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   if (takes(height_source_, record, &Slots::height)) reading.height_m = read_height_m(record, slots.height);
   if (takes(altitude_source_, record, &Slots::altitude))
     reading.altitude_m = record.value(*slots.altitude.slots[0]);
-  if (offers_ranges(slots) && take_from(range_source_, record, offers_ranges)) {
+  if (slots.range_count > 0 && take_from(range_source_, record, offers_ranges)) {
     for (const Slot& slot : slots.ranges) {
       const double distance_m = slot ? record.value(*slot) * 1e-3 : std::numeric_limits<double>::quiet_NaN();
       static_cast<void>(reading.distance_m.try_push_back(static_cast<float>(distance_m)));
@@ -114,7 +115,7 @@ void ReadingExtractor::resolve(const LogRecord& record, Slots& slots) const {
   slots.resolved = true;
   for (std::size_t i = 0; i < kRangeVariables.size(); ++i) {
     slots.ranges[i] = find(record, kRangeVariables[i]);
-    slots.has_ranges = slots.has_ranges || slots.ranges[i].has_value();
+    if (slots.ranges[i]) ++slots.range_count;
   }
   slots.position = find_first(record, kPositionForms);
   slots.yaw = find_first(record, kYawForms);
@@ -155,27 +156,38 @@ ReadingExtractor::Slot ReadingExtractor::find(const LogRecord& record, std::stri
 
 bool ReadingExtractor::takes(std::optional<Source>& source, const LogRecord& record,
                              Quantity Slots::*quantity) {
-  const auto offers = [quantity](const Slots& of) { return static_cast<bool>(of.*quantity); };
-  return offers(slots_of(record)) && take_from(source, record, offers);
+  const auto offers = [quantity](const Slots& of) -> std::size_t { return of.*quantity ? 1 : 0; };
+  return offers(slots_of(record)) > 0 && take_from(source, record, offers);
 }
 
 template <typename Offers>
 bool ReadingExtractor::take_from(std::optional<Source>& source, const LogRecord& record, Offers offers) {
-  if (!source) source = source_for(record, offers);
+  if (source && !record.described) return source->block_id == record.block_id;
+  const Source own{record.block_id, record.block->period, offers(slots_of(record))};
+  if (!source)
+    source = record.described ? own : source_for(own, offers);
+  else if (is_better(own, *source))
+    source = own;
   return source->block_id == record.block_id;
 }
 
 /// Whatever another program logs beside it, a flight is mapped from the same block.
 template <typename Offers>
-ReadingExtractor::Source ReadingExtractor::source_for(const LogRecord& record, Offers offers) {
-  if (!record.described) {
-    for (std::uint8_t id = 0; id < record.block_id; ++id) {
-      const LogBlock& block = session_.blocks()[id];
-      const bool sends = block.running && block.period > Duration::zero();
-      if (sends && offers(slots_of_running(id))) return {id, block.period};
-    }
+ReadingExtractor::Source ReadingExtractor::source_for(const Source& own, Offers offers) {
+  std::optional<Source> best;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const auto id = static_cast<std::uint8_t>(i);
+    const LogBlock& block = session_.blocks()[id];
+    if (!block.running || block.period == Duration::zero()) continue;
+    const Source source{id, block.period, offers(slots_of_running(id))};
+    if (source.offered > 0 && (!best || is_better(source, *best))) best = source;
   }
-  return {record.block_id, record.block->period};
+  return best.value_or(own);
+}
+
+bool ReadingExtractor::is_better(const Source& source, const Source& than) {
+  if (source.offered != than.offered) return source.offered > than.offered;
+  return std::max(source.period, kUsualPeriod) < std::max(than.period, kUsualPeriod);
 }
 
 /// Before its first data, which may not hold all of it.

@@ -28,9 +28,11 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 /// if there, the tilt (of such a quaternion, or roll and pitch of stateEstimate or stabilizer), the height
 /// above the ground (range.zrange, or z of the position's groups), the barometer's altitude (baro.asl) and
 /// whether the vehicle flies (supervisor.info, sys.isFlying, stabilizer.thrust). Each of the seven is taken
-/// from one block: of those that run, the one with the lowest number; of blocks whose start was not seen, the
-/// first one received. Names are resolved when a layout changes, not per packet: fixed storage. One thread at
-/// a time; `session` must outlive it.
+/// from one block: of those that run, the one with the most distances; of equals the one with the shortest
+/// period, where all count as equal that are as short as kUsualPeriod; of equals the one with the lowest
+/// number. Of blocks whose start was not seen, the first one received; of those of a description a better one
+/// takes over when it comes. Names are resolved when a layout changes, not per packet: fixed storage. One
+/// thread at a time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
@@ -73,7 +75,7 @@ class ReadingExtractor {
   struct Slots {
     bool resolved = false;
     std::array<Slot, 4> ranges{};
-    bool has_ranges = false;
+    std::size_t range_count = 0;
     Quantity position;
     Quantity yaw;
     Quantity tilt;
@@ -85,6 +87,7 @@ class ReadingExtractor {
   struct Source {
     std::uint8_t block_id = 0;
     Duration period{};
+    std::size_t offered = 0;  ///< of the ranges their number, else 1
   };
   /// stateEstimateZ.x counts millimetres in 16 bits and wraps at 32.767 m: made continuous again.
   struct WrappedMillimetres {
@@ -104,7 +107,8 @@ class ReadingExtractor {
   template <typename Offers>
   bool take_from(std::optional<Source>& source, const LogRecord& record, Offers offers);
   template <typename Offers>
-  [[nodiscard]] Source source_for(const LogRecord& record, Offers offers);
+  [[nodiscard]] Source source_for(const Source& own, Offers offers);
+  [[nodiscard]] static bool is_better(const Source& source, const Source& than);
   static Duration period_of(const std::optional<Source>& source);
   Point2 read_position(const LogRecord& record, const Quantity& position);
   static double read_yaw_rad(const LogRecord& record, const Quantity& yaw);

@@ -180,17 +180,26 @@ TEST_F(ReadingExtractorTest, KeepsToTheFirstBlockThatOffersAPosition) {
   EXPECT_TRUE(extract(LogPacket(1, 20).f32(0.5F).f32(0.F)).has_value());
 }
 
+TEST_F(ReadingExtractorTest, ABetterBlockOfADescriptionTakesOverWhenItComes) {
+  describe(1, {{"range.front", LogType::kUint16}});
+  describe(2, {{"range.front", LogType::kUint16}, {"range.back", LogType::kUint16}});
+  EXPECT_TRUE(extract(LogPacket(1, 10).u16(500)).has_value());
+  EXPECT_TRUE(extract(LogPacket(2, 20).u16(500).u16(500)).has_value());
+  EXPECT_FALSE(extract(LogPacket(1, 30).u16(500)).has_value());
+}
+
 /// Blocks that hold the same variables.
 class RunningBlocksTest : public ReadingExtractorTest {
  protected:
   void learn(const LinkFrame& frame) { static_cast<void>(session_.on_frame(frame)); }
-  void make(std::uint8_t block, const Bytes& variables, bool starts = true) {
+  /// A period of 0: it is not started.
+  void make(std::uint8_t block, const Bytes& variables, std::uint8_t period_10ms = 10) {
     Bytes create{0x5D, 6, block};
     create.insert(create.end(), variables.begin(), variables.end());
     learn(sent(create));
     learn(received({0x5D, 6, block, 0}));
-    if (!starts) return;
-    learn(sent({0x5D, 3, block, 10}));
+    if (period_10ms == 0) return;
+    learn(sent({0x5D, 3, block, period_10ms}));
     learn(received({0x5D, 3, block, 0}));
   }
 };
@@ -199,7 +208,7 @@ TEST_F(RunningBlocksTest, ThePositionIsTakenFromTheLowestThatRunsWhoeverIsFirst)
   learn(received(toc_item_reply(0, LogType::kFloat, "stateEstimate", "x")));
   learn(received(toc_item_reply(1, LogType::kFloat, "stateEstimate", "y")));
   const Bytes position{7, 0, 0, 7, 1, 0};
-  make(1, position, false);
+  make(1, position, 0);
   make(2, position);
   make(16, position);
   EXPECT_FALSE(extract(LogPacket(16, 100).f32(5.F).f32(5.F)));
@@ -208,6 +217,32 @@ TEST_F(RunningBlocksTest, ThePositionIsTakenFromTheLowestThatRunsWhoeverIsFirst)
   learn(sent({0x5D, 2, 2}));
   learn(received({0x5D, 2, 2, 0}));
   EXPECT_TRUE(extract(LogPacket(16, 130).f32(5.F).f32(5.F)));
+}
+
+TEST_F(RunningBlocksTest, TheRangesAreTakenFromTheOneThatHoldsMost) {
+  for (std::uint16_t i = 0; i < 4; ++i)
+    learn(received(toc_item_reply(i, LogType::kUint16, "range", kRangeVariables[i] + 6)));
+  make(1, {2, 0, 0});
+  make(2, {2, 0, 0, 2, 1, 0, 2, 2, 0, 2, 3, 0}, 50);
+  EXPECT_FALSE(extract(LogPacket(1, 100).u16(1000)));
+  const auto reading = extract(LogPacket(2, 110).u16(1000).u16(2000).u16(3000).u16(4000));
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_THAT(reading->distance_m, ElementsAre(1.F, 2.F, 3.F, 4.F));
+  EXPECT_FALSE(extract(LogPacket(1, 120).u16(1000)));
+  EXPECT_TRUE(extractor_.missing_ranges().empty());
+  EXPECT_EQ(extractor_.range_period(), std::chrono::milliseconds(500));
+}
+
+TEST_F(RunningBlocksTest, ThePositionIsTakenFromNoneThatIsSlowerThanAnother) {
+  learn(received(toc_item_reply(0, LogType::kFloat, "stateEstimate", "x")));
+  learn(received(toc_item_reply(1, LogType::kFloat, "stateEstimate", "y")));
+  const Bytes position{7, 0, 0, 7, 1, 0};
+  make(1, position, 100);
+  make(2, position, 10);
+  make(16, position, 1);  // of a client, which comes and goes: no better than as often as ranges are measured
+  EXPECT_FALSE(extract(LogPacket(1, 100).f32(1.F).f32(1.F)));
+  EXPECT_FALSE(extract(LogPacket(16, 110).f32(1.F).f32(1.F)));
+  EXPECT_TRUE(extract(LogPacket(2, 110).f32(1.F).f32(1.F)));
 }
 
 TEST_F(RunningBlocksTest, WhetherTheVehicleFliesIsTakenFromOne) {
