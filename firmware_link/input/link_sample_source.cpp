@@ -29,7 +29,7 @@ LinkSampleSource::LinkSampleSource(LinkInput input)
   report_.notes = input_.notes;
   if (input_.description) session_.describe(*input_.description);
   if (input_.starts_logging) live_.emplace(session_, cache_, input_.shared != nullptr);
-  follow_periods();
+  assembler_.set_periods(range_period_, odometry_period_);
 }
 
 Status LinkSampleSource::find_first_sample() {
@@ -128,11 +128,9 @@ Status LinkSampleSource::answer_failure(const Error& error, Duration waited) {
 }
 
 void LinkSampleSource::follow_periods() {
-  const auto known_or_usual = [](Duration period) {
-    return period > Duration::zero() ? period : kUsualPeriod;
-  };
-  const Duration range_period = known_or_usual(extractor_.range_period());
-  const Duration odometry_period = known_or_usual(extractor_.odometry_period());
+  const bool finds_odometry = extractor_.finds_position() && extractor_.finds_yaw();
+  const Duration range_period = extractor_.finds_ranges() ? extractor_.range_period() : range_period_;
+  const Duration odometry_period = finds_odometry ? extractor_.odometry_period() : odometry_period_;
   if (range_period == range_period_ && odometry_period == odometry_period_) return;
   range_period_ = range_period;
   odometry_period_ = odometry_period;

@@ -101,8 +101,8 @@ class LinkSampleSource final : public SampleSource {
   ReadingExtractor extractor_;
   LandedOdometryFreeze ground_;
   SampleAssembler assembler_;
-  Duration range_period_{};
-  Duration odometry_period_{};
+  Duration range_period_{};     ///< 0: unknown
+  Duration odometry_period_{};  ///< likewise
   HostTime now_{};
   HostTime received_at_{};  // the last frame from the vehicle
   std::optional<Error> end_;

@@ -8,9 +8,6 @@
 
 namespace swiftlet {
 
-/// Of log blocks that do not say theirs.
-inline constexpr Duration kUsualPeriod = std::chrono::milliseconds(100);
-
 /// Ten times as far as the firmware's estimator lets its position go.
 inline constexpr double kMaxFromBeginningM = 1000.0;
 

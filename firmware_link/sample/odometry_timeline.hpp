@@ -73,7 +73,8 @@ class OdometryTimeline {
   enum class Outcome {
     kFound,
     kTooEarly,  ///< nothing received yet at or after that time: try again later
-    kNever,     ///< a hole, a jump, or before the oldest reading
+    kHole,      ///< between readings that are too far apart
+    kNever,     ///< a jump, or before the oldest reading
   };
   struct Answer {
     Outcome outcome = Outcome::kNever;
@@ -126,7 +127,8 @@ class OdometryTimeline {
       if (before.at == time) return {Outcome::kFound, before.value, before.run};
       const Reading& after = reading(i);
       const Duration hole = after.at - before.at;
-      if (hole > limits_.longest_interpolation || before.run != after.run) return {};
+      if (before.run != after.run) return {};
+      if (hole > limits_.longest_interpolation) return {Outcome::kHole, {}, before.run};
       const double fraction = to_seconds(time - before.at) / to_seconds(hole);
       return {Outcome::kFound, interpolate(before.value, after.value, fraction), before.run};
     }

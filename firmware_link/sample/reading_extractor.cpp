@@ -9,7 +9,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "firmware_link/sample/attitude.hpp"
-#include "firmware_link/sample/flight_assembly.hpp"
+#include "firmware_link/sample/learnt_period.hpp"
 
 namespace swiftlet {
 namespace {
@@ -81,7 +81,10 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
 }
 
 Duration ReadingExtractor::odometry_period() const {
-  return std::max(period_of(position_source_), period_of(yaw_source_));
+  const Duration position_period = period_of(position_source_);
+  const Duration yaw_period = period_of(yaw_source_);
+  const bool is_known = std::min(position_period, yaw_period) > Duration::zero();
+  return is_known ? std::max(position_period, yaw_period) : Duration::zero();
 }
 
 std::vector<std::string> ReadingExtractor::missing_ranges() const {

@@ -19,6 +19,8 @@ constexpr double kGapInPeriods = 1.5;
 constexpr Duration kHeightHolds = std::chrono::milliseconds(300);
 // The ranges that follow one lost packet keep their dead reckoning.
 constexpr double kMaxInterpolationInPeriods = 2.5;
+// What is seldomer is no dead reckoning.
+constexpr Duration kLongestLearnt = std::chrono::seconds(1);
 
 Duration scaled(Duration duration, double factor) { return from_seconds(to_seconds(duration) * factor); }
 
@@ -39,11 +41,46 @@ SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputCounters& co
 
 void SampleAssembler::set_periods(Duration range_period, Duration odometry_period) {
   config_.range_period = range_period;
+  learns_range_period_ = range_period == Duration::zero();
+  learns_odometry_period_ = odometry_period == Duration::zero();
+  if (learns_range_period_) range_times_ = {};
+  if (learns_odometry_period_) position_times_ = yaw_times_ = {};
+  interpolate_across(learns_odometry_period_ ? kUsualPeriod : odometry_period);
+}
+
+void SampleAssembler::interpolate_across(Duration odometry_period) {
   config_.continuity.longest_interpolation = scaled(odometry_period, kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
   tilts_.set_limits(config_.continuity);
   heights_.set_limits(config_.continuity);
+}
+
+void SampleAssembler::learn_periods(const Reading& reading) {
+  if (!reading.distance_m.empty()) range_times_.add(reading.at);
+  if (reading.position_odom) position_times_.add(reading.at);
+  if (reading.yaw_odom_rad) yaw_times_.add(reading.at);
+  apply_learnt_periods();
+}
+
+void SampleAssembler::apply_learnt_periods() {
+  if (learns_range_period_ && (range_times_.is_certain() || ended_)) {
+    learns_range_period_ = false;
+    config_.range_period = range_times_.period();
+    for (const Duration between_ranges : range_times_.spacings()) count_hole(between_ranges);
+  }
+  const bool is_certain = position_times_.is_certain() && yaw_times_.is_certain();
+  const bool is_likely = !position_times_.spacings().empty() && !yaw_times_.spacings().empty();
+  if (learns_odometry_period_ && (is_certain || (is_likely && pending_.full()) || ended_)) {
+    learns_odometry_period_ = false;
+    const Duration slower = std::max(position_times_.period(), yaw_times_.period());
+    interpolate_across(std::clamp(slower, kUsualPeriod, kLongestLearnt));
+  }
+}
+
+void SampleAssembler::end() {
+  ended_ = true;
+  apply_learnt_periods();
 }
 
 void SampleAssembler::add(const Reading& reading) {
@@ -68,6 +105,7 @@ void SampleAssembler::add(const Reading& reading) {
     static_cast<void>(heights_.add(reading.at, {*reading.height_m}));
   follow_ground(reading);
   if (!reading.distance_m.empty()) hold_ranges(reading);
+  if (learns_range_period_ || learns_odometry_period_) learn_periods(reading);
 }
 
 /// A height that is no number, or none above 0: the ground is out of reach, or nothing measures it.
@@ -138,17 +176,17 @@ void SampleAssembler::hold_ranges(const Reading& reading) {
 
 /// By the vehicle's clock; by the host's if the vehicle's has restarted.
 void SampleAssembler::count_gap(const Reading& reading) {
-  if (last_ranges_received_ && config_.range_period > Duration::zero()) {
-    const Duration since =
-        last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.received - *last_ranges_received_;
-    const double periods = to_seconds(since) / to_seconds(config_.range_period);
-    if (periods > kGapInPeriods) {
-      ++counters_.gaps;
-      counters_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
-    }
-  }
+  if (last_ranges_received_ && config_.range_period > Duration::zero())
+    count_hole(last_ranges_at_ ? reading.at - *last_ranges_at_ : reading.received - *last_ranges_received_);
   last_ranges_at_ = reading.at;
   last_ranges_received_ = reading.received;
+}
+
+void SampleAssembler::count_hole(Duration between_ranges) {
+  const double periods = to_seconds(between_ranges) / to_seconds(config_.range_period);
+  if (periods <= kGapInPeriods) return;
+  ++counters_.gaps;
+  counters_.missing_packets += static_cast<std::uint64_t>(std::lround(periods)) - 1;
 }
 
 bool SampleAssembler::repeats_measurement(const Reading& reading) {
@@ -169,12 +207,14 @@ std::optional<RangeSample> SampleAssembler::take() {
     const auto yaw = yaws_.at(at);
     const bool too_early = position.outcome == Outcome::kTooEarly || yaw.outcome == YawOutcome::kTooEarly;
     const bool never = position.outcome == Outcome::kNever || yaw.outcome == YawOutcome::kNever;
+    const bool in_hole = position.outcome == Outcome::kHole || yaw.outcome == YawOutcome::kHole;
+    if ((too_early || in_hole) && !never && learns_odometry_period_) return std::nullopt;
     // A reading later than one interpolation span could not be used; another span for packets that overtake
     // each other.
     const bool may_come = !ended_ && latest_ - at <= 2 * config_.continuity.longest_interpolation;
     const bool is_incomplete = too_early || is_coming(tilts_, at) || is_coming(heights_, at);
-    if (is_incomplete && !never && may_come) return std::nullopt;
-    if (too_early || never) {
+    if (is_incomplete && !never && !in_hole && may_come) return std::nullopt;
+    if (too_early || never || in_hole) {
       drop_oldest();
       continue;
     }

@@ -13,6 +13,7 @@
 #include "core/sensing/sensor_model.hpp"
 #include "core/sensing/storey_tracker.hpp"
 #include "firmware_link/sample/input_counters.hpp"
+#include "firmware_link/sample/learnt_period.hpp"
 #include "firmware_link/sample/odometry_timeline.hpp"
 
 namespace swiftlet {
@@ -61,14 +62,15 @@ class SampleAssembler {
   /// Counts into `counters`, which must outlive the assembler.
   SampleAssembler(const AssemblyConfig& config, InputCounters& counters);
 
-  /// The periods of ranges and dead reckoning, once known. Dead reckoning is then interpolated across at most
-  /// 2.5 periods: one lost packet.
+  /// The periods of ranges and dead reckoning; 0: not known, it is learnt from the next readings, and ranges
+  /// in holes of the dead reckoning wait meanwhile. Dead reckoning is interpolated across at most 2.5 periods
+  /// (one lost packet), where its period is learnt from 250 ms to 2.5 s.
   void set_periods(Duration range_period, Duration odometry_period);
   /// A duplicate or late reading is dropped and counted; a step back of more than a second is a reboot of the
   /// vehicle.
   void add(const Reading& reading);
   /// No more readings will come: ranges that wait for dead reckoning are dropped.
-  void end() { ended_ = true; }
+  void end();
   /// The next finished sample, if any. Call until empty after each add().
   [[nodiscard]] std::optional<RangeSample> take();
   [[nodiscard]] const StoreyTracker& storeys() const { return storeys_; }
@@ -91,6 +93,11 @@ class SampleAssembler {
   void restart();
   void follow_ground(const Reading& reading);
   void count_gap(const Reading& reading);
+  void count_hole(Duration between_ranges);
+  void interpolate_across(Duration odometry_period);
+  void learn_periods(const Reading& reading);
+  /// If enough readings have come for them, or no more can.
+  void apply_learnt_periods();
   /// Whether no sensor has measured since the last ranges that were held.
   bool repeats_measurement(const Reading& reading);
   void hold_ranges(const Reading& reading);
@@ -107,6 +114,11 @@ class SampleAssembler {
   void drop_oldest();
 
   AssemblyConfig config_;
+  bool learns_range_period_ = false;
+  bool learns_odometry_period_ = false;
+  LearntPeriod range_times_;
+  LearntPeriod position_times_;
+  LearntPeriod yaw_times_;
   InputCounters& counters_;
   OdometryTimeline<Point2> positions_;
   OdometryTimeline<YawReading> yaws_;

@@ -97,7 +97,7 @@ FlightTableSource::FlightTableSource(std::string path, GzipLines lines, const Se
       lines_(std::move(lines)),
       sensor_(sensor),
       assembler_(flight_assembly(sensor), report_.counters) {
-  assembler_.set_periods(kUsualPeriod, kUsualPeriod);
+  assembler_.set_periods(Duration::zero(), Duration::zero());  // no row tells them
 }
 
 Result<ReceivedSample> FlightTableSource::next() {

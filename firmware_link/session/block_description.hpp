@@ -27,7 +27,7 @@ struct BlockDescription {
     LogType type = LogType::kUint8;
   };
   struct Block {
-    Duration period{0};  ///< 0: not given
+    Duration period{0};  ///< 0: not given, and learnt from the packets
     std::vector<Variable> variables;
   };
   std::string source;  ///< the file it was read from

@@ -213,6 +213,18 @@ TEST(LinkSampleSource, FallsBackToADescriptionAndReportsIt) {
   EXPECT_THAT(source.report().notes, ElementsAre(HasSubstr("taken from flight.pcap.toml")));
 }
 
+TEST(LinkSampleSource, LearnsThePeriodOfABlockWhoseStartItHasNotSeen) {
+  SyntheticCapture capture;
+  std::vector<LinkFrame> frames = capture.handshake();
+  frames.erase(frames.end() - 2, frames.end());
+  for (int i = 0; i <= 40; i += 2)  // each 200 ms
+    if (i != 20) frames.push_back(capture.data(i));
+  LinkSampleSource source(input_of(frames));
+  EXPECT_EQ(read_all(source).size(), 19U);  // without the first and the lost one
+  EXPECT_EQ(source.report().counters.gaps, 1U);
+  EXPECT_EQ(source.report().counters.missing_packets, 1U);
+}
+
 TEST(LinkSampleSource, MapsACaptureWithTheYawOfTheStabilizer) {
   SyntheticCapture capture;
   std::vector<LinkFrame> frames = capture.frames();

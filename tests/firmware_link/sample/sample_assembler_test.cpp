@@ -430,6 +430,73 @@ std::size_t samples_of_packets(int count, Lost is_lost) {
   return samples;
 }
 
+/// Of ten seconds: ranges and yaw every 100 ms, a position every `period_ms`, those at `lost_ms` left out.
+struct SparseFlight {
+  InputCounters counters;
+  std::vector<RangeSample> samples;
+};
+SparseFlight fly_sparsely(std::int64_t period_ms, const std::vector<std::int64_t>& lost_ms,
+                          Duration stated_period) {
+  SparseFlight flight;
+  AssemblyConfig sparse = config();
+  sparse.sensor.range_age = Duration::zero();
+  SampleAssembler assembler(sparse, flight.counters);
+  assembler.set_periods(stated_period, stated_period);
+  const auto drain = [&] {
+    while (const auto sample = assembler.take()) flight.samples.push_back(*sample);
+  };
+  for (std::int64_t ms = 0; ms <= 10'000; ms += 100) {
+    Reading reading;
+    reading.at = device_ms(ms);
+    reading.yaw_odom_rad = 0.0;
+    if (ms % period_ms == 0 && std::ranges::find(lost_ms, ms) == lost_ms.end())
+      reading.position_odom = Point2{1e-4 * static_cast<double>(ms), 0.0};
+    for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+    assembler.add(reading);
+    drain();
+  }
+  assembler.end();
+  drain();
+  return flight;
+}
+
+TEST(SampleAssembler, LearnsThePeriodOfTheDeadReckoningThatNobodyStates) {
+  EXPECT_EQ(fly_sparsely(500, {}, Duration::zero()).samples.size(), 101U);
+  EXPECT_EQ(fly_sparsely(1000, {}, Duration::zero()).samples.size(), 101U);
+  EXPECT_EQ(fly_sparsely(200, {4000}, Duration::zero()).samples.size(), 101U) << "one is lost";
+  EXPECT_EQ(fly_sparsely(200, {200}, Duration::zero()).samples.size(), 101U) << "before it is learnt";
+  EXPECT_EQ(fly_sparsely(200, {4000, 4200}, Duration::zero()).samples.size(), 96U) << "two are lost";
+}
+
+TEST(SampleAssembler, LearnsFromPositionsAtTenHertzWhatIsUsual) {
+  for (const std::vector<std::int64_t>& lost_ms :
+       {std::vector<std::int64_t>{}, {100}, {100, 200}, {4000, 4100}, {100, 200, 300, 400, 500, 600, 700}}) {
+    const SparseFlight stated = fly_sparsely(100, lost_ms, milliseconds(100));
+    const SparseFlight learnt = fly_sparsely(100, lost_ms, Duration::zero());
+    ASSERT_EQ(learnt.samples.size(), stated.samples.size());
+    for (std::size_t i = 0; i < learnt.samples.size(); ++i)
+      ASSERT_EQ(learnt.samples[i].measured_at, stated.samples[i].measured_at);
+    EXPECT_EQ(learnt.counters.unpaired, stated.counters.unpaired);
+  }
+}
+
+TEST(SampleAssembler, CountsGapsByThePeriodOfTheRangesThatItLearns) {
+  for (const std::int64_t period_ms : {20, 100, 500}) {
+    InputCounters counters;
+    SampleAssembler assembler(config(), counters);
+    assembler.set_periods(Duration::zero(), Duration::zero());
+    for (std::int64_t i = 0; i < 20; ++i) {
+      if (i == 2 || i == 15 || i == 16) continue;
+      Reading reading;
+      reading.at = device_ms(i * period_ms + i % 2);
+      for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+      assembler.add(reading);
+    }
+    EXPECT_EQ(counters.gaps, 2U) << period_ms;
+    EXPECT_EQ(counters.missing_packets, 3U) << period_ms;
+  }
+}
+
 TEST(SampleAssembler, APacketThatIsLostAloneCostsItsOwnSampleOnly) {
   EXPECT_EQ(samples_of_packets(100, [](int) { return false; }), 99U);
   EXPECT_EQ(samples_of_packets(100, [](int i) { return i == 50; }), 98U);

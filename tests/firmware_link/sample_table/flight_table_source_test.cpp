@@ -66,6 +66,20 @@ TEST(FlightTableSource, RangesGoToTheBeamsThatMeasuredThem) {
   EXPECT_EQ(samples[1].status[2], RangeStatus::kNoReturn);
 }
 
+TEST(FlightTableSource, LearnsHowOftenPositionsCome) {
+  std::string rows;
+  for (int ms = 15'000; ms <= 20'000; ms += 100) {
+    const std::string stamps = "," + std::to_string(1'600'000'000 + ms / 1000) + "," + std::to_string(ms);
+    if (ms % 500 == 0) rows += "1" + stamps + ",0.1,0.2,0.5\n";
+    rows += "2" + stamps + ",1,0,0,0,1.5,2.5,0.5,3.5\n";
+  }
+  const TemporaryFile file("a.csv", kFlightHead + rows);
+  const auto source = open_sample_source(file.path(), {});
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_EQ(samples_of(**source).size(), 50U);
+  EXPECT_EQ((*source)->report().counters.gaps, 0U);
+}
+
 TEST(FlightTableSource, SkipsEmptyLines) {
   const TemporaryFile file("a.csv", kFlightHead + "\n" + kFlight + "\n\r\n");
   const auto source = open_sample_source(file.path(), {});
