@@ -8,26 +8,32 @@
 #include "firmware_link/crtp/crtp_packet.hpp"
 
 namespace swiftlet {
+namespace {
 
-Result<std::unique_ptr<ReplayLink>> ReplayLink::open(const std::string& path) {
+void add_once(std::vector<CaptureVehicle>& vehicles, const CaptureVehicle& vehicle) {
+  if (std::ranges::find(vehicles, vehicle) == vehicles.end()) vehicles.push_back(vehicle);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ReplayLink>> ReplayLink::open(const std::string& path, std::size_t passed_over) {
   Result<CaptureReader> reader = CaptureReader::open(path);
   if (!reader) return reader.error();
   std::unique_ptr<ReplayLink> link(new ReplayLink(std::move(reader).value()));
   const Status surveyed = link->survey();
   if (!surveyed) return surveyed.error();
+  link->choose(passed_over);
   return link;
 }
 
 Status ReplayLink::survey() {
-  std::vector<CaptureVehicle> vehicles;  // in order of appearance
-  bool sends_log_data = false;
   HostTime last{};
   bool steps_back = false;
   stamps_.emplace();
   for (;;) {
     const Result<CaptureRecord> record = reader_.next();
     if (!record) {
-      if (vehicles.empty()) {
+      if (left_out_.empty()) {
         if (record.error().code == ErrorCode::kDamaged) return record.error();
         return Error{ErrorCode::kInvalidInput, reader_.path() + ": a capture without a single packet"};
       }
@@ -37,17 +43,11 @@ Status ReplayLink::survey() {
     if (!MinuteStamps::may_be(record->frame.at)) stamps_.reset();
     steps_back = steps_back || last - record->frame.at > std::chrono::seconds(30);
     last = record->frame.at;
-    if (std::find(vehicles.begin(), vehicles.end(), vehicle) == vehicles.end()) vehicles.push_back(vehicle);
-    if (!sends_log_data && record->frame.direction == LinkDirection::kFromVehicle &&
-        is_on(record->frame.packet(), kLogDataTopic)) {
-      sends_log_data = true;
-      followed_ = vehicle;
-    }
+    add_once(left_out_, vehicle);
+    if (record->frame.direction == LinkDirection::kFromVehicle &&
+        is_on(record->frame.packet(), kLogDataTopic))
+      add_once(senders_, vehicle);
   }
-  if (!sends_log_data) followed_ = vehicles.front();
-  for (const CaptureVehicle& vehicle : vehicles)
-    if (vehicle != followed_)
-      notes_.push_back("follows " + followed_.text() + ", leaves out " + vehicle.text());
   if (reader_.skipped() > 0)
     notes_.push_back(std::to_string(reader_.skipped()) + " records passed over that hold no CRTP packet");
   if (stamps_ && steps_back)
@@ -56,6 +56,13 @@ Status ReplayLink::survey() {
         "them): continued by the vehicle's clock, the date is unknown");
   reader_.rewind();
   return {};
+}
+
+void ReplayLink::choose(std::size_t passed_over) {
+  followed_ = senders_.empty() ? left_out_.front() : senders_[std::min(passed_over, senders_.size() - 1)];
+  std::erase(left_out_, followed_);
+  for (const CaptureVehicle& vehicle : left_out_)
+    notes_.push_back("follows " + followed_.text() + ", leaves out " + vehicle.text());
 }
 
 Result<LinkFrame> ReplayLink::receive(Duration /*timeout*/) {

@@ -68,21 +68,44 @@ Status describe(const std::string& path, LinkInput& input) {
   return {};
 }
 
-Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
-                                                   const SampleSourceOptions& options) {
-  Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path);
-  if (!link) return link.error();
+Result<LinkInput> capture_input(const std::string& path, const SampleSourceOptions& options,
+                                std::unique_ptr<ReplayLink> link) {
   LinkInput input;
   input.name = path;
   if (const Status applied = apply(options, input); !applied) return applied.error();
-  for (const std::string& note : (*link)->notes()) input.notes.push_back(note);
-  input.progress = [replay = link->get()]() { return std::optional<double>(replay->progress()); };
-  input.link = std::move(link).value();
+  for (const std::string& note : link->notes()) input.notes.push_back(note);
+  input.progress = [replay = link.get()]() { return std::optional<double>(replay->progress()); };
+  input.link = std::move(link);
   if (const Status described = describe(path, input); !described) return described.error();
-  auto source = std::make_unique<LinkSampleSource>(std::move(input));
-  const Status found = source->find_first_sample();
-  if (!found) return found.error();
-  return std::unique_ptr<SampleSource>(std::move(source));
+  return input;
+}
+
+/// Which vehicle a capture's error is about, where it has several.
+std::string named_vehicle(const ReplayLink& link) {
+  std::string others;
+  for (const CaptureVehicle& vehicle : link.left_out())
+    others += (others.empty() ? "" : ", ") + vehicle.text();
+  if (others.empty()) return {};
+  return " (of " + link.followed().text() + "; cannot be mapped either: " + others + ")";
+}
+
+/// Of the first vehicle that can be mapped.
+Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
+                                                   const SampleSourceOptions& options) {
+  std::optional<Error> first_failure;
+  for (std::size_t passed_over = 0;; ++passed_over) {
+    Result<std::unique_ptr<ReplayLink>> link = ReplayLink::open(path, passed_over);
+    if (!link) return link.error();
+    const bool is_last = passed_over + 1 >= (*link)->senders();
+    const std::string vehicle = named_vehicle(**link);
+    Result<LinkInput> input = capture_input(path, options, std::move(link).value());
+    if (!input) return input.error();
+    auto source = std::make_unique<LinkSampleSource>(std::move(input).value());
+    const Status found = source->find_first_sample();
+    if (found) return std::unique_ptr<SampleSource>(std::move(source));
+    if (!first_failure) first_failure = Error{found.error().code, found.error().message + vehicle};
+    if (is_last) return *first_failure;
+  }
 }
 
 /// Without waiting for its first sample.

@@ -55,6 +55,22 @@ TEST(ReplayLink, ReplaysTheVehicleThatSendsLogDataFirstAndReportsTheOthers) {
                           "follows radio E7E7E7E702 channel 80, leaves out radio E7E7E7E702 channel 90"));
 }
 
+TEST(ReplayLink, PassesOverVehiclesThatSendLogDataEarlier) {
+  const TemporaryFile file("a.pcap");
+  std::string bytes = capture_bytes({sent(hex("ff"))}, radio_vehicle(0x01));
+  for (const std::uint8_t vehicle : Bytes{3, 2, 3})
+    bytes += capture_bytes({received({0x52, 1, 0, 0, 0, vehicle})}, radio_vehicle(vehicle))
+                 .substr(kPcapFileHeader);
+  file.write(bytes);
+  for (const auto& [passed_over, vehicle] : {std::pair(0U, 3), {1U, 2}, {2U, 2}}) {
+    auto link = ReplayLink::open(file.path(), passed_over);
+    ASSERT_TRUE(link.ok());
+    EXPECT_EQ((*link)->senders(), 2U);
+    EXPECT_EQ((*link)->left_out().size(), 2U);
+    EXPECT_EQ((*link)->receive(Duration::zero())->packet()[5], vehicle);
+  }
+}
+
 TEST(ReplayLink, ContinuesStampsThatWrapEachMinuteByTheVehiclesClock) {
   const TemporaryFile file("a.pcap");
   std::vector<LinkFrame> written;

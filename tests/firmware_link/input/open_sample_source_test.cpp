@@ -72,6 +72,31 @@ variables = [
   EXPECT_THAT(refusal(capture.path()), HasSubstr(description.path() + ":1: a block needs variables"));
 }
 
+TEST(OpenSampleSource, MapsTheFirstVehicleOfACaptureThatCanBe) {
+  const TemporaryFile capture("flight.pcap");
+  SyntheticCapture on_the_desk;
+  on_the_desk.packets = 1;
+  const auto of = [](const SyntheticCapture& flight, std::uint8_t vehicle) {
+    return capture_bytes(flight.frames(), radio_vehicle(vehicle)).substr(kPcapFileHeader);
+  };
+  const std::string desk = capture_bytes(on_the_desk.frames(), radio_vehicle(1));
+  capture.write(desk + of(on_the_desk, 2) + of(SyntheticCapture{}, 3));
+  const auto source = open_sample_source(capture.path(), {});
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_EQ(read_all(**source).size(), 7U);
+  EXPECT_THAT(
+      (*source)->report().notes,
+      testing::ElementsAre(HasSubstr("follows radio E7E7E7E703 channel 80, leaves out radio E7E7E7E701"),
+                           HasSubstr("follows radio E7E7E7E703 channel 80, leaves out radio E7E7E7E702")));
+  capture.write(desk + of(on_the_desk, 2) + of(on_the_desk, 3));
+  EXPECT_THAT(refusal(capture.path()),
+              testing::AllOf(HasSubstr("never lie close enough in time"),
+                             HasSubstr("(of radio E7E7E7E701 channel 80;"),
+                             HasSubstr("either: radio E7E7E7E702 channel 80, radio E7E7E7E703 channel 80)")));
+  capture.write(desk);
+  EXPECT_THAT(refusal(capture.path()), testing::Not(HasSubstr("(of ")));
+}
+
 TEST(OpenSampleSource, UsesATruncatedCaptureUpToTheDamage) {
   const TemporaryFile capture("flight.pcap");
   write_capture(capture.path(), SyntheticCapture{}.frames());
