@@ -51,7 +51,7 @@ ALLOWED = {  # folder: folders it may include from, besides itself; the longest 
     "firmware_link/sharing": SENSING + SESSION,
     "firmware_link/capture": SENSING + SESSION + ["firmware_link/file"],
     "firmware_link/laser_log": SENSING + ["firmware_link/file", "firmware_link/sample"],
-    "firmware_link/sample_table": SENSING + ["firmware_link/file", "firmware_link/sample"],
+    "firmware_link/sample_table": SENSING + SAMPLE,
     "firmware_link/simulation": SENSING + LINK,
     "firmware_link/input": SENSING + FIRMWARE_LINK,
     "daemon/system": ["core/base"],

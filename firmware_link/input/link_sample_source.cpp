@@ -140,7 +140,7 @@ void LinkSampleSource::follow_periods() {
 /// What the log packets lacked, once: where the link ends by itself, or at the end of the run.
 void LinkSampleSource::finish_report() {
   if (std::exchange(report_is_finished_, true)) return;
-  if (session_.used_description())
+  if (session_.used_description() && !input_.description->source.empty())
     report_.notes.push_back("block layouts taken from " + input_.description->source +
                             ": the recording has no table of contents for them");
   for (const std::string& name : extractor_.missing_ranges())

@@ -14,6 +14,7 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
+#include "firmware_link/sample_table/client_table_link.hpp"
 #include "firmware_link/sample_table/flight_table_source.hpp"
 #include "firmware_link/sample_table/sample_table_source.hpp"
 #include "firmware_link/sharing/client_socket.hpp"
@@ -108,6 +109,20 @@ Result<std::unique_ptr<SampleSource>> open_capture(const std::string& path,
   }
 }
 
+Result<std::unique_ptr<SampleSource>> open_client_table(const std::string& path,
+                                                        const SampleSourceOptions& options) {
+  Result<std::unique_ptr<ClientTableLink>> link = ClientTableLink::open(path);
+  if (!link) return link.error();
+  LinkInput input;
+  input.name = path;
+  if (const Status applied = apply(options, input); !applied) return applied.error();
+  input.description = (*link)->description();
+  input.link = std::move(link).value();
+  auto source = std::make_unique<LinkSampleSource>(std::move(input));
+  if (const Status found = source->find_first_sample(); !found) return found.error();
+  return std::unique_ptr<SampleSource>(std::move(source));
+}
+
 /// Without waiting for its first sample.
 Result<std::unique_ptr<SampleSource>> open_followed(const std::string& path,
                                                     const SampleSourceOptions& options) {
@@ -135,6 +150,7 @@ Result<std::unique_ptr<SampleSource>> open_file(const std::string& path, const S
   if (!size) return size.error();
   if (begins_like_capture(path) || path.ends_with(".pcap") || path.ends_with(".pcap.gz"))
     return open_capture(path, options);
+  if (is_client_table(path)) return open_client_table(path, options);
   if (is_flight_table(path)) return open_flight_table(path, options);
   if (is_taken_for_sample_table(path)) return SampleTableSource::open(path, options);
   const Status limits = check_limits(options, SensorModel::carmen_laser());

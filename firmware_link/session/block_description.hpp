@@ -30,7 +30,7 @@ struct BlockDescription {
     Duration period{0};  ///< 0: not given, and learnt from the packets
     std::vector<Variable> variables;
   };
-  std::string source;  ///< the file it was read from
+  std::string source;  ///< the file it was read from; empty: none
   std::map<std::uint8_t, Block> blocks;
 };
 

@@ -164,6 +164,12 @@ constexpr std::string_view kRelations =
     "90.239599 90.719599 0.42 0 0 0 0 0.01\n90.719599 90.239599 -0.42 0 0 0 0 0\n";
 /// May be either.
 constexpr std::string_view kRelationsOrTruth = "1 2 0.5 0 0 0 0 1\n2 1 0 0 0 0 0 1\n";
+/// What cfclient saves.
+constexpr std::string_view kClientTable =
+    "Timestamp,stateEstimate.x,stateEstimate.y,stabilizer.yaw,range.front,range.left,range.back,range.right\n"
+    "15000,0,0.25,90,2000,700,32766,0\n"
+    "15100,0.05,0.25,90,1950,700,32766,0\n"
+    "15200,0.1,0.25,90,1900,700,32766,0\n";
 /// Two samples with each kind of range.
 std::string sample_table() {
   RangeSample sample;
@@ -308,7 +314,8 @@ bool write_all(const std::filesystem::path& folder) {
          write(folder / "recording/usb.pcap", two_blocks, CaptureLinkKind::kUsb) &&
          write(folder / "recording/laser.clf", laser_log()) &&
          write(folder / "recording/samples.csv", sample_table()) &&
-         write(folder / "reference/truth", kTruth) && write(folder / "reference/relations", kRelations) &&
+         write(folder / "recording/client.csv", kClientTable) && write(folder / "reference/truth", kTruth) &&
+         write(folder / "reference/relations", kRelations) &&
          write(folder / "reference/either", kRelationsOrTruth) &&
          write(folder / "block_description/one.toml", kDescription) && write_view(folder);
 }
