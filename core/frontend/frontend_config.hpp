@@ -45,10 +45,10 @@ struct FrontendConfig {
   static constexpr SettingsSection kSection{"frontend", "The landmark graph: one step for each sample."};
   static constexpr Setting<FrontendConfig> kSettings[] = {
       {"use_landmarks", &FrontendConfig::use_landmarks, "", "false: dead reckoning only, a baseline"},
-      {"keyframe_distance_m", &FrontendConfig::keyframe_distance_m, "m", "a keyframe after this much travel",
-       0.01, 10},
-      {"keyframe_turn_rad", &FrontendConfig::keyframe_turn_rad, "rad", "a keyframe after this much turning",
-       0.01, 3.2},
+      {"keyframe_distance_m", &FrontendConfig::keyframe_distance_m, "m",
+       "a keyframe once the vehicle is this far away from the last one", 0.01, 10},
+      {"keyframe_turn_rad", &FrontendConfig::keyframe_turn_rad, "rad",
+       "a keyframe once the vehicle is turned by this much against the last one", 0.01, 3.2},
       {"multiscan_points", &FrontendConfig::multiscan_points, "",
        "k scans are seen together, k = this / beams, rounded up, at least 2", 8,
        kMaxMultiscanPoints - kMaxBeams},

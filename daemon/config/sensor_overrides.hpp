@@ -58,15 +58,15 @@ struct SensorOverrides {
       {"expected_drift_yaw_per_radian", &SensorOverrides::expected_drift_yaw_per_radian, "rad/rad",
        "the same with every radian turned", -0.5, 0.5},
       {"odometry_forward_scale", &SensorOverrides::odometry_forward_scale, "m/m",
-       "metres moved per metre of dead reckoning, forward; swiftlet calibrate estimates this and what "
-       "follows",
+       "metres moved per metre of dead reckoning, forward; swiftlet calibrate estimates this, "
+       "odometry_sideways_scale, the missed_yaw_ keys and range_age_s",
        0.5, 2},
       {"reported_forward_scale", &SensorOverrides::reported_forward_scale, "m/m",
-       "the same for dead reckoning as a map of its own; left out: the same value, for wheels without the "
-       "estimate of swiftlet map",
+       "the forward scale where the final map follows dead reckoning alone; left out: "
+       "odometry_forward_scale (for wheels as configured, not as swiftlet map estimates it)",
        0.5, 2},
-      {"odometry_sideways_scale", &SensorOverrides::odometry_sideways_scale, "m/m", "the same sideways", 0.5,
-       2},
+      {"odometry_sideways_scale", &SensorOverrides::odometry_sideways_scale, "m/m",
+       "metres moved per metre of dead reckoning, sideways", 0.5, 2},
       {"missed_yaw_per_metre_rad", &SensorOverrides::missed_yaw_per_metre_rad, "rad/m",
        "yaw that dead reckoning misses with every metre forward", -0.5, 0.5},
       {"missed_yaw_per_radian", &SensorOverrides::missed_yaw_per_radian, "rad/rad",
