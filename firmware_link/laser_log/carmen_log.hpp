@@ -62,10 +62,10 @@ struct CarmenLog {
 };
 
 /// Reads a whole log, plain or gzip. FLASER lines lie as usual_geometry() has it; the others say how theirs
-/// lie. The first line decides where the beams are; where later readings lie otherwise, the nearest ones
-/// count, and a scan that lacks half of them or more is left out. Other lines are ignored. Errors: kNotFound,
-/// kInvalidInput: no such log; kDamaged: damaged before the first scan. Precondition: 2 <= beam_count <=
-/// kMaxBeams.
+/// lie. The first line of the kind that is used decides where the beams are; where later readings lie
+/// otherwise, the nearest ones count, and a scan that lacks half of them or more is left out. Other lines
+/// are ignored. Errors: kNotFound, kInvalidInput: no such log; kDamaged: damaged before the first scan.
+/// Precondition: 2 <= beam_count <= kMaxBeams.
 [[nodiscard]] Result<CarmenLog> read_carmen_log(const std::string& path, std::size_t beam_count);
 
 }  // namespace swiftlet

@@ -54,8 +54,8 @@ class LoopCloser {
   void end_doubt();
   /// Looks for loops from the newest keyframe. Returns how many closures were accepted.
   std::uint32_t close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
-  /// After each scan, while it is not known where the vehicle is: looks elsewhere, in one submap, or weighs one
-  /// place that was found.
+  /// After each scan, while it is not known where the vehicle is: looks elsewhere, in one submap, or weighs
+  /// one place that was found.
   void search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph);
   /// The newest contact, if it is new and has moved the map.
   [[nodiscard]] std::optional<Contact> contact_that_moved(const PoseGraph& graph) const;
