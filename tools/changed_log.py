@@ -53,9 +53,9 @@ class Recording:
 
 
 def read(path, lines_ahead=0):
-    """Reads a gzipped log. Like swiftlet, takes dead reckoning from the ODOM lines or, where their stamps go back, from
-    the scans' own, which there precedes the ranges by `lines_ahead` lines. Raises OSError or EOFError where the log
-    cannot be read, ValueError where it holds no scan."""
+    """Reads a gzipped log of FLASER lines whose ODOM lines, if any, are complete. Like swiftlet, takes dead reckoning
+    from these or, where their stamps go back, from the scans' own, which there precedes the ranges by `lines_ahead`
+    lines. Raises OSError or EOFError where the log cannot be read, ValueError where it holds no scan."""
     odometry, in_scans, scans = [], [], []
     with gzip.open(path, "rt", encoding="latin-1") as file:
         for line in file:

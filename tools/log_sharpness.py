@@ -9,7 +9,7 @@ import changed_log
 
 CELL_M = 0.1
 NEAREST_M, FARTHEST_M = 0.1, 5.0  # of a return
-HALF_DEG_FROM = 300  # readings; with fewer the step is 1 deg
+STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5}  # of scanners that see 180 degrees, by readings
 
 
 def poses_of(trajectory):
@@ -20,7 +20,8 @@ def poses_of(trajectory):
 
 
 def evaluate(trajectory, log):
-    """Figures as `swiftlet eval` has them for a flight. Raises as changed_log.read() does."""
+    """Figures as `swiftlet eval` has them for a flight. Raises as changed_log.read() does, and ValueError for other
+    scanners than those of 180 degrees."""
     poses = poses_of(trajectory)
     recording = changed_log.read(log)
     cells, returns, drawn = set(), 0, 0
@@ -30,7 +31,9 @@ def evaluate(trajectory, log):
             continue
         drawn += 1
         x_m, y_m, yaw = pose
-        step = math.radians(0.5 if len(ranges) >= HALF_DEG_FROM else 1.0)
+        if len(ranges) not in STEP_DEG:
+            raise ValueError(f"{log}: how {len(ranges)} readings lie is not known")
+        step = math.radians(STEP_DEG[len(ranges)])
         for i, text in enumerate(ranges):
             distance_m = float(text)
             if NEAREST_M < distance_m < FARTHEST_M:

@@ -111,7 +111,7 @@ struct HistoryLimits {
   std::size_t events = 2'000;
   std::size_t closures = 20'000;
   std::int64_t tile_spacing_us = 400'000;  ///< of two versions of a tile that are both kept
-  std::size_t tiles = 60'000;              ///< others are refused: a map of 15 km2 at 5 cm
+  std::size_t tiles = 60'000;              ///< others are refused: a map of 0.6 km2 at 5 cm
 };
 
 /// All that a viewer may want to see of the newest run: how it is, and how it was. Begins anew with a new

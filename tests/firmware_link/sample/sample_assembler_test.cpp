@@ -709,11 +709,15 @@ TEST_F(SampleAssemblerTest, IgnoresDeadReckoningThatIsNotANumber) {
   ranges(104, std::numeric_limits<double>::infinity());
   position(200, 0.2);
   ranges(204);
+  position(300, 0.3);
+  ranges(304);
   end();
+  ASSERT_GE(samples_.size(), 2U);
   for (const RangeSample& sample : samples_) {
     EXPECT_TRUE(std::isfinite(sample.T_odom_body.x_m()));
     EXPECT_TRUE(std::isfinite(sample.T_odom_body.yaw_rad()));
   }
+  EXPECT_NEAR(samples_.back().T_odom_body.x_m(), 0.204, 1e-9);
 }
 
 TEST(ClassifyDistance, FollowsTheSensorsLimits) {
