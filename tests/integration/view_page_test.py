@@ -380,7 +380,7 @@ class PageTest(unittest.TestCase):
             daemon, _ = self.daemon_with_view("--rate", 20, "-o", out)
             self.look_back()
             daemon.terminate()
-            self.wait_until("!swiftletPage.isConnected")
+            self.wait_until("document.getElementById('notice').textContent !== ''")
             self.assertEqual(self.js("document.getElementById('notice').textContent"),
                              "swiftletd has ended: the map is final")
             daemon.wait(PATIENCE_S)
