@@ -185,7 +185,8 @@ TEST(CarmenSampleSource, TakesRangesForOneLineOlderIfTheScansTurnWithThePosesOfT
     for (int i = 0; i < 180; ++i) text += (i + reading_at(line)) / 9 % 2 == 0 ? " 2.0" : " 3.5";
     const double yaw_rad = radians(reading_at(line + 1));
     const std::string stamp = std::to_string(100.0 + 0.25 * line);
-    text += " 9 9 9 0 0 " + std::to_string(yaw_rad) + " " + stamp + " host " + stamp + "\n";
+    text.append(" 9 9 9 0 0 ").append(std::to_string(yaw_rad)).append(" ").append(stamp);
+    text.append(" host ").append(stamp).append("\n");
   }
   const TemporaryFile file("a.clf", text);
   const auto source = CarmenSampleSource::open(file.path(), {});

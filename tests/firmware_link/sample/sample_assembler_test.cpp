@@ -104,7 +104,8 @@ TEST(SampleAssembler, MakesOneSampleOfEachMeasurementHoweverOftenItIsLogged) {
     reading.position_odom = Point2{1e-3 * static_cast<double>(ms), 0.0};
     reading.yaw_odom_rad = 0.0;
     const auto nothing_m = std::numeric_limits<float>::quiet_NaN();
-    for (const float distance_m : {1.F + 0.01F * static_cast<float>(ms / 100), nothing_m, 2.F, 32.766F})
+    const std::int64_t measurement = ms / 100;
+    for (const float distance_m : {1.F + 0.01F * static_cast<float>(measurement), nothing_m, 2.F, 32.766F})
       ASSERT_TRUE(reading.distance_m.try_push_back(distance_m));
     assembler.add(reading);
     while (const auto sample = assembler.take()) samples.push_back(*sample);

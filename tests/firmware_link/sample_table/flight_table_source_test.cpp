@@ -93,7 +93,9 @@ TEST(FlightTableSource, IsUsedUpToARowThatCannotBe) {
   for (const std::string& row :
        {std::string("3,1600000000.3,15300,1\n"), std::string("2,1600000000.3,15300,1,0,0\n"),
         std::string("1,1600000000.3,x,0,0\n"), std::string(" \n")}) {
-    const TemporaryFile file("a.csv", kFlightHead + kFlight + row + kFlight);
+    std::string text = kFlightHead;
+    text.append(kFlight).append(row).append(kFlight);
+    const TemporaryFile file("a.csv", text);
     const auto source = open_sample_source(file.path(), {});
     ASSERT_TRUE(source.ok());
     EXPECT_EQ(samples_of(**source).size(), 2U) << row;
