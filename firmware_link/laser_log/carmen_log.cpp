@@ -171,7 +171,7 @@ class CarmenParser {
     const bool is_counted = numbers.read(readings);
     const std::optional<ScanGeometry> geometry = usual_geometry(readings);
     if (!is_counted || !geometry) return "FLASER with a number of readings that no known scanner has";
-    if (!is_usable(ScanLine::kFlaser, *geometry)) return kOtherGeometry;
+    if (!accepts(ScanLine::kFlaser, *geometry)) return kOtherGeometry;
     CarmenOdometry laser;
     CarmenOdometry robot;
     if (!read_distances(numbers, *geometry) || !read_odometry_pose(numbers, laser) ||
@@ -187,7 +187,7 @@ class CarmenParser {
     double max_range_m = 0.0;
     const std::optional<ScanGeometry> geometry = read_geometry(numbers, max_range_m);
     if (!geometry) return "ROBOTLASER1 line cut off or garbled";
-    if (!is_usable(ScanLine::kRobotLaser, *geometry)) return kOtherGeometry;
+    if (!accepts(ScanLine::kRobotLaser, *geometry)) return kOtherGeometry;
     CarmenOdometry laser;
     CarmenOdometry robot;
     double ignored = 0.0;
@@ -206,7 +206,7 @@ class CarmenParser {
     double max_range_m = 0.0;
     const std::optional<ScanGeometry> geometry = read_geometry(numbers, max_range_m);
     if (!geometry) return "RAWLASER1 line cut off or garbled";
-    if (!is_usable(ScanLine::kRawLaser, *geometry)) return kOtherGeometry;
+    if (!accepts(ScanLine::kRawLaser, *geometry)) return kOtherGeometry;
     CarmenOdometry scan;
     if (!read_distances(numbers, *geometry) || !skip_counted(numbers) || !read_stamp(numbers, scan.stamp))
       return "RAWLASER1 line cut off or garbled";
@@ -215,8 +215,9 @@ class CarmenParser {
     return nullptr;
   }
 
-  /// Of a more telling kind than the scans so far, or of theirs with most beams where they have them.
-  bool is_usable(ScanLine kind, const ScanGeometry& geometry) {
+  /// Scans of a more telling kind than those so far, and of their kind those that have most of the beams.
+  /// Follows a changed resolution.
+  bool accepts(ScanLine kind, const ScanGeometry& geometry) {
     if (kind > kind_) return geometry.readings >= beam_count_;
     if (kind < kind_) return false;
     if (geometry != geometry_) follow(geometry);

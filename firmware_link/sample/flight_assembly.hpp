@@ -20,14 +20,14 @@ inline constexpr double kMaxFromBeginningM = 1000.0;
   constexpr Duration kBatteryLasts = std::chrono::minutes(10);
   // The Multiranger's driver measures every 100 ms, however often its ranges are logged. 5 ms less: two
   // packets of a log at 10 Hz may lie a little closer, and then equal distances are two measurements.
-  constexpr Duration kRangingPeriod = std::chrono::milliseconds(95);
+  constexpr Duration kMeasurementPeriod = std::chrono::milliseconds(95);
   AssemblyConfig config;
   config.beams = BeamLayout::multiranger();
   config.sensor = sensor;
   config.continuity.longest_silence = kBatteryLasts;
   config.continuity.farthest_m = kMaxFromBeginningM;
   config.unwatched_after = kUnwatched;
-  config.ranging_period = kRangingPeriod;
+  config.measurement_period = kMeasurementPeriod;
   return config;
 }
 

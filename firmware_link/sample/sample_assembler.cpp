@@ -19,7 +19,7 @@ constexpr double kGapInPeriods = 1.5;
 constexpr Duration kHeightHolds = std::chrono::milliseconds(300);
 // The ranges that follow one lost packet keep their dead reckoning.
 constexpr double kMaxInterpolationInPeriods = 2.5;
-// What is seldomer is no dead reckoning.
+// Readings farther apart are no dead reckoning.
 constexpr Duration kLongestLearnt = std::chrono::seconds(1);
 
 Duration scaled(Duration duration, double factor) { return from_seconds(to_seconds(duration) * factor); }
@@ -191,7 +191,7 @@ void SampleAssembler::count_hole(Duration between_ranges) {
 
 bool SampleAssembler::repeats_measurement(const Reading& reading) {
   const auto is_same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-  if (last_measurement_ && reading.at - last_measurement_->first_at < config_.ranging_period &&
+  if (last_measurement_ && reading.at - last_measurement_->first_at < config_.measurement_period &&
       std::ranges::equal(reading.distance_m, last_measurement_->distance_m, is_same))
     return true;
   last_measurement_ = {reading.at, reading.distance_m};

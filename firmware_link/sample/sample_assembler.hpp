@@ -40,9 +40,9 @@ struct AssemblyConfig {
   BeamLayout beams;
   SensorModel sensor;
   Duration range_period{};  ///< nominal, to count gaps by; 0: irregular, gaps are not counted
-  /// A packet that comes sooner after a reading and holds the same distances holds that reading, not a new
-  /// one, and makes no sample; 0: each is measured anew.
-  Duration ranging_period{};
+  /// The sensors measure no more often. A packet that holds the distances of one that came less than this
+  /// before holds the same measurement and makes no sample; 0: each packet holds a new one.
+  Duration measurement_period{};
   ContinuityLimits continuity;
   /// Dead reckoning that was not received for that long is a guess: RangeSample::odometry_ran_on.
   Duration unwatched_after = Duration::max();

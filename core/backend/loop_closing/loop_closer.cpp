@@ -222,8 +222,9 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   if (decided.empty()) return true;
   std::vector<RelativePoseFactor<KeyframeId>> factors;
   for (const LoopClosure& closure : decided) factors.push_back(factor_of(closure));
+  const std::optional<Contact> contact_before = contact_;
   // Travel does not tell how long ago the old contact was: it does not grow across a break.
-  const std::optional<Contact> contact_before = std::exchange(contact_, std::nullopt);
+  if (unplaced_by_ != UnplacedBy::kContradiction) contact_.reset();
   note_contact(decided.front().to, graph.graph());
   if (!graph.accommodate(factors)) {
     contact_ = contact_before;

@@ -90,24 +90,29 @@ TEST_F(SampleAssemblerTest, PairsRangesWithTheDeadReckoningOfTheTimeTheyWereMeas
   EXPECT_EQ(counters_.segments, 1U);
 }
 
+/// A packet with all that a sample needs, at 1 m/s.
+Reading whole_reading(std::int64_t ms, const std::vector<float>& distances_m) {
+  Reading reading;
+  reading.at = device_ms(ms);
+  reading.position_odom = Point2{1e-3 * static_cast<double>(ms), 0.0};
+  reading.yaw_odom_rad = 0.0;
+  for (const float distance_m : distances_m) EXPECT_TRUE(reading.distance_m.try_push_back(distance_m));
+  return reading;
+}
+
 /// A log at 50 Hz of sensors that measure at 10 Hz.
 TEST(SampleAssembler, MakesOneSampleOfEachMeasurementHoweverOftenItIsLogged) {
   AssemblyConfig fast = config();
   fast.range_period = milliseconds(20);
-  fast.ranging_period = milliseconds(95);
+  fast.measurement_period = milliseconds(95);
   InputCounters counters;
   SampleAssembler assembler(fast, counters);
   std::vector<RangeSample> samples;
   for (std::int64_t ms = 0; ms <= 2000; ms += 20) {
-    Reading reading;
-    reading.at = device_ms(ms);
-    reading.position_odom = Point2{1e-3 * static_cast<double>(ms), 0.0};
-    reading.yaw_odom_rad = 0.0;
-    const auto nothing_m = std::numeric_limits<float>::quiet_NaN();
     const std::int64_t measurement = ms / 100;
-    for (const float distance_m : {1.F + 0.01F * static_cast<float>(measurement), nothing_m, 2.F, 32.766F})
-      ASSERT_TRUE(reading.distance_m.try_push_back(distance_m));
-    assembler.add(reading);
+    const auto nothing_m = std::numeric_limits<float>::quiet_NaN();
+    assembler.add(
+        whole_reading(ms, {1.F + 0.01F * static_cast<float>(measurement), nothing_m, 2.F, 32.766F}));
     while (const auto sample = assembler.take()) samples.push_back(*sample);
   }
   ASSERT_EQ(samples.size(), 20U);  // the first is older than all dead reckoning
@@ -122,17 +127,10 @@ TEST(SampleAssembler, MakesOneSampleOfEachMeasurementHoweverOftenItIsLogged) {
 
 TEST(SampleAssembler, TakesEqualDistancesAPeriodLaterForAMeasurement) {
   AssemblyConfig usual = config();
-  usual.ranging_period = milliseconds(95);
+  usual.measurement_period = milliseconds(95);
   InputCounters counters;
   SampleAssembler assembler(usual, counters);
-  for (std::int64_t ms = 0; ms <= 1000; ms += 98) {
-    Reading reading;
-    reading.at = device_ms(ms);
-    reading.position_odom = Point2{};
-    reading.yaw_odom_rad = 0.0;
-    for (int i = 0; i < 4; ++i) ASSERT_TRUE(reading.distance_m.try_push_back(1.F));
-    assembler.add(reading);
-  }
+  for (std::int64_t ms = 0; ms <= 1000; ms += 98) assembler.add(whole_reading(ms, {1.F, 1.F, 1.F, 1.F}));
   EXPECT_EQ(counters.range_packets, 11U);
   EXPECT_EQ(counters.repeated, 0U);
 }
