@@ -19,6 +19,7 @@
 namespace swiftlet {
 namespace {
 
+using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
 constexpr std::string_view kServer = "tcpq://";
@@ -52,6 +53,16 @@ std::optional<std::pair<std::string, std::string>> place_in(const std::string& u
   return std::pair(place.substr(0, colon), place.substr(colon + 1));
 }
 
+bool is_connected(int socket, const addrinfo& to) {
+  if (::connect(socket, to.ai_addr, to.ai_addrlen) == 0) return true;
+  if (errno != EINPROGRESS) return false;
+  pollfd answer{.fd = socket, .events = POLLOUT, .revents = 0};
+  int failure = ETIMEDOUT;
+  socklen_t size = sizeof failure;
+  return ::poll(&answer, 1, kConnectMs) == 1 &&
+         ::getsockopt(socket, SOL_SOCKET, SO_ERROR, &failure, &size) == 0 && failure == 0;
+}
+
 /// As LCM greets, which would wait for the answer for ever: with a word of its own, then the version.
 bool is_greeted(int socket) {
   constexpr std::array<std::uint8_t, 8> kGreeting{0x28, 0x76, 0x17, 0xFB, 0, 0, 1, 0};
@@ -65,6 +76,24 @@ bool is_greeted(int socket) {
   return ::poll(&answer, 1, kAnswerMs) == 1 &&
          ::recv(socket, bytes.data(), bytes.size(), 0) == std::ssize(bytes) &&
          std::equal(kExpected.begin(), kExpected.end(), bytes.begin());
+}
+
+/// The numeric URL of a server that answers there.
+std::optional<std::string> find_server(const std::string& host, const std::string& port) {
+  const addrinfo wanted{.ai_flags = 0,
+                        .ai_family = AF_INET,
+                        .ai_socktype = SOCK_STREAM,
+                        .ai_protocol = 0,
+                        .ai_addrlen = 0,
+                        .ai_addr = nullptr,
+                        .ai_canonname = nullptr,
+                        .ai_next = nullptr};
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(host.c_str(), port.c_str(), &wanted, &found) != 0) return std::nullopt;
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, ::freeaddrinfo);
+  const Socket socket(SOCK_STREAM | SOCK_NONBLOCK);
+  if (!is_connected(socket.file(), *address) || !is_greeted(socket.file())) return std::nullopt;
+  return lcm_server_url(*reinterpret_cast<const sockaddr_in*>(address->ai_addr));
 }
 
 }  // namespace
@@ -94,34 +123,20 @@ std::optional<LcmServer> LcmServer::of_url(const std::string& url) {
 
 bool LcmServer::is_there() {
   const auto now = steady_clock::now();
-  if (is_there_ || now < next_look_) return is_there_;
-  is_there_ = accepts();
-  next_look_ = steady_clock::now() + kLookEvery;
+  if (!is_there_ && !look_.valid() && now >= next_look_) {
+    next_look_ = now + kLookEvery;
+    look_ = std::async(std::launch::async, &find_server, host_, port_);
+  }
+  if (look_.valid() && look_.wait_for(0s) == std::future_status::ready) {
+    const std::optional<std::string> found = look_.get();
+    is_there_ = found.has_value();
+    numeric_url_ = found.value_or("");
+  }
   return is_there_;
 }
 
-bool LcmServer::accepts() {
-  const addrinfo wanted{.ai_flags = 0,
-                        .ai_family = AF_INET,
-                        .ai_socktype = SOCK_STREAM,
-                        .ai_protocol = 0,
-                        .ai_addrlen = 0,
-                        .ai_addr = nullptr,
-                        .ai_canonname = nullptr,
-                        .ai_next = nullptr};
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found) != 0) return false;
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, ::freeaddrinfo);
-  numeric_url_ = lcm_server_url(*reinterpret_cast<const sockaddr_in*>(address->ai_addr));
-  const Socket socket(SOCK_STREAM | SOCK_NONBLOCK);
-  if (::connect(socket.file(), address->ai_addr, address->ai_addrlen) == 0) return is_greeted(socket.file());
-  if (errno != EINPROGRESS) return false;
-  pollfd answer{.fd = socket.file(), .events = POLLOUT, .revents = 0};
-  int failure = ETIMEDOUT;
-  socklen_t size = sizeof failure;
-  return ::poll(&answer, 1, kConnectMs) == 1 &&
-         ::getsockopt(socket.file(), SOL_SOCKET, SO_ERROR, &failure, &size) == 0 && failure == 0 &&
-         is_greeted(socket.file());
+void LcmServer::wait_for_look() const {
+  if (look_.valid()) look_.wait();
 }
 
 }  // namespace swiftlet

@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 
 #include <chrono>
+#include <future>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,15 +20,17 @@ namespace swiftlet {
 /// "tcpq://127.0.0.1:7700"
 [[nodiscard]] std::string lcm_server_url(const sockaddr_in& address);
 
-/// The server of a tcpq:// URL. One thread at a time.
+/// The server of a tcpq:// URL, looked for in a thread of its own: a name that does not resolve takes its
+/// time. One thread at a time.
 class LcmServer {
  public:
   /// nullopt for other URLs.
   [[nodiscard]] static std::optional<LcmServer> of_url(const std::string& url);
 
-  /// Whether it answered as LCM's server at the last look. Looks again every 5 s while it did not, which
-  /// takes 0.7 s at most, beside the time in which a name is resolved.
+  /// Whether it answered as LCM's server at the last look. While it did not, a look begins every 5 s.
   [[nodiscard]] bool is_there();
+  /// Until a look that is_there() began is over: 0.7 s at most, beside the time in which a name is resolved.
+  void wait_for_look() const;
   /// It has gone: the next look is due.
   void mark_lost() { is_there_ = false; }
   /// What LCM reaches the server by, which takes a name for this machine. Empty before its name was resolved.
@@ -35,13 +38,13 @@ class LcmServer {
 
  private:
   LcmServer(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
-  [[nodiscard]] bool accepts();
 
   std::string host_;
   std::string port_;
   std::string numeric_url_;
   bool is_there_ = false;
   std::chrono::steady_clock::time_point next_look_{};
+  std::future<std::optional<std::string>> look_;  ///< of an answer: where from
 };
 
 }  // namespace swiftlet

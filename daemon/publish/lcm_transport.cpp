@@ -99,6 +99,7 @@ Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url)
                  "LCM URL \"" + url + "\": no route to " + parsed->group +
                      " on this machine's network; keep it within the machine: " + kRouteOverLoopback};
   auto state = std::make_unique<State>(url, parsed->file);
+  if (state->server && !state->server->is_there()) state->server->wait_for_look();
   if (state->connected() == nullptr && !state->server)
     return Error{ErrorCode::kInvalidInput, "LCM URL \"" + url + "\": LCM could not open it" +
                                                (is_multicast ? "; swiftlet doctor finds the reason" : "")};

@@ -187,7 +187,10 @@ TEST(LcmServer, IsReachedByItsAddressWhereTheUrlHasAName) {
   const StalledServer server(true);
   const std::string port = server.url().substr(server.url().rfind(':'));
   std::optional<LcmServer> named = LcmServer::of_url("tcpq://localhost" + port);
-  ASSERT_TRUE(named && named->is_there());
+  ASSERT_TRUE(named.has_value());
+  EXPECT_FALSE(named->is_there()) << "nobody waits for the look";
+  named->wait_for_look();
+  ASSERT_TRUE(named->is_there());
   EXPECT_EQ(named->numeric_url(), server.url());
 }
 
