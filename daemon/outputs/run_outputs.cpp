@@ -179,10 +179,11 @@ Status write_all_but_report(const std::filesystem::path& directory, const RunVie
 Result<WrittenOutputs> write_run_outputs(const std::filesystem::path& directory, const RunView& run) {
   if (Status ready = prepare_output_directory(directory); !ready) return ready.error();
   const std::vector<std::string> earlier = files_of_earlier_run(directory);
+  std::error_code failure;
+  std::filesystem::remove(directory / kReport, failure);  // no longer that of what lies beside it
   if (Status written = write_all_but_report(directory, run); !written) return written.error();
   WrittenOutputs outputs{.files = output_names(run), .replaced = !earlier.empty(), .removed = {}};
   for (const std::string& name : earlier) {
-    std::error_code failure;
     if (std::ranges::find(outputs.files, name) == outputs.files.end() &&
         std::filesystem::remove(directory / name, failure))
       outputs.removed.push_back(name);

@@ -18,6 +18,8 @@ TEST(PeakMemory, RemembersWhatWasGivenBack) {
   std::vector<char>().swap(held);
   EXPECT_GT(before_mb, 1.0);
   EXPECT_GT(peak_memory_mb() - before_mb, 0.95 * static_cast<double>(kMegabytes));
+  reset_peak_memory();
+  EXPECT_LT(peak_memory_mb() - before_mb, 0.5 * static_cast<double>(kMegabytes));
 }
 
 }  // namespace

@@ -120,10 +120,12 @@ TEST(RunOutputs, AreTheSameBytesForTheSameRun) {
 
 TEST(RunOutputs, NamesTheFileThatCannotBeWrittenAndKeepsTheOthers) {
   const TemporaryDirectory directory;
+  std::ofstream(directory.path() / "report.json") << "{}";
   fs::create_directory(directory.path() / "map.png");
   const Result<WrittenOutputs> written = write_run_outputs(directory.path(), FinishedRun().view(false));
   ASSERT_FALSE(written.ok());
   EXPECT_THAT(written.error().message, testing::HasSubstr("map.png"));
+  EXPECT_FALSE(fs::exists(directory.path() / "report.json")) << "an earlier run's, beside this run's files";
   EXPECT_EQ(lines_of(directory.path() / "trajectory.tum").size(), 81U);
 }
 
