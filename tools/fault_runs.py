@@ -19,6 +19,7 @@ WORLDS = ["office", "maze"]
 STOREYS = "storeys"  # nothing breaks there: the vehicle flies up the stairs, and back
 SEEDS = 10  # of each world, from 1 on
 BREAK_S = 150  # after the first sample
+SHORT_SILENCE_S = 2
 NEAR_M = 0.5  # within which a live pose is right again, and counts as found back...
 STAYS_M = 5.0  # ...if it stays so for this way...
 LEAST_STAY_M = 1.0  # ...or to the end of the run, for this at least
@@ -32,11 +33,15 @@ GAP_S = 1.0  # between moments: old ground was out of reach
 class Fault:
     kind: str  # of `sim://`; or none
     amount: int | None = None  # s, or deg of a jump
+    silent_after_s: int | None = None  # after the end of the break, for SHORT_SILENCE_S
 
     def text(self):
         if self.kind == "none":
             return self.kind
-        return f"{self.kind}@{BREAK_S}" + ("" if self.amount is None else f":{self.amount}")
+        text = f"{self.kind}@{BREAK_S}" + ("" if self.amount is None else f":{self.amount}")
+        if self.silent_after_s is None:
+            return text
+        return text + f",silence@{BREAK_S + (self.amount or 0) + self.silent_after_s}:{SHORT_SILENCE_S}"
 
     def is_told(self):
         """Whether the input shows that motion broke. A flight without a break counts, for comparison."""
@@ -48,7 +53,8 @@ class Fault:
 
 
 FAULTS = [Fault("none"), Fault("silence", 20), Fault("silence", 31), Fault("silence", 60), Fault("reset"),
-          Fault("restart", 60), Fault("carried", 30), Fault("carried", 60), Fault("jump", 10), Fault("jump", 20),
+          Fault("restart", 60), Fault("carried", 30), Fault("carried", 60),
+          Fault("carried", 60, silent_after_s=4), Fault("jump", 10), Fault("jump", 20),
           Fault("jump", 30), Fault("slip", 6), Fault("teleport", 20)]
 
 

@@ -131,6 +131,7 @@ class FaultRuns(unittest.TestCase):
         self.assertIn("sim://office?seed=1", titles)
         self.assertIn("sim://maze?seed=10&fault=reset@150", titles)
         self.assertIn("sim://office?seed=2&fault=carried@150:60", titles)
+        self.assertIn("sim://maze?seed=2&fault=carried@150:60,silence@214:2", titles)
 
     def test_a_break_that_takes_time_in_the_air_ends_when_that_is_over(self):
         self.assertEqual([runs.Fault(kind, 60).end_s() for kind in ("silence", "carried", "restart")], [210, 210, 150])
