@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <limits>
 #include <optional>
@@ -27,6 +28,9 @@ inline CLI::Validator number_from(double lowest, double highest) {
   };
   return {problem_with, "NUMBER from " + limits};
 }
+
+/// A limit of the file size (ulimit -f) becomes an error of what writes, instead of the end of the program.
+inline void take_file_size_limit_as_error() { static_cast<void>(std::signal(SIGXFSZ, SIG_IGN)); }
 
 /// Answers --help or --version; its exit code.
 inline int answer(const CLI::App& app, const CLI::Success& question) {

@@ -34,6 +34,10 @@ class Daemon {
   void execute_commands_by(CommandHandler handler) { pipeline_.execute_commands_by(std::move(handler)); }
   /// As Pipeline::command(), also while run() does.
   [[nodiscard]] bool command(const Command& command) { return pipeline_.command(command); }
+  /// As Pipeline::execute_commands(). Not while run() does.
+  void execute_late_commands() { pipeline_.execute_commands(); }
+  /// Whether another program uses the vehicle over this link. Any thread.
+  [[nodiscard]] bool has_client() const { return pipeline_.has_client(); }
   /// Another run follows: the service manager is not told that the daemon stops. Any thread.
   void announce_next_run() { is_followed_ = true; }
   /// What the status has of the run's recording: called in the publisher's thread while run() does. Before

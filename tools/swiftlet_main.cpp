@@ -416,6 +416,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  swiftlet::take_file_size_limit_as_error();
   try {
     const int exit_code = run(argc, argv);
     const std::optional<std::string> failure = swiftlet::output_failure();

@@ -35,6 +35,10 @@ void CommandExecutor::mark_place(const Command& command, std::optional<HostTime>
 
 void CommandExecutor::begin_new_map() {
   if (!run_.is_live) return spdlog::warn("no new map is begun: only of a live vehicle is there more to come");
+  if (run_.has_client())
+    return spdlog::warn(
+        "no new map is begun: it would cut off the program that uses the vehicle over this link; "
+        "disconnect that first");
   wants_new_map_ = true;
   spdlog::info("a new map: this run ends");
   run_.end();

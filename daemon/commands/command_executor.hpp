@@ -20,6 +20,7 @@ class CommandExecutor {
   struct Run {
     std::optional<std::filesystem::path> directory;  ///< of its outputs, if it has any
     bool is_live = false;                            ///< its vehicle is there for another run
+    std::function<bool()> has_client;                ///< another program uses the vehicle over its link
     std::function<void()> end;                       ///< ends it, to begin the next one
   };
   explicit CommandExecutor(Run run) : run_(std::move(run)) {}

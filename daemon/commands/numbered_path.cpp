@@ -34,7 +34,8 @@ std::string numbered_lcm_url(const std::string& url, int number) {
   const bool is_log = parsed && !parsed->file.empty() && url.find("mode=w") != std::string::npos;
   if (!is_log || !std::filesystem::is_regular_file(parsed->file, ignored)) return url;
   std::string numbered = url;
-  return numbered.replace(url.find(parsed->file), parsed->file.size(), numbered_path(parsed->file, number));
+  return numbered.replace(url.rfind(parsed->file, url.find('?')), parsed->file.size(),
+                          numbered_path(parsed->file, number));
 }
 
 }  // namespace swiftlet

@@ -26,8 +26,11 @@ class ServiceWatch {
   /// `manager` must outlive the watch.
   ServiceWatch(const ServiceManager& manager, MonotonicTime now) : manager_(manager), fed_at_(now) {}
 
-  /// All threads run. By any thread, once.
-  void begin() const { manager_.report_ready(); }
+  /// All threads run. By any thread, once; feeds the watchdog, which another run may have left hungry.
+  void begin() const {
+    manager_.report_ready();
+    manager_.feed_watchdog();
+  }
   /// To be called at each tick: feeds the watchdog, three times in its period, while the radio thread's
   /// count moves and after the input is over; reports each new status, and once that the daemon stops.
   void look(MonotonicTime now, const Progress& progress);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -33,8 +32,6 @@ void RecordingSink::take(const LinkFrame& frame) noexcept {
 }
 
 Result<std::unique_ptr<Recorder>> Recorder::open(RecordingPlan plan, RecorderVoice voice) {
-  // A limit of the file size (ulimit -f) is to be an error of the recording, not the end of the flight.
-  static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   std::unique_ptr<Recorder> recorder(new Recorder(std::move(plan), std::move(voice)));
   const Status opened = recorder->open_part();
   if (!opened) return opened.error();

@@ -34,6 +34,8 @@ class BackendWorker {
 
   /// Each command is given to `handler` before the next step. Before the first step.
   void execute_commands_by(CommandQueue::Consumer commands, CommandHandler handler);
+  /// Those that wait. A step does so by itself.
+  void execute_commands();
 
   /// kBlocked: only the publisher's queues stand in the way; call again in a moment.
   StepResult step();
@@ -58,7 +60,6 @@ class BackendWorker {
   std::uint32_t correction_version_ = 0;
   bool final_pass_done_ = false;
 
-  void execute_commands();
   void add_step();
   void prune();
   void run_final_pass();

@@ -85,6 +85,10 @@ bool Pipeline::command(const Command& command) {
   return is_taken;
 }
 
+void Pipeline::execute_commands() { state_->backend_worker.execute_commands(); }
+
+bool Pipeline::has_client() const { return state_->radio_worker.has_client(); }
+
 Result<bool> Pipeline::step() {
   state_->radio_worker.step();
   state_->frontend_worker.step();

@@ -44,6 +44,11 @@ class Pipeline {
   /// For the backend, which is woken. False: too many wait. One thread at a time.
   [[nodiscard]] bool command(const Command& command);
 
+  /// Those that came behind the backend's last step. Not while threads run.
+  void execute_commands();
+  /// Whether another program uses the vehicle over this link. Any thread.
+  [[nodiscard]] bool has_client() const;
+
   /// Lockstep: takes the next sample through all stages in the calling thread. False when the input has ended
   /// and the backend's final pass is done. Errors: whatever ended the input before its time, returned once
   /// the final pass is done (outputs are valid).

@@ -69,11 +69,13 @@ void RadioWorker::report_input() {
     if (outlet_) static_cast<void>(outlet_->events.try_push(*event));
   if (!outlet_) return;
   const InputReport& report = source_.report();
+  const LiveStatus live = source_.live_status().value_or(LiveStatus{});
+  has_client_.store(live.sharing.has_client, std::memory_order_relaxed);
   outlet_->status.store({.counters = report.counters,
                          .problems = report.problems.size(),
                          .progress = source_.progress().value_or(-1.0),
                          .ended = ended_,
-                         .live = source_.live_status().value_or(LiveStatus{})});
+                         .live = live});
 }
 
 }  // namespace swiftlet

@@ -37,6 +37,8 @@ class RadioWorker {
   StepResult step();
   /// How often step() was called: stands still when it hangs. Any thread.
   [[nodiscard]] std::uint64_t steps() const { return steps_.load(std::memory_order_relaxed); }
+  /// Whether another program uses the vehicle over this link. Any thread.
+  [[nodiscard]] bool has_client() const { return has_client_.load(std::memory_order_relaxed); }
   /// When the next sample is due; now or earlier when none is waiting.
   [[nodiscard]] MonotonicTime due() const { return due_; }
   /// Takes no further samples, as if the input had ended here.
@@ -57,6 +59,7 @@ class RadioWorker {
   bool break_pending_ = false;  // a refused sample began a segment: the next one handed on must do so
   bool ended_ = false;
   std::atomic<std::uint64_t> steps_{0};
+  std::atomic<bool> has_client_{false};
   Status outcome_;
 
   bool fetch();

@@ -17,6 +17,8 @@ import time
 from pathlib import Path
 
 from flight_bench import run_case
+from shared_flight_test import free_port
+from simulated_vehicle_client_test import Client
 from simulation import PATIENCE_S, expect
 
 LOOPBACK = 'ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo && exec "$@"'
@@ -25,8 +27,8 @@ LCM_PORT = 7667
 NO_NAMESPACE = 77
 
 
-def commanded_flight(bench, vehicle, **lcm):
-    flight = bench.flight(vehicle.port, "--commands", "127.0.0.1:0", **lcm)
+def commanded_flight(bench, vehicle, *options, **lcm):
+    flight = bench.flight(vehicle.port, "--commands", "127.0.0.1:0", *options, **lcm)
     flight.wait_for("commands are taken on")
     flight.wait_for("connected to the vehicle")
     return flight
@@ -77,6 +79,42 @@ def a_new_map_is_a_run_of_its_own(bench):
     expect(stamps[0][-1] < stamps[1][0], "the second run holds samples of the first")
     for name in ("flight_2.pcap", "run.lcm", "run_2.lcm"):
         expect((bench.folder / name).stat().st_size > 1000, sorted(os.listdir(bench.folder)))
+
+
+def a_new_map_takes_names_that_are_free_and_waits_for_what_is_not(bench):
+    (bench.folder / "flight_2.pcap").write_bytes(b"of another day")
+    in_the_way = bench.folder / "out_3"
+    in_the_way.write_text("no folder", encoding="utf-8")
+    vehicle = bench.vehicle()
+    flight = commanded_flight(bench, vehicle)
+    time.sleep(1.0)
+    expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
+    flight.wait_for("the next run cannot begin")
+    time.sleep(2.5)
+    expect(flight.said().count("the next run cannot begin") == 1, flight.said())
+    in_the_way.unlink()
+    flight.wait_for("connected to the vehicle", times=2)
+    time.sleep(2.0)
+    flight.process.send_signal(signal.SIGTERM)
+    expect(flight.process.wait(timeout=60) == 0, flight.said())
+    vehicle.end()
+    expect((in_the_way / "report.json").exists(), sorted(os.listdir(bench.folder)))
+    expect((bench.folder / "flight_3.pcap").stat().st_size > 1000, sorted(os.listdir(bench.folder)))
+    expect((bench.folder / "flight_2.pcap").read_bytes() == b"of another day", "overwritten")
+
+
+def a_new_map_does_not_cut_off_a_client(bench):
+    vehicle = bench.vehicle()
+    share = free_port()
+    flight = commanded_flight(bench, vehicle, "--share", f"udp://127.0.0.1:{share}")
+    Client(share).connect()
+    flight.wait_for("a client has connected")
+    time.sleep(1.0)
+    expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
+    flight.wait_for("no new map is begun: it would cut off")
+    flight.land()
+    vehicle.end()
+    expect(not (bench.folder / "out_2").exists(), sorted(os.listdir(bench.folder)))
 
 
 def the_exit_code_is_the_worst_of_all_runs(bench):

@@ -19,10 +19,12 @@ Command mark(std::string_view name) {
   return command;
 }
 
+bool nobody() { return false; }
+
 TEST(CommandExecutor, SavesTheMapAsItIs) {
   const TemporaryDirectory directory;
   const FinishedRun run;
-  CommandExecutor executor({.directory = directory.path(), .is_live = true, .end = {}});
+  CommandExecutor executor({.directory = directory.path(), .is_live = true, .has_client = nobody, .end = {}});
   executor.execute({.kind = Command::Kind::kSaveMap, .name = {}}, run.map, kNow);
   EXPECT_THAT(text_of(directory.path() / "map.pgm"), testing::StartsWith("P5"));
   EXPECT_THAT(text_of(directory.path() / "map.yaml"), testing::HasSubstr("map.pgm"));
@@ -30,7 +32,7 @@ TEST(CommandExecutor, SavesTheMapAsItIs) {
 
 TEST(CommandExecutor, WithoutADirectoryNothingIsSavedOrMarked) {
   const FinishedRun run;
-  CommandExecutor executor({.directory = {}, .is_live = true, .end = {}});
+  CommandExecutor executor({.directory = {}, .is_live = true, .has_client = nobody, .end = {}});
   executor.execute({.kind = Command::Kind::kSaveMap, .name = {}}, run.map, kNow);
   executor.execute(mark("kitchen"), run.map, kNow);
   EXPECT_TRUE(executor.places().empty());
@@ -38,7 +40,7 @@ TEST(CommandExecutor, WithoutADirectoryNothingIsSavedOrMarked) {
 
 TEST(CommandExecutor, MarksTheNewestSample) {
   const FinishedRun run;
-  CommandExecutor executor({.directory = "out", .is_live = true, .end = {}});
+  CommandExecutor executor({.directory = "out", .is_live = true, .has_client = nobody, .end = {}});
   executor.execute(mark("too early"), run.map, std::nullopt);
   executor.execute(mark("kitchen"), run.map, kNow);
   ASSERT_EQ(executor.places().size(), 1U);
@@ -50,11 +52,20 @@ TEST(CommandExecutor, ANewMapBeginsOnlyWhereMoreIsToCome) {
   const FinishedRun run;
   int ended = 0;
   const Command new_map{.kind = Command::Kind::kNewMap, .name = {}};
-  CommandExecutor recording({.directory = {}, .is_live = false, .end = [&ended] { ++ended; }});
+  CommandExecutor recording(
+      {.directory = {}, .is_live = false, .has_client = nobody, .end = [&ended] { ++ended; }});
   recording.execute(new_map, run.map, kNow);
   EXPECT_FALSE(recording.wants_new_map());
   EXPECT_EQ(ended, 0);
-  CommandExecutor flight({.directory = {}, .is_live = true, .end = [&ended] { ++ended; }});
+  bool has_client = true;
+  CommandExecutor flight({.directory = {},
+                          .is_live = true,
+                          .has_client = [&has_client] { return has_client; },
+                          .end = [&ended] { ++ended; }});
+  flight.execute(new_map, run.map, kNow);
+  EXPECT_FALSE(flight.wants_new_map()) << "the client would lose the vehicle in flight";
+  EXPECT_EQ(ended, 0);
+  has_client = false;
   flight.execute(new_map, run.map, kNow);
   EXPECT_TRUE(flight.wants_new_map());
   EXPECT_EQ(ended, 1);

@@ -31,6 +31,15 @@ TEST(NumberedLcmUrl, LeavesTheLogOfAnEarlierRunAlone) {
   std::filesystem::remove(log);
 }
 
+TEST(NumberedLcmUrl, IsNotConfusedByALogNamedLikeTheScheme) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(testing::TempDir());
+  std::ofstream("file") << "messages";
+  EXPECT_EQ(numbered_lcm_url("file://file?mode=w", 2), "file://file_2?mode=w");
+  std::filesystem::remove("file");
+  std::filesystem::current_path(before);
+}
+
 TEST(NumberedLcmUrl, OfWhatIsNoLogStays) {
   for (const char* url :
        {"udpm://239.255.76.67:7667?ttl=0", "memq://", "file:///dev/null?mode=w", "nonsense"})

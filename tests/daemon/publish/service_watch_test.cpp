@@ -58,6 +58,11 @@ TEST_F(ServiceWatchTest, FeedsTheWatchdogThriceInItsPeriodWhileTheRadioThreadMov
   EXPECT_THAT(look_after(milliseconds(1)), ElementsAre("WATCHDOG=1"));
 }
 
+TEST_F(ServiceWatchTest, FeedsTheWatchdogAsSoonAsTheRunBegins) {
+  watch_.begin();
+  EXPECT_THAT(manager_socket_.received(), ElementsAre("READY=1", "WATCHDOG=1"));
+}
+
 TEST_F(ServiceWatchTest, FeedsNoMoreWhenTheRadioThreadStandsStillAndAtOnceWhenItGoesOn) {
   steps_ = 1;
   EXPECT_THAT(look_after(milliseconds(300)), ElementsAre("WATCHDOG=1"));

@@ -63,6 +63,19 @@ TEST(BackendWorker, ExecutesCommandsBetweenStepsAndWhileNothingComes) {
   EXPECT_EQ(executed_at[1], samples[0].stamp);
 }
 
+TEST(BackendWorker, ACommandThatComesBehindItsLastStepIsNotForgotten) {
+  BackendBench bench;
+  int executed = 0;
+  bench.worker.execute_commands_by(
+      bench.queues->commands.consumer(),
+      [&](const Command&, const MapBuilder&, std::optional<HostTime>) { ++executed; });
+  bench.queues->steps.producer().close();
+  ASSERT_EQ(bench.worker.step(), StepResult::kFinished);
+  ASSERT_TRUE(bench.queues->commands.producer().try_push({}));
+  bench.worker.execute_commands();
+  EXPECT_EQ(executed, 1);
+}
+
 TEST(BackendWorker, DrawsAtKeyframesAndHandsOnTheTiles) {
   BackendBench bench;
   for (const RangeSample& sample : flight_in_square_room(30, 2.0, 1.0)) {

@@ -158,10 +158,13 @@ TEST(RadioWorker, GoesOnListeningToASilentLink) {
 
 TEST(RadioWorker, SaysHowTheLinkStandsAlsoWhileNothingIsHeard) {
   RadioBench bench({}, {}, {ErrorCode::kTimeout, ""});
+  EXPECT_FALSE(bench.worker.has_client());
   bench.source.live.link.condition = LinkCondition::kSilent;
+  bench.source.live.sharing.has_client = true;
   bench.source.event = VehicleEvent{VehicleEvent::Kind::kDataStopped, 0};
   EXPECT_EQ(bench.worker.step(), StepResult::kIdle);
   EXPECT_EQ(bench.newest_status().live.link.condition, LinkCondition::kSilent);
+  EXPECT_TRUE(bench.worker.has_client());
   VehicleEvent event;
   ASSERT_TRUE(bench.events->consumer().try_pop(event));
   EXPECT_EQ(event.kind, VehicleEvent::Kind::kDataStopped);
