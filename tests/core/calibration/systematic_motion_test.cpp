@@ -81,7 +81,7 @@ TEST(SystematicMotion, KnowsHowItsStepsChangeWithTheErrors) {
       const Eigen::Vector3d slope =
           (after[i].T_previous_this.vector() - before[i].T_previous_this.vector()) / (2.0 * nudge);
       // A chord's slope and the central difference differ by the noiseless path's bend.
-      EXPECT_LT((steps[i].by_errors.col(k) - slope).norm(), k == 0 ? 0.02 : 1e-6) << i << " by " << k;
+      EXPECT_LT((steps[i].by_errors.col(k) - slope).norm(), k == 0 ? 0.002 : 1e-6) << i << " by " << k;
     }
   }
 }

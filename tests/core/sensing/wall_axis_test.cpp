@@ -45,12 +45,21 @@ TEST(WallAxis, IsFoundInWhicheverDirectionTheBuildingStands) {
 
 TEST(WallAxis, LiesWithinTheUncertaintyItClaims) {
   test::RandomGeometry random(2);
+  int found = 0;
   int outside = 0;
+  double squares = 0.0;
   for (int i = 0; i < 300; ++i) {
     const auto axis = wall_axis(square_walls(random, 0.3, 10, radians(4)));
-    if (axis && std::abs(wrap_axis(axis->yaw_rad - 0.3)) > 2.0 * axis->sigma_rad) ++outside;
+    if (!axis) continue;  // they scatter too widely for one
+    ++found;
+    const double in_sigmas = wrap_axis(axis->yaw_rad - 0.3) / axis->sigma_rad;
+    squares += in_sigmas * in_sigmas;
+    outside += std::abs(in_sigmas) > 2.0 ? 1 : 0;
   }
+  EXPECT_GE(found, 285);
   EXPECT_LE(outside, 15) << "of 300 beyond two standard deviations";
+  EXPECT_GT(squares / found, 0.5) << "it claims little more than there is";
+  EXPECT_LT(squares / found, 1.1);
 }
 
 TEST(WallAxis, IsNotMovedByClutter) {

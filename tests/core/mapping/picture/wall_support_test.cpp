@@ -9,7 +9,15 @@
 namespace swiftlet {
 namespace {
 
+using testing::FieldsAre;
+
 constexpr double kResolutionM = 0.05;
+
+/// That very wall.
+auto is_the_same(const MapSegment& wall) {
+  return FieldsAre(FieldsAre(wall.start_map.x_m, wall.start_map.y_m),
+                   FieldsAre(wall.end_map.x_m, wall.end_map.y_m));
+}
 
 /// Occupied cells along the x axis, between two x in metres.
 auto row_between(double low_m, double high_m) {
@@ -62,17 +70,13 @@ TEST(FittedToGrid, MovesAndTurnsAWallOntoTheOccupiedCells) {
 
 TEST(FittedToGrid, LeavesAWallAloneWithNothingNear) {
   for (const MapSegment& wall : {MapSegment{{0.5, 0.6}, {2.5, 0.6}}, MapSegment{{1.0, 0.0}, {1.0, 0.0}}}) {
-    const MapSegment fitted = fitted_to_grid(wall, kResolutionM, row_between(-1.0, 4.0));
-    EXPECT_EQ(fitted.start_map.y_m, wall.start_map.y_m);
-    EXPECT_EQ(fitted.end_map.x_m, wall.end_map.x_m);
+    EXPECT_THAT(fitted_to_grid(wall, kResolutionM, row_between(-1.0, 4.0)), is_the_same(wall));
   }
 }
 
 TEST(FittedToGrid, TurnsNoWallIntoOneThatItCrosses) {
   const MapSegment wall{{1.0, -1.0}, {1.2, 1.0}};
-  const MapSegment fitted = fitted_to_grid(wall, kResolutionM, row_between(-1.0, 4.0));
-  EXPECT_EQ(fitted.start_map.x_m, wall.start_map.x_m);
-  EXPECT_EQ(fitted.end_map.x_m, wall.end_map.x_m);
+  EXPECT_THAT(fitted_to_grid(wall, kResolutionM, row_between(-1.0, 4.0)), is_the_same(wall));
 }
 
 TEST(DistinctWalls, TellAWallSeenOnEveryPassOnce) {
