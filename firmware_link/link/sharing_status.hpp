@@ -7,13 +7,10 @@
 
 namespace swiftlet {
 
-/// Packets of the clients of a shared link since it was opened.
+/// Packets of the clients of a shared link that were not sent, since it was opened.
 struct SharingCounters {
-  std::uint64_t steering = 0;          ///< sent to the vehicle
   std::uint64_t steering_dropped = 0;  ///< no room, or the vehicle was not received
-  std::uint64_t requests = 0;          ///< sent to the vehicle; all that does not steer
-  std::uint64_t requests_dropped = 0;  ///< no room
-  std::uint64_t delivered = 0;         ///< to the client
+  std::uint64_t requests_dropped = 0;  ///< no room; of all that does not steer
 };
 
 /// The state of a link that a client may share.

@@ -149,11 +149,4 @@ std::optional<VehicleEvent> LiveSession::take_event() {
   return event;
 }
 
-std::string LiveSession::vehicle_text() const {
-  if (!inventory_.finished()) return {};
-  const std::string& type = inventory_.device_type();
-  const std::string& firmware = inventory_.firmware();
-  return (type.empty() ? "Crazyflie" : type) + ", firmware " + (firmware.empty() ? "unknown" : firmware);
-}
-
 }  // namespace swiftlet

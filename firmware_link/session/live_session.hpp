@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/base/fixed_vector.hpp"
@@ -53,8 +52,6 @@ class LiveSession {
   [[nodiscard]] std::optional<VehicleEvent> take_event();
   [[nodiscard]] const VehicleHealth& health() const { return monitor_.health(); }
   [[nodiscard]] Duration round_trip() const { return round_trip_.last(); }
-  /// The vehicle, for a report: "Crazyflie 2.1, firmware 2026.08"; empty while unknown.
-  [[nodiscard]] std::string vehicle_text() const;
 
  private:
   /// A log block that samples need.

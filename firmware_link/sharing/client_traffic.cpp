@@ -56,7 +56,6 @@ std::optional<CrtpPacket> ClientTraffic::next_steering() {
   const CrtpPacket packet = steering_.front();
   steering_.pop();
   ++steering_in_a_row_;
-  ++counters_.steering;
   return packet;
 }
 
@@ -68,7 +67,6 @@ std::optional<CrtpPacket> ClientTraffic::next_request(HostTime now) {
     requests_.pop();
     const std::optional<CrtpPacket> translated = translate(packet);
     if (!translated) continue;
-    ++counters_.requests;
     open_.sent(bytes_of(*translated));
     return translated;
   }

@@ -32,10 +32,7 @@ Result<LinkFrame> SharedLink::receive(Duration timeout) {
 }
 
 SharingStatus SharedLink::sharing() const {
-  SharingStatus status{
-      .is_shared = true, .has_client = socket_->has_client(), .counters = traffic_.counters()};
-  status.counters.delivered = delivered_;
-  return status;
+  return {.is_shared = true, .has_client = socket_->has_client(), .counters = traffic_.counters()};
 }
 
 bool SharedLink::has_packet() {
@@ -70,9 +67,7 @@ void SharedLink::send_answers() {
 }
 
 void SharedLink::deliver(const CrtpPacket& packet) {
-  if (!socket_->has_client()) return;
-  ++delivered_;
-  socket_->send(bytes_of(packet));
+  if (socket_->has_client()) socket_->send(bytes_of(packet));
 }
 
 }  // namespace swiftlet

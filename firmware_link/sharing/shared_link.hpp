@@ -55,7 +55,6 @@ class SharedLink final : public Link, private ClientUplink {
   std::unique_ptr<ClientSocket> socket_;
   LinkClock& clock_;
   ClientTraffic traffic_;
-  std::uint64_t delivered_ = 0;
 };
 
 }  // namespace swiftlet

@@ -85,8 +85,6 @@ class SimulatedVehicle {
   /// Whether it answers at all (a radio gets acknowledgements): not while it boots, nor once its battery is
   /// empty, until reboot().
   [[nodiscard]] bool is_on_air() const { return !boots_at_ && !is_off_; }
-  /// Whether it has received a packet and the link has not timed out since.
-  [[nodiscard]] bool is_linked() const { return is_linked_; }
   /// How often it discarded its transmit queue (silence, reboot). A radio that delays packets of this vehicle
   /// drops them when this changes.
   [[nodiscard]] unsigned flushes() const { return flushes_; }
@@ -170,7 +168,7 @@ class SimulatedVehicle {
   Milliseconds ranges_frozen_until_{0};
   std::optional<Milliseconds> boots_at_;
   bool is_off_ = false;
-  bool is_linked_ = false;
+  bool is_linked_ = false;  // it has received a packet and the link has not timed out since
   unsigned flushes_ = 0;
 };
 
