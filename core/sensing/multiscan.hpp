@@ -62,7 +62,6 @@ class Multiscan {
             const MultiscanTuning& tuning = {});
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::size_t scan_limit() const { return scan_limit_; }
 
   /// Removes all scans: the motion from them to the next is unknown.
   void restart();
