@@ -10,7 +10,7 @@ import benchmark_page as page
 import confidence_runs
 
 DISTANCES_M = [10, 20, 60]
-NEES_95 = 7.815
+NEES_95 = 7.815  # chi-square of three degrees of freedom
 SOON_S = 5.0
 NONE = "–"
 HEALTHY_KINDS = ("building", "healthy")

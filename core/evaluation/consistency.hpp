@@ -38,8 +38,6 @@ struct ConsistencyAt {
   double sigma_yaw_rad = 0.0;
 };
 
-/// 95 % of the errors have a smaller NEES: chi-square of three degrees of freedom.
-inline constexpr double kNees95 = 7.815;
 inline constexpr std::array<double, 3> kConsistencyDistancesM{10.0, 20.0, 60.0};
 
 /// The first pose with a true one after each of the distances, nothing where the run is shorter. The first of
