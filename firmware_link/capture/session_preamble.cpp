@@ -18,10 +18,6 @@
 namespace swiftlet {
 namespace {
 
-// The rest of the answer, the same of every firmware with this log port.
-constexpr std::uint8_t kMaxBlocks = 16;
-constexpr std::uint8_t kMaxVariables = 128;
-
 /// Collects the frames of the exchanges in order.
 class Exchanges {
  public:
@@ -49,7 +45,7 @@ void add_toc_info(const TocInfo& info, Exchanges& exchanges) {
       toc_info_request(kLogTocTopic),
       make_crtp_packet(kLogTocTopic, {static_cast<std::uint8_t>(TocCommand::kInfo), low_byte(info.count),
                                       high_byte(info.count), crc_byte(0), crc_byte(8), crc_byte(16),
-                                      crc_byte(24), kMaxBlocks, kMaxVariables}));
+                                      crc_byte(24), kMaxLogBlocks, kMaxLogVariables}));
 }
 
 void add_toc_item(const LogToc& toc, std::uint16_t id, Exchanges& exchanges) {

@@ -59,6 +59,10 @@ enum class LogError : std::uint8_t {
 /// Header, block id, 24-bit time: what precedes the values of a log data packet.
 inline constexpr std::size_t kLogDataPrefix = 5;
 inline constexpr std::size_t kMaxLogBytes = 26;
+/// The room of the vehicle's log: blocks, and variables in all of them. The same of every firmware with this
+/// log port; the reply about the table of contents tells both.
+inline constexpr std::uint8_t kMaxLogBlocks = 16;
+inline constexpr std::uint8_t kMaxLogVariables = 128;
 
 /// As clients send it: the link bits set, which old boot loaders insist on.
 constexpr std::uint8_t crtp_header(CrtpTopic topic) {

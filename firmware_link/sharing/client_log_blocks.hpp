@@ -22,8 +22,8 @@ class ClientLogBlocks {
  public:
   /// The client's blocks have these numbers on the vehicle, the owner's smaller ones.
   static constexpr std::uint8_t kFirstBlock = 16;
-  static constexpr std::size_t kMaxBlocks = 16 - kMaxOwnLogBlocks;
-  static constexpr std::size_t kMaxVariables = 128 - kMaxOwnLogVariables;
+  static constexpr std::size_t kMaxBlocks = kMaxLogBlocks - kMaxOwnLogBlocks;
+  static constexpr std::size_t kMaxVariables = kMaxLogVariables - kMaxOwnLogVariables;
 
   [[nodiscard]] static constexpr bool has_number(std::uint8_t block) {
     return block >= kFirstBlock && block < kFirstBlock + kMaxBlocks;

@@ -13,8 +13,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::size_t kMaxBlocks = 16;
-constexpr std::size_t kMaxEntries = 128;
 constexpr std::size_t kEntryBytes = 3;  // type, id of the variable
 
 constexpr std::uint8_t kDataHeader = 0x52;
@@ -55,8 +53,8 @@ void put_value(PacketBytes& packet, double value, LogType fetch_type) {
 PacketBytes table_info() {
   PacketBytes reply =
       simulated_toc_info(kLogTocTopic, simulated_log_table().size(), simulated_log_table_crc());
-  put(reply, kMaxBlocks);
-  put(reply, kMaxEntries);
+  put(reply, kMaxLogBlocks);
+  put(reply, kMaxLogVariables);
   return reply;
 }
 
@@ -118,7 +116,7 @@ LogError SimulatedLog::control(std::span<const std::uint8_t> packet, Millisecond
 
 LogError SimulatedLog::create(std::uint8_t id, std::span<const std::uint8_t> entries) {
   if (blocks_.contains(id)) return LogError::kExists;
-  if (blocks_.size() == kMaxBlocks) return LogError::kNoRoom;
+  if (blocks_.size() == kMaxLogBlocks) return LogError::kNoRoom;
   blocks_.emplace(id, Block{.entries = {}, .jitter = NoiseSource(seed_, "log_jitter/" + std::to_string(id))});
   return append(id, entries);
 }
@@ -133,7 +131,7 @@ LogError SimulatedLog::append(std::uint8_t id, std::span<const std::uint8_t> ent
     std::size_t bytes = log_type_size(entry.fetch_type);
     for (const Entry& other : present) bytes += log_type_size(other.fetch_type);
     if (bytes > kMaxLogBytes) return LogError::kTooBig;
-    if (entries_in_use() == kMaxEntries) return LogError::kNoRoom;
+    if (entries_in_use() == kMaxLogVariables) return LogError::kNoRoom;
     const bool is_known =
         entry.variable < simulated_log_table().size() && log_type_size(entry.fetch_type) > 0;
     if (!is_known) return LogError::kUnknown;
