@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,7 +22,7 @@
 #include "daemon/system/named_file.hpp"
 #include "daemon/version.hpp"
 #include "firmware_link/input/input_uri.hpp"
-#include "firmware_link/link/uri_text.hpp"
+#include "firmware_link/simulation/address.hpp"
 #include "firmware_link/simulation/flight.hpp"
 #include "firmware_link/simulation/world.hpp"
 #include "tools/calibrate_command.hpp"
@@ -65,9 +64,8 @@ std::string worlds_text() {
 /// As in sim://WORLD?seed=N; CLI11 alone takes -1 for the greatest number and 010 for eight.
 CLI::Validator seed_of_address() {
   const auto take = [](std::string& text) {
-    constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
-    const std::optional<std::uint64_t> seed = swiftlet::whole_number(text, std::uint64_t{0}, kMax);
-    if (!seed) return std::string("the seed must be a whole number from 0 to 18446744073709551615");
+    const swiftlet::Result<std::uint64_t> seed = swiftlet::parse_seed(text);
+    if (!seed) return seed.error().message;
     text = std::to_string(*seed);
     return std::string();
   };

@@ -13,9 +13,8 @@ namespace {
 
 Status apply(const UriParameter& parameter, SimulationAddress& address) {
   if (parameter.key == "seed") {
-    constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
-    const auto seed = whole_number(parameter.value, std::uint64_t{0}, kMax);
-    if (!seed) return bad_address("the seed must be a whole number from 0 to 18446744073709551615");
+    const Result<std::uint64_t> seed = parse_seed(parameter.value);
+    if (!seed) return seed.error();
     address.seed = *seed;
     return {};
   }
@@ -33,6 +32,12 @@ Status apply(const UriParameter& parameter, SimulationAddress& address) {
 }
 
 }  // namespace
+
+Result<std::uint64_t> parse_seed(std::string_view text) {
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+  if (const auto seed = whole_number(text, std::uint64_t{0}, kMax)) return *seed;
+  return bad_address("the seed must be a whole number from 0 to 18446744073709551615");
+}
 
 Result<SimulationAddress> parse_simulation_address(std::string_view text) {
   const Result<std::vector<UriParameter>> parameters = take_parameters(text);

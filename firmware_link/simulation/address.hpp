@@ -20,6 +20,9 @@ struct SimulationAddress {
   std::vector<MotionFault> faults;
 };
 
+/// N of `seed=N`. Error: kInvalidInput: it is no whole number from 0 on, or too great.
+[[nodiscard]] Result<std::uint64_t> parse_seed(std::string_view text);
+
 /// `WORLD[?seed=N&laps=N&fault=FAULTS]`, faults as in parse_motion_faults(). Error: kInvalidInput: what is
 /// wrong. Does not check that the world exists.
 [[nodiscard]] Result<SimulationAddress> parse_simulation_address(std::string_view text);
