@@ -4,14 +4,12 @@
 
 #include <sys/file.h>
 
-#include <array>
 #include <cerrno>
-#include <chrono>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
 #include "daemon/outputs/file_writer.hpp"
+#include "daemon/system/utc_text.hpp"
 #include "firmware_link/input/input_uri.hpp"
 
 namespace swiftlet {
@@ -60,14 +58,8 @@ std::vector<fs::path> missing_folders(const fs::path& directory) {
 }  // namespace
 
 std::string flight_folder_name(const std::string& input, HostTime began) {
-  const auto seconds =
-      static_cast<std::time_t>(std::chrono::floor<std::chrono::seconds>(began.time_since_epoch()).count());
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  std::array<char, 32> time{};
-  const std::size_t size = std::strftime(time.data(), time.size(), "%Y-%m-%d_%H%M_", &utc);
   const std::string name = tidied(name_of(input));
-  return std::string(time.data(), size) + (name.empty() ? "flight" : name);
+  return utc_text(began, "%Y-%m-%d_%H%M_") + (name.empty() ? "flight" : name);
 }
 
 Result<OutputDirectory> OutputDirectory::open(const fs::path& directory) {

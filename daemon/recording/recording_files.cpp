@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "daemon/system/utc_text.hpp"
 #include "firmware_link/capture/capture_writer.hpp"
 
 namespace swiftlet {
@@ -92,13 +91,7 @@ Result<fs::path> default_recordings_directory() {
 }
 
 std::string recording_name(HostTime began, int part) {
-  const auto seconds =
-      static_cast<std::time_t>(std::chrono::floor<std::chrono::seconds>(began.time_since_epoch()).count());
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  std::array<char, 32> time{};
-  const std::size_t size = std::strftime(time.data(), time.size(), "%Y%m%d_%H%M%S", &utc);
-  std::string name = std::string(kPrefix) + std::string(time.data(), size);
+  std::string name = std::string(kPrefix) + utc_text(began, "%Y%m%d_%H%M%S");
   if (part > 1) name.append("_").append(std::to_string(part));
   return name + std::string(kSuffix);
 }
