@@ -61,7 +61,6 @@ void put_record(ByteWriter& out, const TrailPose& pose, std::size_t beams) {
   out.put(std::int32_t{pose.tracking});
   out.put(std::int32_t{pose.storey});
   for (const double entry : pose.covariance) out.put_f32(entry);
-  out.put(pose.serial);
   for (std::size_t i = 0; i < beams; ++i) out.put(i < pose.ranges_m.size() ? pose.ranges_m[i] : kUnknown);
 }
 
@@ -134,7 +133,7 @@ WebMessage synced_message(std::int64_t at_us, bool has_ended) {
 }
 
 WebMessage poses_message(std::span<const TrailPose> poses, std::span<const float> bearings_rad) {
-  constexpr std::size_t kRecordBytes = 92;
+  constexpr std::size_t kRecordBytes = 88;
   const std::size_t beams = bearings_rad.size();
   ByteWriter out(kPosesKind, poses.size(), static_cast<double>(beams), kRecordBytes + beams * sizeof(float));
   for (const float bearing : bearings_rad) out.put(bearing);

@@ -31,7 +31,7 @@ namespace swiftlet {
 // `count` records:
 //   1 poses, value n: number of beams. f32[n] bearings come before the records.
 //     A record: f64 utime_us; f32[3] map, f32[3] local, f32[3] odom (x, y, yaw); i32 sequence, segment,
-//     correction_version, tracking, storey; f32[6] covariance_map as in pose_t; u32 serial; f32[n] ranges as
+//     correction_version, tracking, storey; f32[6] covariance_map as in pose_t; f32[n] ranges as
 //     TrailPose::ranges_m
 //   2 walls, value utime_us: all of them: i32 id; f32[4] start x, y, end x, y
 //   3 tiles, value resolution_m: i32 x, y, version; i8[4096] occupancy as in map_tile_t. Version 0: gone

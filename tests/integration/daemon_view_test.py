@@ -20,7 +20,7 @@ from pathlib import Path
 PATIENCE_S = 60
 FLIGHT = "sim://loop?seed=1"
 POSES, TILES = 1, 3
-HEADER_BYTES, POSE_BYTES, TILE_BYTES = 16, 92, 12 + 64 * 64
+HEADER_BYTES, POSE_BYTES, TILE_BYTES = 16, 88, 12 + 64 * 64
 
 
 def expect(condition, why):

@@ -93,15 +93,15 @@ TEST_F(ViewerTest, APoseGoesWithItsBeams) {
   ASSERT_TRUE(viewer.next());
   const auto message = viewer.next();
   ASSERT_TRUE(message);
-  EXPECT_EQ(message->bytes.size(), 16U + 8 + 2 * (92 + 8));
+  EXPECT_EQ(message->bytes.size(), 16U + 8 + 2 * (88 + 8));
   const auto f32_at = [&](std::size_t offset) {
     float number = 0.0F;
     std::memcpy(&number, message->bytes.data() + offset, sizeof number);
     return number;
   };
   EXPECT_EQ(f32_at(16 + 4), 1.0F) << "the second bearing";
-  EXPECT_EQ(f32_at(16 + 8 + 92 + 4), 2.5F);
-  EXPECT_EQ(f32_at(16 + 8 + 2 * 100 - 4), -1.0F) << "a pose without ranges";
+  EXPECT_EQ(f32_at(16 + 8 + 88 + 4), 2.5F);
+  EXPECT_EQ(f32_at(16 + 8 + 2 * 96 - 4), -1.0F) << "a pose without ranges";
 }
 
 TEST_F(ViewerTest, ASlowPageGetsTheNewestVersionAndNoneBetween) {
