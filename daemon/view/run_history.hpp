@@ -148,8 +148,6 @@ class RunHistory {
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
   /// Of the beams, in the body frame; empty while there are no ranges.
   [[nodiscard]] const std::vector<float>& bearings_rad() const { return bearings_rad_; }
-  /// nullptr before the first; valid until the next change.
-  [[nodiscard]] const TrailPose* newest_pose() const { return poses_.empty() ? nullptr : &poses_.back(); }
   /// Of the newest pose that is not after `at_us`; unset: of the newest. The first where there is none.
   [[nodiscard]] StoreyId storey_at(std::optional<std::int64_t> at_us) const;
   /// Of that storey, as of that moment.

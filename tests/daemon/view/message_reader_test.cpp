@@ -53,9 +53,6 @@ class MessageReaderTest : public testing::Test {
   void take(std::string_view channel, const Message& message) {
     reader_.take(channel, encoded(message), MonotonicTime());
   }
-  TrailPose newest() const {
-    return history_.newest_pose() == nullptr ? TrailPose() : *history_.newest_pose();
-  }
   std::vector<std::string> log() const {
     std::vector<std::string> texts;
     for (const RunEvent& event : history_.events_after(0)) texts.push_back(event.text);
@@ -86,11 +83,13 @@ ranges_t ranges_message(std::int32_t sequence) {
 
 TEST_F(MessageReaderTest, RangesBelongToThePoseOfTheirSequence) {
   take("POSE", pose_message(pose_t::FRAME_MAP, 3));
+  take("POSE_ODOM", pose_message(pose_t::FRAME_ODOM, 3));
   take("RANGES", ranges_message(2));
-  EXPECT_THAT(newest().ranges_m, testing::IsEmpty());
+  ASSERT_EQ(history_.poses_after(0).size(), 1U);
+  EXPECT_THAT(history_.poses_after(0)[0].ranges_m, testing::IsEmpty());
   take("RANGES", ranges_message(3));
   EXPECT_THAT(history_.bearings_rad(), testing::ElementsAre(0.0F, 1.0F, 2.0F));
-  EXPECT_THAT(newest().ranges_m, testing::ElementsAre(1.5F, 0.0F, -1.0F));
+  EXPECT_THAT(history_.poses_after(0)[0].ranges_m, testing::ElementsAre(1.5F, 0.0F, -1.0F));
 }
 
 TEST_F(MessageReaderTest, RangesThatNoSensorHasAreRefused) {
