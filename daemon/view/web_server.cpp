@@ -238,13 +238,17 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 };
 
+Error no_address(std::string_view text) {
+  return {ErrorCode::kInvalidInput,
+          "'" + std::string(text) + "' is no address to listen on; write 127.0.0.1:8440"};
+}
+
 Result<tcp::endpoint> endpoint_of(const ListenAddress& address) {
   error_code error;
   const std::string host = address.host == "localhost" ? "127.0.0.1" : address.host;
   const asio::ip::address ip = asio::ip::make_address(host, error);
   if (!error) return tcp::endpoint(ip, address.port);
-  return Error{ErrorCode::kInvalidInput,
-               "'" + address.host + "' is no address to listen on; write 127.0.0.1:8440"};
+  return no_address(address.host);
 }
 
 }  // namespace
@@ -307,8 +311,7 @@ Result<ListenAddress> parse_listen_address(std::string_view text) {
     is_port = error == std::errc() && rest == end;
   }
   if (is_port && endpoint_of(address)) return address;
-  return Error{ErrorCode::kInvalidInput,
-               "'" + std::string(text) + "' is no address to listen on; write 127.0.0.1:8440"};
+  return no_address(text);
 }
 
 Result<std::unique_ptr<WebServer>> WebServer::open(const ListenAddress& address, WebSite site) {
