@@ -8,6 +8,7 @@ import {EventLog} from "./event_log.js";
 import {connectKeys} from "./keys.js";
 import {LayerBoxes, storedLayers} from "./layers.js";
 import {MapInput} from "./map_input.js";
+import {FINISHED} from "./messages.js";
 import {Player} from "./player.js";
 import {RunModel} from "./run_model.js";
 import {SaveButtons} from "./save_buttons.js";
@@ -261,7 +262,7 @@ class Page {
 
   connectionState() {
     const isLive = !this.model.run.is_recording;
-    const hasEnded = isLive && (this.hasEnded || this.model.status?.state === 2);
+    const hasEnded = isLive && (this.hasEnded || this.model.status?.state === FINISHED);
     if (!this.isConnected && hasEnded)
       return ["lost", `swiftletd has ended: the map is ${this.isFinal && this.isSynced ? "" : "not "}final`];
     if (!this.isConnected) return ["lost", "Connection lost: trying again"];

@@ -12,6 +12,9 @@ const WALL_BYTES = 20;
 export const TILE_CELLS = 64;
 const CELLS_IN_TILE = TILE_CELLS * TILE_CELLS;
 const TILE_BYTES = 12 + CELLS_IN_TILE;
+// `state` of a status, as in status_t.
+export const RUNNING = 0;
+export const FINISHED = 2;
 
 function floatsAt(view, offset, count) {
   return Array.from({length: count}, (_, i) => view.getFloat32(offset + 4 * i, true));

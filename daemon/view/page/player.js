@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
+import {FINISHED} from "./messages.js";
+
 const REQUEST_EVERY_MS = 60;
 
 /// Which moment of the run is looked at: the newest (at_us null) or an earlier one, standing still or playing.
@@ -63,7 +65,7 @@ export class Player {
       this.isPlaying = false;
       return;
     }
-    if (this.isAtNewest && this.model.status?.state === 2) this.at_us = this.model.first_us;  // again from the start
+    if (this.isAtNewest && this.model.status?.state === FINISHED) this.at_us = this.model.first_us;  // again from the start
     this.isPlaying = true;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
+import {FINISHED, RUNNING} from "./messages.js";
 import {durationText} from "./units.js";
 
 const STATES = ["running", "final pass", "finished"];
@@ -21,8 +22,8 @@ function gaugesOf(model, at_us) {
 
 function runGauges(model, status, pose) {
   const gauges = [];
-  if (status) gauges.push(["State", STATES[status.state] ?? "?", status.state === 2 ? "good" : ""]);
-  if (model.run.is_recording && status && status.state === 0 && status.progress >= 0)
+  if (status) gauges.push(["State", STATES[status.state] ?? "?", status.state === FINISHED ? "good" : ""]);
+  if (model.run.is_recording && status && status.state === RUNNING && status.progress >= 0)
     gauges.push(["Mapped", `${Math.round(status.progress * 100)} %`, ""]);
   if (pose && pose.tracking >= 0)
     gauges.push(["Tracking", TRACKING[pose.tracking] ?? "?", ["good", "warning", "bad", "warning"][pose.tracking] ?? ""]);
@@ -35,7 +36,7 @@ function linkGauges(status) {
   const gauges = [];
   if (status.link_condition > 0) gauges.push(["Link", linkText(status), linkLevel(status)]);
   if (status.battery_v > 0) gauges.push(["Battery", `${status.battery_v.toFixed(2)} V`, batteryLevel(status.battery_v)]);
-  if (status.sample_rate_hz > 0 && status.state === 0) gauges.push(["Rate", `${status.sample_rate_hz.toFixed(1)} Hz`, ""]);
+  if (status.sample_rate_hz > 0 && status.state === RUNNING) gauges.push(["Rate", `${status.sample_rate_hz.toFixed(1)} Hz`, ""]);
   if (status.latency_p99_ms > 0)
     gauges.push(["Latency p99", `${status.latency_p99_ms.toFixed(1)} ms`, status.latency_p99_ms > LATE_ms ? "warning" : ""]);
   if (status.missing_packets > 0) gauges.push(["Missing", String(status.missing_packets), "warning"]);
