@@ -28,8 +28,8 @@ PATIENCE_S = 60
 SKIPPED = 77
 MEASURE_LINES = 7  # width and height, their ends, the scale bar
 DRIVER = "/usr/bin/chromedriver"
-PGM_OF_PAGE = """const done = arguments[0];
-swiftletPage.save.file('PGM').then((file) => file.arrayBuffer()).then((bytes) => done([...new Uint8Array(bytes)]));"""
+SAVED_FILE = """const [format, done] = arguments;
+swiftletPage.save.file(format).then((file) => file.arrayBuffer()).then((bytes) => done([...new Uint8Array(bytes)]));"""
 # Of PNG, SVG, the SVG of walls alone, and PDF.
 SAVED_FILES = """const done = arguments[0], save = swiftletPage.save, bytes = async (format, content) => {
   save.content.value = content;
@@ -240,15 +240,22 @@ class PageTest(unittest.TestCase):
         self.wait_until(f"swiftletPage.isSynced && swiftletPage.tileMap.tiles.size < {tiles}")
         return self.js("swiftletPage.tileMap.tiles.size")
 
-    def check_pgm(self, folder):
-        self.assertEqual(bytes(self.browser.execute_async_script(PGM_OF_PAGE)), (folder / "map.pgm").read_bytes())
+    def saved(self, file_format):
+        return bytes(self.browser.execute_async_script(SAVED_FILE, file_format))
+
+    def check_ros_map(self, folder):
+        """The page saves what the program writes; only the picture in YAML may have another name."""
+        self.assertEqual(self.saved("PGM"), (folder / "map.pgm").read_bytes())
+        image, rest = self.saved("YAML").decode().split("\n", 1)
+        self.assertRegex(image, r"^image: \S+\.pgm$")
+        self.assertEqual(rest, (folder / "map.yaml").read_text(encoding="utf-8").split("\n", 1)[1])
 
     def test_1_a_recording_ends_with_the_daemons_own_map(self):
         with tempfile.TemporaryDirectory() as parent:
             out = Path(parent, "out")
             subprocess.run(fly("--rate", 1000, "-o", out), check=True, capture_output=True)
             view = self.open_finished()
-            self.check_pgm(out)
+            self.check_ros_map(out)
         good, count = self.browser.execute_script(PICTURE_AGREES)
         self.assertGreater(count, 50)
         self.assertGreaterEqual(good, 0.98 * count)
@@ -317,12 +324,12 @@ class PageTest(unittest.TestCase):
             subprocess.run(fly("--rate", 200, "-o", first), check=True, capture_output=True)
             self.browser.get(view.url)
             self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.isSynced")
-            self.check_pgm(first)
+            self.check_ros_map(first)
             run = self.js("swiftletPage.model.run.map_id")
             subprocess.run(fly("--rate", 200, "-o", second), check=True, capture_output=True)
             self.wait_until(f"swiftletPage.model.run.map_id !== '{run}' && swiftletPage.model.status?.state === 2 && "
                             "swiftletPage.isSynced")
-            self.check_pgm(second)
+            self.check_ros_map(second)
 
     def test_7_beams_end_at_walls(self):
         self.open_finished()
@@ -384,7 +391,7 @@ class PageTest(unittest.TestCase):
             self.assertEqual(self.js("document.getElementById('notice').textContent"),
                              "swiftletd has ended: the map is final")
             daemon.wait(PATIENCE_S)
-            self.check_pgm(out)
+            self.check_ros_map(out)
 
     def test_a_page_that_does_not_get_the_final_map_says_so(self):
         daemon, _ = self.daemon_with_view("--rate", 20, "--no-output")
