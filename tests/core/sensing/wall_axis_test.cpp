@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "core/geometry/angle.hpp"
@@ -17,6 +18,7 @@ namespace {
 std::vector<WallDirection> square_walls(test::RandomGeometry& random, double axis_rad, int count,
                                         double sigma_rad) {
   std::vector<WallDirection> walls;
+  walls.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     walls.push_back({axis_rad + i * kPi / 2.0 + random.normal(sigma_rad), random.uniform(0.5, 3.0)});
   return walls;
@@ -74,6 +76,7 @@ TEST(WallAxis, IsNotMovedByClutter) {
 
 TEST(WallAxis, IsNoneWhereWallsRunEveryWay) {
   std::vector<WallDirection> walls;
+  walls.reserve(18);
   for (int i = 0; i < 18; ++i) walls.push_back({radians(5.0 * i), 2.0});
   EXPECT_FALSE(wall_axis(walls));
 }
