@@ -112,6 +112,11 @@ ManualFacts manual_facts() {
       .choices = {}};
 }
 
+bool is_followed(const Options& options) {
+  const Result<InputUri> input = parse_input_uri(options.input_uri);
+  return input && input->is(InputNature::kFollowed);
+}
+
 std::string why_no_input(const Options& options) {
   const auto taken = [](const std::string& text, std::string_view value, std::string_view option) {
     return fmt::format("{} is taken for the {} of {}; name INPUT before {}", text, value, option, option);

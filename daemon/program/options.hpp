@@ -41,6 +41,9 @@ void complete_options(const CLI::App& app, Options& options);
 /// What the manual page has beyond --help.
 [[nodiscard]] ManualFacts manual_facts();
 
+/// Whether INPUT is a recording that is still written.
+[[nodiscard]] bool is_followed(const Options& options);
+
 /// An option that takes a word may have taken INPUT for it.
 [[nodiscard]] std::string why_no_input(const Options& options);
 

@@ -182,9 +182,4 @@ Result<std::unique_ptr<RunParts>> RunParts::open(const Options& options, const C
   return run;
 }
 
-bool is_followed(const Options& options) {
-  const Result<InputUri> input = parse_input_uri(options.input_uri);
-  return input && input->is(InputNature::kFollowed);
-}
-
 }  // namespace swiftlet

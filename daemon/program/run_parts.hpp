@@ -39,7 +39,4 @@ struct RunParts {
                                                               const Configuration& config);
 };
 
-/// Whether INPUT is a recording that is still written.
-[[nodiscard]] bool is_followed(const Options& options);
-
 }  // namespace swiftlet

@@ -21,7 +21,7 @@ namespace swiftlet {
 [[nodiscard]] std::string lcm_server_url(const sockaddr_in& address);
 
 /// The server of a tcpq:// URL, looked for in a thread of its own: a name that does not resolve takes its
-/// time. One thread at a time.
+/// time. The destructor waits for a look that goes on. One thread at a time.
 class LcmServer {
  public:
   /// nullopt for other URLs.
