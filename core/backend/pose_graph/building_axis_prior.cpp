@@ -23,15 +23,23 @@ double seen_in_map_rad(const PoseGraph& graph, KeyframeId keyframe, const WallAx
 
 double nearer_to_zero(double a, double b) { return std::abs(a) < std::abs(b) ? a : b; }
 
+/// Logarithm of the odds of walls that stand anywhere in a quarter turn over a Gaussian.
+double anywhere_log_odds(double off_rad, double variance_rad2) {
+  return (squared(off_rad) / variance_rad2 + std::log(2.0 * kPi * variance_rad2)) / 2.0 - std::log(kPi / 2.0);
+}
+
 }  // namespace
 
 void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double yaw_variance_rad2,
                             PoseGraph& graph) {
   Sight sight{keyframe, axis, yaw_variance_rad2};
   const std::vector<Fit> fits = fits_of(sight, graph);
-  sight.is_elsewhere = std::none_of(fits.begin(), fits.end(), [](const Fit& fit) { return fit.may_slip; });
-  const std::optional<std::size_t> shared = shared_axis(fits);
+  sight.is_elsewhere = std::all_of(fits.begin(), fits.end(), [&](const Fit& fit) {
+    return fit.own_log_odds >= tuning_.own_axis_log_odds;
+  });
   const bool goes_on = !strays_.empty() && continues_strays(sight, graph);
+  const bool is_own = goes_on && strays_.front().is_elsewhere;
+  const std::optional<std::size_t> shared = is_own ? std::nullopt : shared_axis(fits);
   if (shared) {
     observe(*shared, yaw_variance_rad2);
     if (!goes_on) share_strays_upto(sight, graph);
@@ -63,10 +71,9 @@ std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sigh
     const double off_rad = nearer_to_zero(in_map_rad, wrap_axis(in_map_rad - last_off_rad));
     const double turned_rad2 = shared_[k].variance_rad2 + sight.yaw_variance_rad2;
     const double slipped_rad2 = squared(tuning_.slip_factor) * turned_rad2;
-    fits.push_back(
-        {.misfit = squared(off_rad) / (turned_rad2 + sight_rad2),
-         .other_way_round = squared(kPi / 2.0 - std::abs(off_rad)) / (turned_rad2 + sight_rad2),
-         .may_slip = squared(off_rad) <= squared(tuning_.gate_sigmas) * (slipped_rad2 + sight_rad2)});
+    fits.push_back({.misfit = squared(off_rad) / (turned_rad2 + sight_rad2),
+                    .other_way_round = squared(kPi / 2.0 - std::abs(off_rad)) / (turned_rad2 + sight_rad2),
+                    .own_log_odds = anywhere_log_odds(off_rad, slipped_rad2 + sight_rad2)});
   }
   return fits;
 }

@@ -15,9 +15,9 @@ namespace swiftlet {
 /// Constrains headings by the axes that the walls of most buildings share. Dead reckoning by wheels loses
 /// degrees with every metre, and loops end tens of metres from where they began; the axis seen at the start
 /// gives the heading hundreds of metres later. Similar to the heuristic drift elimination of Borenstein &
-/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows: walls that stand
-/// farther from all known axes than a slip can turn, or that the vehicle comes back from to a known axis
-/// without a turn, have an axis of their own. One thread at a time.
+/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows: walls that a
+/// slip from no known axis explains, or that the vehicle comes back from to a known axis without a turn, have
+/// an axis of their own. One thread at a time.
 class BuildingAxisPrior {
  public:
   explicit BuildingAxisPrior(const BuildingAxisPriorTuning& tuning = {}) : tuning_(tuning) {}
@@ -40,7 +40,7 @@ class BuildingAxisPrior {
     WallAxis axis;
     /// Of the keyframe's heading relative to that of the last heading factor.
     double yaw_variance_rad2 = 0.0;
-    bool is_elsewhere = false;  ///< farther from all shared axes than a slip can turn
+    bool is_elsewhere = false;  ///< too far from all shared axes for a slip
   };
   /// An axis that walls share.
   struct Shared {
@@ -52,11 +52,11 @@ class BuildingAxisPrior {
     WallAxis axis;  ///< in the frame of the keyframe
     std::size_t shared = 0;
   };
-  /// Of walls to a shared axis, in squared standard deviations.
+  /// Of walls to a shared axis.
   struct Fit {
-    double misfit = 0.0;
+    double misfit = 0.0;           ///< in squared standard deviations
     double other_way_round = 0.0;  ///< the same, if the heading is off by the rest of a quarter turn
-    bool may_slip = false;         ///< the heading, as far as to this axis
+    double own_log_odds = 0.0;     ///< of another axis over a slip from this one
   };
   /// Walls are looked at every half submap: the first and the last of so many sights have none in common.
   static constexpr std::size_t kSightsApart = 3;

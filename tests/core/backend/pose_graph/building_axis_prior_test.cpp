@@ -111,9 +111,16 @@ TEST(BuildingAxisPrior, WallsFartherOffThanASlipTurnsHaveAnAxisOfTheirOwn) {
   EXPECT_EQ(headings_after({{40, 4}, {10, 5}, {39, 6}}), 2U) << "10 degrees belong to the first";
 }
 
+TEST(BuildingAxisPrior, AVoteThatGoesOnWithWallsOfAnotherAxisIsNotOneForTheFirst) {
+  EXPECT_EQ(headings_after({{12, 9}}), 2U);
+  EXPECT_EQ(headings_after({{20, 4}, {12, 9}}), 1U) << "within the gate, as the motion since has grown";
+  EXPECT_EQ(headings_after({{20, 4}, {12, 9}, {20, 10}}), 4U);
+  EXPECT_EQ(headings_after({{15, 4}, {12, 9}}), 2U) << "a slip of 15 degrees";
+}
+
 TEST(BuildingAxisPrior, WhoComesBackToAnAxisWithoutATurnSawAnother) {
-  EXPECT_EQ(headings_after({{20, 4}, {21, 5}, {20, 6}}), 1U) << "it may have turned";
-  EXPECT_EQ(headings_after({{20, 4}, {21, 5}, {20, 6}, {1, 7}}), 5U);
+  EXPECT_EQ(headings_after({{17, 4}, {18, 5}, {17, 6}}), 1U) << "it may have turned";
+  EXPECT_EQ(headings_after({{17, 4}, {18, 5}, {17, 6}, {1, 7}}), 5U);
 }
 
 TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
