@@ -10,7 +10,7 @@ import accuracy_runs
 import mapped_runs
 
 WORLDS = ["office", "loop", "corridors", "maze", "wings", "patrol"]
-SEEDS = range(1, 6)
+SEEDS = range(1, 11)
 OPTIONS = {"patrol": "&laps=5"}  # a single lap meets no old ground
 BATCH_EVERY_S = 20
 BATCH_EVERY_S_RECORDED = 8  # there are two
