@@ -35,6 +35,7 @@ class Outcome:
     is_in_cells: bool
     failed: str = ""
     figures: dict = dataclasses.field(default_factory=dict)
+    live_ratio: float | None = None  # of the poses as published
 
     def is_worse_than_odometry(self):
         return self.ratio is not None and self.ratio > OVER_ODOMETRY
@@ -50,11 +51,11 @@ def outcome(run, result):
     for which, what in (("final", "final trajectory"), ("odometry", "dead reckoning")):
         if result[which] is None:
             return Outcome(run, None, None, False, f"no {what}")
-    error, odometry = runs.error_of(result["final"]), runs.error_of(result["odometry"])
-    ratio = error / odometry if odometry else math.inf
+    error, live, odometry = (runs.error_of(result.get(which)) for which in ("final", "live", "odometry"))
+    ratio, live_ratio = (None if of is None else of / odometry if odometry else math.inf for of in (error, live))
     in_cells = runs.is_in_cells(result["final"])
     figures = {**result["report"], "at_once": result["at_once"]}
-    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures)
+    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures, live_ratio=live_ratio)
 
 
 def outcomes(wanted, get):
@@ -330,8 +331,24 @@ def bad_buildings(all_outcomes):
 
 def median_and_p95(all_outcomes):
     """Of the ratios to dead reckoning."""
-    ratios = [one.ratio for one in all_outcomes if not one.failed]
+    return middle_and_p95([one.ratio for one in all_outcomes if not one.failed])
+
+
+def middle_and_p95(ratios):
     return [f"{statistics.median(ratios):.3f}", f"{percentile(ratios, 0.95):.3f}"] if ratios else [NONE, NONE]
+
+
+def live_rows(done):
+    """Of the poses as published."""
+    ratios = [one.live_ratio for one in done if one.live_ratio is not None]
+    if not ratios:
+        return []
+    worse = sum(ratio > OVER_ODOMETRY for ratio in ratios)
+    low, high = interval(worse, len(ratios))
+    median, p95 = middle_and_p95(ratios)
+    return [[f"published poses: error over {OVER_ODOMETRY:g} times that of dead reckoning, %",
+             f"{percent(worse / len(ratios))} ({percent(low)} to {percent(high)})"],
+            ["published poses: median ratio", median], ["published poses: p95", p95]]
 
 
 def building_kinds_table(all_outcomes):
@@ -365,7 +382,7 @@ def buildings_text(all_outcomes):
     rows = [["buildings", str(len(all_outcomes))], ["failed", str(len(failed))],
             [f"final error over {OVER_ODOMETRY:g} times that of dead reckoning, %",
              f"{percent(bad / len(all_outcomes))} ({percent(low)} to {percent(high)})"],
-            ["median ratio to dead reckoning", median], ["p95 of the ratio", p95]]
+            ["median ratio to dead reckoning", median], ["p95 of the ratio", p95], *live_rows(done)]
     if done:
         per_sample_ms = statistics.mean(one.figures["mean_per_scan_ms"] for one in done)
         rows += [["mean time per sample, ms", f"{per_sample_ms:.3f}"],
