@@ -45,6 +45,10 @@ class Outcome:
         return self.error is not None and quarter is not None and self.error > factor * quarter
 
 
+def over(odometry, error):
+    return error / odometry if odometry else math.inf
+
+
 def outcome(run, result):
     if "failed" in result:
         return Outcome(run, None, None, False, result["failed"])
@@ -52,7 +56,8 @@ def outcome(run, result):
         if result[which] is None:
             return Outcome(run, None, None, False, f"no {what}")
     error, live, odometry = (runs.error_of(result.get(which)) for which in ("final", "live", "odometry"))
-    ratio, live_ratio = (None if of is None else of / odometry if odometry else math.inf for of in (error, live))
+    ratio = over(odometry, error)
+    live_ratio = None if live is None else over(odometry, live)
     in_cells = runs.is_in_cells(result["final"])
     figures = {**result["report"], "at_once": result["at_once"]}
     return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures, live_ratio=live_ratio)
@@ -329,13 +334,13 @@ def bad_buildings(all_outcomes):
     return sum(one.is_worse_than_odometry() or bool(one.failed) for one in all_outcomes)
 
 
-def median_and_p95(all_outcomes):
-    """Of the ratios to dead reckoning."""
-    return middle_and_p95([one.ratio for one in all_outcomes if not one.failed])
-
-
-def middle_and_p95(ratios):
+def median_and_p95(ratios):
     return [f"{statistics.median(ratios):.3f}", f"{percentile(ratios, 0.95):.3f}"] if ratios else [NONE, NONE]
+
+
+def share_cell(count, of):
+    low, high = interval(count, of)
+    return f"{percent(count / of)} ({percent(low)} to {percent(high)})"
 
 
 def live_rows(done):
@@ -344,10 +349,9 @@ def live_rows(done):
     if not ratios:
         return []
     worse = sum(ratio > OVER_ODOMETRY for ratio in ratios)
-    low, high = interval(worse, len(ratios))
-    median, p95 = middle_and_p95(ratios)
+    median, p95 = median_and_p95(ratios)
     return [[f"published poses: error over {OVER_ODOMETRY:g} times that of dead reckoning, %",
-             f"{percent(worse / len(ratios))} ({percent(low)} to {percent(high)})"],
+             share_cell(worse, len(ratios))],
             ["published poses: median ratio", median], ["published poses: p95", p95]]
 
 
@@ -358,7 +362,8 @@ def building_kinds_table(all_outcomes):
 
     def cells(name, group):
         bad = bad_buildings(group)
-        return [name, *rate_cells(bad, len(group), interval(bad, len(group))), *median_and_p95(group)]
+        ratios = [one.ratio for one in group if not one.failed]
+        return [name, *rate_cells(bad, len(group), interval(bad, len(group))), *median_and_p95(ratios)]
 
     return page.table(["kind", "buildings:", f"over {OVER_ODOMETRY:g} times or failed:", "%:", "95 %:", "median ratio:",
                        "p95:"], [cells(name, group) for name, group in sorted(kinds.items())])
@@ -377,11 +382,9 @@ def buildings_text(all_outcomes):
     done = [one for one in all_outcomes if not one.failed]
     failed = [one for one in all_outcomes if one.failed]
     bad = bad_buildings(all_outcomes)
-    low, high = interval(bad, len(all_outcomes))
-    median, p95 = median_and_p95(all_outcomes)
+    median, p95 = median_and_p95([one.ratio for one in done])
     rows = [["buildings", str(len(all_outcomes))], ["failed", str(len(failed))],
-            [f"final error over {OVER_ODOMETRY:g} times that of dead reckoning, %",
-             f"{percent(bad / len(all_outcomes))} ({percent(low)} to {percent(high)})"],
+            [f"final error over {OVER_ODOMETRY:g} times that of dead reckoning, %", share_cell(bad, len(all_outcomes))],
             ["median ratio to dead reckoning", median], ["p95 of the ratio", p95], *live_rows(done)]
     if done:
         per_sample_ms = statistics.mean(one.figures["mean_per_scan_ms"] for one in done)

@@ -15,8 +15,8 @@ namespace swiftlet {
 /// Constrains headings by the axes that the walls of most buildings share. Dead reckoning by wheels loses
 /// degrees with every metre, and loops end tens of metres from where they began; the axis seen at the start
 /// gives the heading hundreds of metres later. Similar to the heuristic drift elimination of Borenstein &
-/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows: walls that a
-/// slip from no known axis explains, or that the vehicle comes back from to a known axis without a turn, have
+/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows: walls too far
+/// from all known axes for a slip, or from which the vehicle comes back to a known axis without a turn, have
 /// an axis of their own. One thread at a time.
 class BuildingAxisPrior {
  public:
