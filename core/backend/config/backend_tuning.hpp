@@ -152,16 +152,16 @@ struct BuildingAxisPriorTuning {
   double gate_sigmas = 4.0;  ///< wheels that slip in a turn lose more than their model has it
   double slip_factor = 3.0;  ///< standard deviation of a slip over that of the model: Killian's robot lost 38
                              ///< degrees in spins of which the model has 4 to 9
-  double own_axis_log_odds = 2.0;  ///< of another axis over a slip: between Killian's slips, up to 1.3, and
-                                   ///< the sheared half of `wings`, 2.5 and more
-  double min_log_odds = 6.0;       ///< of an axis over any other, and over one the other way round, where the
-                                   ///< heading is off by the rest of a quarter turn: 400 to 1
-  double variance_factor = 3.0;    ///< headings a few metres apart come from the same walls and err together
+  double another_axis_log_odds = 2.0;  ///< over a known axis or a slip from it: Killian's slips have up
+                                       ///< to 1.3, the sheared half of `wings` 2.5 and more
+  double min_log_odds = 6.0;     ///< of an axis over any other, and over one the other way round, where the
+                                 ///< heading is off by the rest of a quarter turn: 400 to 1
+  double variance_factor = 3.0;  ///< headings a few metres apart come from the same walls and err together
 
   static constexpr TuningValue<BuildingAxisPriorTuning> kValues[] = {
       {"gate_sigmas", &BuildingAxisPriorTuning::gate_sigmas},
       {"slip_factor", &BuildingAxisPriorTuning::slip_factor},
-      {"own_axis_log_odds", &BuildingAxisPriorTuning::own_axis_log_odds},
+      {"another_axis_log_odds", &BuildingAxisPriorTuning::another_axis_log_odds},
       {"min_log_odds", &BuildingAxisPriorTuning::min_log_odds},
       {"variance_factor", &BuildingAxisPriorTuning::variance_factor}};
 };

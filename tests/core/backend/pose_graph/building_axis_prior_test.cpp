@@ -88,39 +88,42 @@ TEST(BuildingAxisPrior, KeepsTheHeadingInAWingThatStandsAskewByItsOwnAxis) {
   EXPECT_LT(flight.yaw_error_rad(), before_rad + radians(12)) << "of 100 degrees of drift";
 }
 
-/// A vehicle that does not turn sees walls at these angles to the first, each with the variance of what it
-/// may have turned since the last heading factor.
-std::size_t headings_after(std::initializer_list<std::pair<double, double>> deg_and_deg2) {
+/// Degrees to the building's axis, and the variance, deg², of what the vehicle may have turned since the last
+/// heading factor.
+using Seen = std::pair<double, double>;
+
+/// What a vehicle that does not turn adds by seeing these walls where so many votes hold the first axis.
+std::size_t headings_added(std::initializer_list<Seen> walls, std::size_t first_votes = 30) {
   PoseGraph graph;
-  graph.T_map_keyframe.push_back({});
   BuildingAxisPrior hold;
-  hold.add(make_id<KeyframeId>(0), axis_seen_at(0.0), 0.0, graph);
   std::size_t keyframe = 0;
-  for (const auto& [deg, deg2] : deg_and_deg2) {
+  const auto see = [&](const Seen& seen) {
     graph.T_map_keyframe.push_back({});
-    hold.add(make_id<KeyframeId>(++keyframe), axis_seen_at(0.0, radians(deg)), squared(radians(1.0)) * deg2,
-             graph);
-  }
-  return graph.headings.size();
+    hold.add(make_id<KeyframeId>(keyframe++), axis_seen_at(0.0, radians(seen.first)),
+             squared(radians(1.0)) * seen.second, graph);
+  };
+  for (std::size_t i = 0; i < first_votes; ++i) see({0.0, 0.0});
+  for (const Seen& seen : walls) see(seen);
+  return graph.headings.size() - first_votes;
 }
 
 TEST(BuildingAxisPrior, WallsFartherOffThanASlipTurnsHaveAnAxisOfTheirOwn) {
-  EXPECT_EQ(headings_after({{40, 4}, {41, 5}}), 1U) << "both may see the same piece of furniture";
-  EXPECT_EQ(headings_after({{40, 4}, {41, 5}, {39, 6}}), 4U);
-  EXPECT_EQ(headings_after({{20, 16}, {21, 17}, {22, 18}}), 1U) << "a slip of 20 degrees";
-  EXPECT_EQ(headings_after({{40, 4}, {10, 5}, {39, 6}}), 2U) << "10 degrees belong to the first";
+  EXPECT_EQ(headings_added({{40, 4}, {41, 5}}), 0U) << "both may see the same piece of furniture";
+  EXPECT_EQ(headings_added({{40, 4}, {41, 5}, {39, 6}}), 3U);
+  EXPECT_EQ(headings_added({{20, 16}, {21, 17}, {22, 18}}), 0U) << "a slip of 20 degrees";
+  EXPECT_EQ(headings_added({{40, 4}, {10, 5}, {39, 6}}), 1U) << "10 degrees belong to the first";
 }
 
 TEST(BuildingAxisPrior, AVoteThatGoesOnWithWallsOfAnotherAxisIsNotOneForTheFirst) {
-  EXPECT_EQ(headings_after({{12, 9}}), 2U);
-  EXPECT_EQ(headings_after({{20, 4}, {12, 9}}), 1U) << "within the gate, as the motion since has grown";
-  EXPECT_EQ(headings_after({{20, 4}, {12, 9}, {20, 10}}), 4U);
-  EXPECT_EQ(headings_after({{15, 4}, {12, 9}}), 2U) << "a slip of 15 degrees";
+  EXPECT_EQ(headings_added({{12, 9}}), 1U);
+  EXPECT_EQ(headings_added({{20, 4}, {12, 9}}), 0U) << "within the gate, as the motion since has grown";
+  EXPECT_EQ(headings_added({{20, 4}, {12, 9}, {20, 10}}), 3U);
+  EXPECT_EQ(headings_added({{15, 4}, {12, 9}}), 1U) << "a slip of 15 degrees";
 }
 
 TEST(BuildingAxisPrior, WhoComesBackToAnAxisWithoutATurnSawAnother) {
-  EXPECT_EQ(headings_after({{17, 4}, {18, 5}, {17, 6}}), 1U) << "it may have turned";
-  EXPECT_EQ(headings_after({{17, 4}, {18, 5}, {17, 6}, {1, 7}}), 5U);
+  EXPECT_EQ(headings_added({{17, 4}, {18, 5}, {17, 6}}), 0U) << "it may have turned";
+  EXPECT_EQ(headings_added({{17, 4}, {18, 5}, {17, 6}, {1, 7}}), 4U);
 }
 
 TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
@@ -134,18 +137,15 @@ TEST(BuildingAxisPrior, TurnsNobodyBackWhoMayHaveLostMoreThanItCanTell) {
 }
 
 TEST(BuildingAxisPrior, TurnsBackAsFarAsTheOtherWayRoundIsMuchLessLikely) {
-  const auto is_taken = [](double off_rad, double sigma_rad) {
-    PoseGraph graph;
-    graph.T_map_keyframe = KeyframePoses({Pose2(), Pose2(5.0, 0.0, off_rad)});
-    BuildingAxisPrior hold;
-    hold.add(make_id<KeyframeId>(0), axis_seen_at(0.0), 0.0, graph);
-    hold.add(make_id<KeyframeId>(1), axis_seen_at(0.0), sigma_rad * sigma_rad, graph);
-    return graph.headings.size() == 2;
-  };
-  EXPECT_TRUE(is_taken(radians(34), radians(9))) << "after a spin; the other way round it were 56";
-  EXPECT_FALSE(is_taken(radians(34), radians(6))) << "farther than can be believed";
-  EXPECT_FALSE(is_taken(radians(34), radians(18))) << "the other way round is no wonder either";
-  EXPECT_TRUE(is_taken(radians(16), radians(18)));
+  EXPECT_EQ(headings_added({{34, 81}}), 1U) << "after a spin; the other way round it were 56";
+  EXPECT_EQ(headings_added({{34, 36}}), 0U) << "farther than can be believed";
+  EXPECT_EQ(headings_added({{34, 324}}), 0U) << "the other way round is no wonder either";
+  EXPECT_EQ(headings_added({{16, 324}}), 1U);
+}
+
+TEST(BuildingAxisPrior, TurnsBackTheLessTheFewerVotesHoldTheAxis) {
+  EXPECT_EQ(headings_added({{34, 81}}, 3), 0U);
+  EXPECT_EQ(headings_added({{24, 81}}, 3), 1U);
 }
 
 TEST(BuildingAxisPrior, AFalseAxisIsScaledAwayByTheOthers) {
