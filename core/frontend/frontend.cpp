@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/frontend/building_axis.hpp"
+#include "core/frontend/chi_square.hpp"
 #include "core/frontend/landmark_association.hpp"
 #include "core/frontend/landmark_graph.hpp"
 #include "core/frontend/landmark_graph_solver.hpp"
@@ -32,9 +33,9 @@ struct Frontend::State {
         odometry_calibration(sensor.odometry_calibration),
         multiscan(sensor, beams, static_cast<std::size_t>(config.multiscan_points), config.tuning.multiscan),
         extractor(config, sensor.range_sigma_m),
+        chi_square(config.chi_square_confidence),
         drift(sensor.odometry, config.tuning.drift),
-        axis(config.tuning.axis),
-        graph(config.tuning.graph) {}
+        axis(config.tuning.axis) {}
 
   void track_motion(const RangeSample& sample);
   [[nodiscard]] bool keyframe_due(const RangeSample& sample) const;
@@ -44,7 +45,7 @@ struct Frontend::State {
   void insert(const LineSegment& segment);
   void align_newest_landmark();
   void update_axis();
-  void optimize();
+  void optimize_or_roll_back();
   void report_keyframe(const RangeSample& sample);
   void report_landmarks(Keyframe& keyframe) const;
 
@@ -53,9 +54,11 @@ struct Frontend::State {
   OdometryCalibration odometry_calibration;
   Multiscan multiscan;
   LineExtractor extractor;
+  ChiSquareTable chi_square;
   OdometryDrift drift;
   BuildingAxis axis;
   LandmarkGraph<kCapacity> graph;
+  LandmarkGraph<kCapacity>::Checkpoint before_batch;
   LandmarkGraphSolver<kCapacity> solver;
   MultiscanView view;
   LineSegments segments;
@@ -71,7 +74,9 @@ struct Frontend::State {
   StoreyId storey{};
   KeyframeId first_around{};  // of the segment and storey
   std::uint32_t next_landmark = 0;
-  bool has_constraint = false;  // the present batch: an earlier landmark, or a new one's direction
+  std::size_t associated = 0;      // observations of earlier landmarks in the present batch
+  std::size_t aligned = 0;         // new landmarks in it with a prior on their direction
+  double chi_square_before = 0.0;  // F without it
   FrontendCounters counters;
   FrontendStep step;
 };
@@ -93,8 +98,9 @@ const FrontendStep& Frontend::process(const RangeSample& sample, const Pose2& T_
     if (s.config.use_landmarks) {
       s.multiscan.assemble(s.view);                                        // line 2
       s.counters.refused_full += s.extractor.extract(s.view, s.segments);  // line 3
+      s.graph.save(s.before_batch);                                        // line 7
       s.add_line_constraints();                                            // lines 4-6
-      s.optimize();                                                        // lines 8, 14
+      s.optimize_or_roll_back();                                           // lines 8-14
       if (s.config.align_to_walls) s.update_axis();
     }
     s.report_keyframe(sample);
@@ -187,7 +193,9 @@ void Frontend::State::update_drift() {
 }
 
 void Frontend::State::add_line_constraints() {
-  has_constraint = false;
+  associated = 0;
+  aligned = 0;
+  chi_square_before = graph.chi_square();
   counters.lines_extracted += segments.size();
   for (const LineSegment& segment : segments) insert(segment);
 }
@@ -206,7 +214,7 @@ void Frontend::State::insert(const LineSegment& segment) {
   }
   ++counters.observations_added;
   if (known) {
-    has_constraint = true;
+    ++associated;
   } else {
     ++next_landmark;
     ++counters.landmarks_created;
@@ -220,7 +228,7 @@ void Frontend::State::align_newest_landmark() {
       axis.direction_near(newest_landmark.line_local.alpha_rad, newest_landmark.covariance(1, 1));
   if (!prior) return;
   graph.add_direction_prior_to_newest(prior->yaw_rad, prior->information);
-  has_constraint = true;
+  ++aligned;
 }
 
 void Frontend::State::update_axis() {
@@ -234,9 +242,18 @@ void Frontend::State::update_axis() {
   axis.update(std::span(walls.begin(), walls.size()));
 }
 
-// Instead of eq. (19), which drops a whole batch, the graph is robust against each of its observations.
-void Frontend::State::optimize() {
-  if (has_constraint) solver.optimize(graph, config.solver_iterations, config.tuning.solver);
+// Eq. (19) on the increase of F by the batch: its degrees of freedom are the observations of earlier
+// landmarks and the direction priors of new ones. On F as a whole, as in the paper, one bad batch is hidden
+// by many good ones and then makes the next one worse.
+void Frontend::State::optimize_or_roll_back() {
+  if (associated + aligned > 0) {
+    const double increase =
+        solver.optimize(graph, config.solver_iterations, config.tuning.solver).chi_square - chi_square_before;
+    if (increase > chi_square.quantile(2 * associated + aligned)) {
+      graph.restore(before_batch);
+      ++counters.batches_rolled_back;
+    }
+  }
   graph.update_end_points();
 }
 

@@ -17,7 +17,8 @@ struct FrontendCounters {
   std::uint64_t samples = 0;
   std::uint64_t keyframes = 0;
   std::uint64_t lines_extracted = 0;
-  std::uint64_t observations_added = 0;  ///< line observations inserted in the graph
+  std::uint64_t observations_added = 0;   ///< line observations inserted in the graph
+  std::uint64_t batches_rolled_back = 0;  ///< failed the chi-square check (eq. 19)
   std::uint64_t landmarks_created = 0;
   std::uint64_t landmarks_retired = 0;
   std::uint64_t poses_retired = 0;

@@ -40,6 +40,7 @@ struct FrontendConfig {
   bool align_to_walls = true;
   int window_keyframes = 24;
   int solver_iterations = 10;
+  double chi_square_confidence = 0.95;
 
   static constexpr SettingsSection kSection{"frontend", "The landmark graph: one step for each sample."};
   static constexpr Setting<FrontendConfig> kSettings[] = {
@@ -82,6 +83,8 @@ struct FrontendConfig {
        2, kMaxKeyframeWindow},
       {"solver_iterations", &FrontendConfig::solver_iterations, "", "Levenberg-Marquardt steps at most", 1,
        100},
+      {"chi_square_confidence", &FrontendConfig::chi_square_confidence, "",
+       "confidence of the consistency check (eq. 19)", 0.5, 0.999999},
   };
 
   FrontendTuning tuning;  ///< no setting: for experiments

@@ -19,14 +19,6 @@ struct LineExtractorTuning {
       {"merge_distance_share", &LineExtractorTuning::merge_distance_share}};
 };
 
-struct LandmarkGraphTuning {
-  double robust_chi_square = 3.0;  ///< an observed wall with this much counts a quarter; 200 simulated
-                                   ///< flights drift alike from 2 to 4, from 6 curves are straightened
-
-  static constexpr TuningValue<LandmarkGraphTuning> kValues[] = {
-      {"robust_chi_square", &LandmarkGraphTuning::robust_chi_square}};
-};
-
 /// Levenberg-Marquardt.
 struct LandmarkGraphSolverTuning {
   double first_damping = 1e-5;   ///< at the first step
@@ -73,7 +65,6 @@ struct BuildingAxisTuning {
 struct FrontendTuning {
   MultiscanTuning multiscan;
   LineExtractorTuning lines;
-  LandmarkGraphTuning graph;
   LandmarkGraphSolverTuning solver;
   OdometryDriftTuning drift;
   BuildingAxisTuning axis;

@@ -10,7 +10,6 @@
 
 #include "core/base/fixed_vector.hpp"
 #include "core/base/ids.hpp"
-#include "core/frontend/frontend_tuning.hpp"
 #include "core/frontend/landmark_factors.hpp"
 #include "core/frontend/line_extractor.hpp"
 #include "core/geometry/line2.hpp"
@@ -73,8 +72,6 @@ struct LineObservation {
 template <LandmarkGraphCapacity kCapacity>
 class LandmarkGraph {
  public:
-  explicit LandmarkGraph(const LandmarkGraphTuning& tuning = {}) : tuning_(tuning) {}
-
   static constexpr LandmarkGraphCapacity capacity() { return kCapacity; }
 
   [[nodiscard]] std::span<const PoseVertex> poses() const { return {poses_.data(), poses_.size()}; }
@@ -103,18 +100,25 @@ class LandmarkGraph {
   /// Algorithm 2: the end points of each landmark from all its observations and its prior.
   void update_end_points();
 
-  /// What is left of an observation's information at `error`, the one of line_error(): Geman-McClure.
-  [[nodiscard]] Eigen::Matrix2d robust_information(const LineObservation& seen,
-                                                   const Eigen::Vector2d& error) const;
-  /// F(X) of eq. (9) at the present estimates, its e_l robust.
+  /// F(X) of eq. (9) at the present estimates.
   [[nodiscard]] double chi_square() const;
+
+  /// Estimates and sizes for a rollback: lines 7 and 12 of Algorithm 1.
+  class Checkpoint {
+    friend class LandmarkGraph;
+    FixedVector<PoseVertex, kCapacity.poses> poses_;
+    FixedVector<Landmark, kCapacity.landmarks> landmarks_;
+    std::size_t observations_ = 0;
+  };
+  void save(Checkpoint& checkpoint) const;
+  /// Precondition: since save() nothing was removed.
+  void restore(const Checkpoint& checkpoint);
 
  private:
   void fold(const LineObservation& observation, const Pose2& T_local_body);
   std::size_t drop_unseen_landmarks();
   static void extend_prior(LandmarkPrior& prior, const Line2& line, const Point2& start, const Point2& end);
 
-  LandmarkGraphTuning tuning_;
   FixedVector<PoseVertex, kCapacity.poses> poses_;
   FixedVector<Landmark, kCapacity.landmarks> landmarks_;
   FixedVector<LineObservation, kCapacity.observations> observations_;  // in the order of their poses

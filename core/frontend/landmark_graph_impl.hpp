@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "core/frontend/landmark_graph.hpp"
-#include "core/geometry/geman_mcclure.hpp"
 
 namespace swiftlet {
 
@@ -78,11 +77,11 @@ template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraph<kCapacity>::fold(const LineObservation& observation, const Pose2& T_local_body) {
   Landmark& landmark = landmarks_[observation.landmark];
   const LineError at_estimate = line_error(observation.line_body, T_local_body, landmark.line_local);
-  const Eigen::Matrix2d seen = robust_information(observation, at_estimate.error);
-  const Eigen::Matrix2d information = at_estimate.J_line.transpose() * seen * at_estimate.J_line;
+  const Eigen::Matrix2d information =
+      at_estimate.J_line.transpose() * observation.information * at_estimate.J_line;
   // Both as corrections of the present estimate, where all is linear.
   const Eigen::Vector2d pull =
-      -at_estimate.J_line.transpose() * seen * at_estimate.error +
+      -at_estimate.J_line.transpose() * observation.information * at_estimate.error +
       landmark.prior.information * line_difference(landmark.prior.mean_local, landmark.line_local);
   landmark.prior.information += information;
   const Eigen::Vector2d correction = landmark.prior.information.inverse() * pull;
@@ -151,13 +150,6 @@ void LandmarkGraph<kCapacity>::update_end_points() {
 }
 
 template <LandmarkGraphCapacity kCapacity>
-Eigen::Matrix2d LandmarkGraph<kCapacity>::robust_information(const LineObservation& seen,
-                                                             const Eigen::Vector2d& error) const {
-  return geman_mcclure_weight(error.dot(seen.information * error) / tuning_.robust_chi_square) *
-         seen.information;
-}
-
-template <LandmarkGraphCapacity kCapacity>
 double LandmarkGraph<kCapacity>::chi_square() const {
   double sum = 0.0;
   for (std::size_t i = 1; i < poses_.size(); ++i) {
@@ -169,14 +161,27 @@ double LandmarkGraph<kCapacity>::chi_square() const {
     const Eigen::Vector2d e = line_error(observation.line_body, poses_[observation.pose].T_local_body,
                                          landmarks_[observation.landmark].line_local)
                                   .error;
-    sum += tuning_.robust_chi_square *
-           geman_mcclure_cost(e.dot(observation.information * e) / tuning_.robust_chi_square);
+    sum += e.dot(observation.information * e);
   }
   for (const Landmark& landmark : landmarks_) {
     const Eigen::Vector2d e = line_difference(landmark.prior.mean_local, landmark.line_local);
     sum += e.dot(landmark.prior.information * e);
   }
   return sum;
+}
+
+template <LandmarkGraphCapacity kCapacity>
+void LandmarkGraph<kCapacity>::save(Checkpoint& checkpoint) const {
+  checkpoint.poses_ = poses_;
+  checkpoint.landmarks_ = landmarks_;
+  checkpoint.observations_ = observations_.size();
+}
+
+template <LandmarkGraphCapacity kCapacity>
+void LandmarkGraph<kCapacity>::restore(const Checkpoint& checkpoint) {
+  poses_ = checkpoint.poses_;
+  landmarks_ = checkpoint.landmarks_;
+  observations_.truncate(checkpoint.observations_);
 }
 
 }  // namespace swiftlet

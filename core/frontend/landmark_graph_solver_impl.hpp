@@ -136,13 +136,12 @@ void LandmarkGraphSolver<kCapacity>::linearize_lines(const Graph& graph) {
     const LineObservation& seen = graph.observations()[i];
     const LineError line = line_error(seen.line_body, graph.poses()[seen.pose].T_local_body,
                                       graph.landmarks()[seen.landmark].line_local);
-    const Eigen::Matrix2d information = graph.robust_information(seen, line.error);
-    const Eigen::Matrix2d weighted_line = information * line.J_line;
+    const Eigen::Matrix2d weighted_line = seen.information * line.J_line;
     blocks_[seen.landmark].H += line.J_line.transpose() * weighted_line;
     blocks_[seen.landmark].g += weighted_line.transpose() * line.error;
     if (seen.pose == 0) continue;
     const std::size_t row = row_of(seen.pose);
-    const Eigen::Matrix<double, 2, 3> weighted_pose = information * line.J_pose;
+    const Eigen::Matrix<double, 2, 3> weighted_pose = seen.information * line.J_pose;
     cross_[i] = line.J_pose.transpose() * weighted_line;
     add_block(row, row, line.J_pose.transpose() * weighted_pose);
     Eigen::Map<Eigen::Vector3d>(g_.data() + row) += weighted_pose.transpose() * line.error;

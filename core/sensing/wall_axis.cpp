@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
-#include "core/geometry/geman_mcclure.hpp"
-#include "core/geometry/squared.hpp"
 
 namespace swiftlet {
 namespace {
@@ -23,7 +21,8 @@ Support support_of(std::span<const WallDirection> walls, double yaw_rad, double 
   Support support;
   for (const WallDirection& wall : walls) {
     const double off_rad = wrap_axis(wall.yaw_rad - yaw_rad);
-    const double weighted_m = wall.length_m * geman_mcclure_weight(squared(off_rad / scatter_rad));
+    const double ratio = off_rad / scatter_rad;
+    const double weighted_m = wall.length_m / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));
     support.length_m += weighted_m;
     support.length2_m2 += weighted_m * weighted_m;
     support.mean_off_rad += weighted_m * off_rad;

@@ -155,7 +155,6 @@ void for_each_tuning(AnyConfiguration&& config, Visitor visit) {
   auto& frontend = config.frontend.tuning;
   visit("frontend_multiscan", frontend.multiscan);
   visit("frontend_lines", frontend.lines);
-  visit("frontend_graph", frontend.graph);
   visit("frontend_solver", frontend.solver);
   visit("frontend_drift", frontend.drift);
   visit("frontend_axis", frontend.axis);

@@ -74,6 +74,7 @@ Json frontend_json(const FrontendCounters& frontend) {
           {"keyframes", frontend.keyframes},
           {"lines_extracted", frontend.lines_extracted},
           {"observations_added", frontend.observations_added},
+          {"batches_rolled_back", frontend.batches_rolled_back},
           {"landmarks_created", frontend.landmarks_created},
           {"landmarks_retired", frontend.landmarks_retired},
           {"poses_retired", frontend.poses_retired},

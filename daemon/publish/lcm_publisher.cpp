@@ -112,7 +112,7 @@ void fill_link(const LiveStatus& live, const LinkRates& rates, link_status_t& me
 
 void fill_counters(const DaemonStatus& status, status_t& message) {
   message.keyframes = i64(status.frontend.keyframes);
-  message.batches_rolled_back = 0;  // the field stays for the sake of the type's fingerprint
+  message.batches_rolled_back = i64(status.frontend.batches_rolled_back);
   message.submaps = i64(status.backend.submaps);
   message.closures_accepted = i64(status.backend.closures_accepted);
   message.closures_dropped = i64(status.backend.closures_dropped);

@@ -89,6 +89,8 @@ void log_changes(const DaemonStatus& before, const DaemonStatus& now) {
   if (const std::optional<InputNews> news = tracking_news(before.tracking, now.tracking))
     spdlog::log(news->is_warning ? warn : info, "{}", news->text);
   log_if_grown(warn, "input: problems", before.input.problems, now.input.problems);
+  log_if_grown(debug, "frontend: batches rolled back", before.frontend.batches_rolled_back,
+               now.frontend.batches_rolled_back);
   log_if_grown(warn, "frontend: no room", before.frontend.refused_full, now.frontend.refused_full);
   log_if_grown(warn, "backend: solver failures", before.backend.solver_failures, now.backend.solver_failures);
   for (std::size_t i = 0; i < now.queues.size(); ++i) {

@@ -25,7 +25,7 @@ struct InputNews {
 [[nodiscard]] std::optional<InputNews> tracking_news(const TrackingFigures& before,
                                                      const TrackingFigures& now);
 /// One line for whatever deserves attention between two statuses: input_news(), tracking_news(), refusals,
-/// solver failures. Allocates.
+/// solver failures; in a verbose log roll-backs, too. Allocates.
 void log_changes(const DaemonStatus& before, const DaemonStatus& now);
 /// Where the run stands, in half a line. Allocates.
 [[nodiscard]] std::string status_text(const DaemonStatus& status);

@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "core/geometry/angle.hpp"
-#include "core/geometry/geman_mcclure.hpp"
-#include "core/geometry/squared.hpp"
 
 namespace swiftlet {
 namespace {
@@ -177,7 +175,8 @@ PosesAndWalls::WallRow PosesAndWalls::wall_row(const WallReturn& wall) const {
                         normal_node.y_m * (p_node.x_m - scan.T_node_body.x_m());
   row.by_errors = scan.by_errors.transpose() * Eigen::Vector3d(normal_node.x_m, normal_node.y_m, by_yaw);
   const double scaled = row.error / (tuning_.fit.robust_sigmas * wall_sigma_m_);
-  row.weight = geman_mcclure_weight(squared(scaled)) / squared(wall_sigma_m_);
+  const double robust = 1.0 / ((1.0 + scaled * scaled) * (1.0 + scaled * scaled));  // Geman-McClure
+  row.weight = robust / (wall_sigma_m_ * wall_sigma_m_);
   return row;
 }
 

@@ -24,7 +24,7 @@ TEST(FrontendConfig, TellsAllProblemsAtOnce) {
   FrontendConfig config;
   config.keyframe_distance_m = 0.0;
   config.multiscan_points = 0;
-  config.solver_iterations = 0;
+  config.chi_square_confidence = 1.0;
   EXPECT_THAT(config.validate(), SizeIs(3));
 }
 

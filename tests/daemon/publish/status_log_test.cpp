@@ -49,6 +49,16 @@ TEST_F(StatusLog, NamesWhatWasRefusedAndWhereAndHowOften) {
   EXPECT_THAT(logged(), HasSubstr("solver failures: 2 more"));
 }
 
+TEST_F(StatusLog, TellsOfRollBacksInAVerboseLogAlone) {
+  DaemonStatus now;
+  now.frontend.batches_rolled_back = 2;
+  log_changes(DaemonStatus{}, now);
+  EXPECT_THAT(logged(), IsEmpty());
+  spdlog::set_level(spdlog::level::debug);
+  log_changes(DaemonStatus{}, now);
+  EXPECT_THAT(logged(), HasSubstr("batches rolled back: 2 more"));
+}
+
 TEST_F(StatusLog, SaysHowTheLinkStandsWhenThatChanges) {
   DaemonStatus before;
   before.input.live.link.condition = LinkCondition::kConnected;
