@@ -149,7 +149,7 @@ struct ConfidenceTuning {
 };
 
 struct BuildingAxisPriorTuning {
-  double gate_sigmas = 4.0;  ///< wheels that slip in a turn lose more than their model has it
+  double gate_sigmas = 4.0;  ///< between votes that agree: wheels lose more in a turn than their model has
   double slip_factor = 3.0;  ///< standard deviation of a slip over that of the model: Killian's robot lost 38
                              ///< degrees in spins of which the model has 4 to 9
   double another_axis_log_odds = 2.0;  ///< over a known axis or a slip from it: Killian's slips have up

@@ -35,7 +35,7 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
   Sight sight{keyframe, axis, yaw_variance_rad2};
   const std::vector<Fit> fits = fits_of(sight, graph);
   sight.is_elsewhere = std::all_of(fits.begin(), fits.end(), [&](const Fit& fit) {
-    return fit.another_or_slip_log_odds >= tuning_.another_axis_log_odds;
+    return fit.another_over_slip_log_odds >= tuning_.another_axis_log_odds;
   });
   const bool goes_on = !strays_.empty() && continues_strays(sight, graph);
   const bool is_own = goes_on && strays_.front().is_elsewhere;
@@ -75,7 +75,7 @@ std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sigh
                     .other_way_round = squared(kPi / 2.0 - std::abs(off_rad)) / (turned_rad2 + sight_rad2),
                     .another_log_odds = anywhere_log_odds(off_rad, turned_rad2 + sight_rad2) -
                                         std::log(static_cast<double>(shared_[k].headings)),
-                    .another_or_slip_log_odds = anywhere_log_odds(off_rad, slipped_rad2 + sight_rad2)});
+                    .another_over_slip_log_odds = anywhere_log_odds(off_rad, slipped_rad2 + sight_rad2)});
   }
   return fits;
 }

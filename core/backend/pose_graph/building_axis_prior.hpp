@@ -54,10 +54,10 @@ class BuildingAxisPrior {
   };
   /// Of walls to a shared axis.
   struct Fit {
-    double misfit = 0.0;                    ///< in squared standard deviations
-    double other_way_round = 0.0;           ///< the same, if the heading is off by the rest of a quarter turn
-    double another_log_odds = 0.0;          ///< of another axis over this one
-    double another_or_slip_log_odds = 0.0;  ///< of another axis over a slip from this one
+    double misfit = 0.0;            ///< in squared standard deviations
+    double other_way_round = 0.0;   ///< the same, if the heading is off by the rest of a quarter turn
+    double another_log_odds = 0.0;  ///< of another axis over this one
+    double another_over_slip_log_odds = 0.0;  ///< of another axis over a slip from this one
   };
   /// Walls are looked at every half submap: the first and the last of so many sights have none in common.
   static constexpr std::size_t kSightsApart = 3;

@@ -116,7 +116,7 @@ TEST(BuildingAxisPrior, WallsFartherOffThanASlipTurnsHaveAnAxisOfTheirOwn) {
 
 TEST(BuildingAxisPrior, AVoteThatGoesOnWithWallsOfAnotherAxisIsNotOneForTheFirst) {
   EXPECT_EQ(headings_added({{12, 9}}), 1U);
-  EXPECT_EQ(headings_added({{20, 4}, {12, 9}}), 0U) << "within the gate, as the motion since has grown";
+  EXPECT_EQ(headings_added({{20, 4}, {12, 9}}), 0U) << "near enough alone, as the motion since has grown";
   EXPECT_EQ(headings_added({{20, 4}, {12, 9}, {20, 10}}), 3U);
   EXPECT_EQ(headings_added({{15, 4}, {12, 9}}), 1U) << "a slip of 15 degrees";
 }
