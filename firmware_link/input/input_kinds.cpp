@@ -75,8 +75,8 @@ Result<LinkInput> open_udp(const std::any& address) {
 }
 
 Result<LinkInput> open_simulation(const std::any& address) {
-  const auto& [world, seed, laps, faults] = std::any_cast<const SimulationAddress&>(address);
-  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(world, seed, laps);
+  const auto& [world, seed, laps, faults, spared] = std::any_cast<const SimulationAddress&>(address);
+  Result<std::unique_ptr<SimulatedLink>> link = SimulatedLink::open(world, seed, laps, spared);
   if (!link) return link.error();
   Result<PoseFile> truth = PoseFile::open();
   if (!truth) return truth.error();

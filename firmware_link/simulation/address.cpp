@@ -24,7 +24,13 @@ Status apply(const UriParameter& parameter, SimulationAddress& address) {
     address.faults = std::move(faults).value();
     return {};
   }
-  if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps, fault");
+  if (parameter.key == "without") {
+    const Result<SparedErrors> spared = SparedErrors::parse(parameter.value);
+    if (!spared) return spared.error();
+    address.spared = *spared;
+    return {};
+  }
+  if (parameter.key != "laps") return unknown_parameter(parameter.key, "seed, laps, fault, without");
   const auto laps = whole_number(parameter.value, 1, kMaxLaps);
   if (!laps) return bad_address("the laps must be a whole number from 1 to " + std::to_string(kMaxLaps));
   address.laps = *laps;

@@ -24,10 +24,11 @@ VehicleModel on_air(VehicleModel model) {
 }  // namespace
 
 Result<std::unique_ptr<SimulatedLink>> SimulatedLink::open(std::string_view world, std::uint64_t seed,
-                                                           int laps) {
+                                                           int laps, const SparedErrors& spared) {
   Result<SimulatedWorld> made = make_simulated_world(world, seed);
   if (!made) return made.error();
   VehicleModel model = vehicle_model_in(*made, seed);
+  spared.take_from(model);
   model.pilot.laps = laps;
   model.battery_endurance *= RepeatedScript(made->flight, laps).passes();
   return std::make_unique<SimulatedLink>(std::move(*made), model, kPacketLoss, seed);

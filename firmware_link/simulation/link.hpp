@@ -12,6 +12,7 @@
 #include "core/base/time.hpp"
 #include "core/geometry/pose2.hpp"
 #include "firmware_link/link/link.hpp"
+#include "firmware_link/simulation/spared_errors.hpp"
 #include "firmware_link/simulation/vehicle.hpp"
 
 namespace swiftlet {
@@ -24,8 +25,8 @@ class SimulatedLink final : public Link {
  public:
   /// `world`: one of simulated_world_names(), its script flown `laps` times on a battery that lasts as long.
   /// Error: kNotFound, the message lists the worlds. Precondition: laps >= 1.
-  static Result<std::unique_ptr<SimulatedLink>> open(std::string_view world, std::uint64_t seed,
-                                                     int laps = 1);
+  static Result<std::unique_ptr<SimulatedLink>> open(std::string_view world, std::uint64_t seed, int laps = 1,
+                                                     const SparedErrors& spared = {});
 
   /// Of log packets, the share that never arrives. Noise source: "packet_loss".
   static constexpr double kPacketLoss = 0.01;

@@ -90,7 +90,7 @@ SILENT_TEXTS = {
         replay:flight.pcap
         follow:flight.pcap
         a path (.pcap, .csv or .clf, also in gzip)
-        seed, laps, fault
+        seed, laps, fault, without
         # swiftlet samples 1
         the line of the sensor
         the dead reckoning

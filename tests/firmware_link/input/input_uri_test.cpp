@@ -40,6 +40,7 @@ TEST(InputUri, AcceptsASimulationWithAndWithoutSeedAndLaps) {
   EXPECT_EQ(parse_input_uri("sim://office?seed=3&laps=1000")->as<SimulationAddress>()->laps, 1000);
   EXPECT_EQ(parse_input_uri("sim://office?fault=reset@60,slip@90:5")->as<SimulationAddress>()->faults.size(),
             2U);
+  EXPECT_TRUE(parse_input_uri("sim://office?without=slips,lag").ok());
   EXPECT_EQ(parse_input_uri("sim://maze?seed=18446744073709551615")->as<SimulationAddress>()->seed,
             18446744073709551615U);
 }
@@ -116,7 +117,7 @@ TEST(InputUri, ReportsWhatIsWrongAndShowsAnExample) {
       {"radio:0/80", "two slashes follow 'radio:'"},
       {"sim://", "names no world"},
       {"sim://?seed=1", "names no world"},
-      {"sim://office?speed=1", "unknown parameter 'speed', known: seed, laps, fault"},
+      {"sim://office?speed=1", "unknown parameter 'speed', known: seed, laps, fault, without"},
       {"sim://office?", "unknown parameter ''"},
       {"sim://office?seed", "seed must be a whole number"},
       {"sim://office?seed=", "seed must be a whole number"},
