@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/geman_mcclure.hpp"
 #include "core/geometry/squared.hpp"
 
 namespace swiftlet {
@@ -22,7 +23,7 @@ std::optional<BuildingAxis::Direction> BuildingAxis::direction_near(double yaw_r
   const double gate = gate_rad(variance_rad2);
   if (std::abs(off_rad) > gate) return std::nullopt;
   const double ratio = off_rad * tuning_.gate_sigmas / (tuning_.robust_sigmas * gate);
-  const double robust = 1.0 / squared(1.0 + ratio * ratio);
+  const double robust = 1.0 / geman_mcclure_divisor(ratio);
   return Direction{yaw_rad - off_rad, robust / squared(tuning_.walls.floor_sigma_rad)};
 }
 

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/geman_mcclure.hpp"
 
 namespace swiftlet {
 namespace {
 
-/// The walls' support of an axis near `yaw_rad`; those farther off count less (Geman-McClure).
+/// The walls' support of an axis near `yaw_rad`; those farther off count less (Geman & McClure).
 struct Support {
   double length_m = 0.0;
   double length2_m2 = 0.0;
@@ -21,8 +22,7 @@ Support support_of(std::span<const WallDirection> walls, double yaw_rad, double 
   Support support;
   for (const WallDirection& wall : walls) {
     const double off_rad = wrap_axis(wall.yaw_rad - yaw_rad);
-    const double ratio = off_rad / scatter_rad;
-    const double weighted_m = wall.length_m / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));
+    const double weighted_m = wall.length_m / geman_mcclure_divisor(off_rad / scatter_rad);
     support.length_m += weighted_m;
     support.length2_m2 += weighted_m * weighted_m;
     support.mean_off_rad += weighted_m * off_rad;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/geman_mcclure.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
@@ -27,8 +28,8 @@ PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map
   const double along_y = T_map_body.cos_yaw() * p_body.x_m - T_map_body.sin_yaw() * p_body.y_m;
   const Eigen::Vector3d J(wall.normal_map.x_m, wall.normal_map.y_m,
                           wall.normal_map.x_m * along_x + wall.normal_map.y_m * along_y);
-  const double off = off_m / (tuning.walls.robust_sigmas * tuning.wall_sigma_m);
-  const double robust = 1.0 / ((1.0 + off * off) * (1.0 + off * off));  // Geman-McClure
+  const double robust =
+      1.0 / geman_mcclure_divisor(off_m / (tuning.walls.robust_sigmas * tuning.wall_sigma_m));
   const double weight = robust / (tuning.wall_sigma_m * tuning.wall_sigma_m);
   return {weight * J * J.transpose(), -weight * off_m * J};
 }

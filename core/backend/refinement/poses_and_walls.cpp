@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/geman_mcclure.hpp"
 
 namespace swiftlet {
 namespace {
@@ -174,8 +175,7 @@ PosesAndWalls::WallRow PosesAndWalls::wall_row(const WallReturn& wall) const {
   const double by_yaw = -normal_node.x_m * (p_node.y_m - scan.T_node_body.y_m()) +
                         normal_node.y_m * (p_node.x_m - scan.T_node_body.x_m());
   row.by_errors = scan.by_errors.transpose() * Eigen::Vector3d(normal_node.x_m, normal_node.y_m, by_yaw);
-  const double scaled = row.error / (tuning_.fit.robust_sigmas * wall_sigma_m_);
-  const double robust = 1.0 / ((1.0 + scaled * scaled) * (1.0 + scaled * scaled));  // Geman-McClure
+  const double robust = 1.0 / geman_mcclure_divisor(row.error / (tuning_.fit.robust_sigmas * wall_sigma_m_));
   row.weight = robust / (wall_sigma_m_ * wall_sigma_m_);
   return row;
 }
