@@ -51,10 +51,10 @@ Status no_sample_of(const ConvertCommand& command, const InputReport& report) {
 }
 
 /// The samples as received: not mended, no age estimated.
-Status convert_to_csv(const ConvertCommand& command) {
+Status convert_to_csv(const ConvertCommand& command, const std::stop_token& stop) {
   MapCommand reading = mapping_of(command);
   reading.odometry_only = true;
-  const Result<PreparedRun> run = prepare_run(reading);
+  const Result<PreparedRun> run = prepare_run(reading, stop);
   if (!run) return run.error();
   SampleSource& source = *run->source;
   std::size_t samples = 0;
@@ -62,14 +62,15 @@ Status convert_to_csv(const ConvertCommand& command) {
   Status written = write_file(command.output, [&](const FileSink& write) -> Status {
     Result<ReceivedSample> next = source.next();
     std::string text = sample_table_head({.beams = source.beams(), .sensor = source.sensor()});
-    bool goes_on = true;
+    bool goes_on = !stop.stop_requested();
     for (; goes_on && (next || next.error().code == ErrorCode::kTimeout); next = source.next()) {
       if (!next) continue;
       append_sample_row(text, next->sample, storey);
-      goes_on = write(text);
+      goes_on = write(text) && !stop.stop_requested();
       text.clear();
       ++samples;
     }
+    if (stop.stop_requested()) return stopped_error(command.input);
     return samples > 0 ? Status() : no_sample_of(command, source.report());
   });
   if (!written) return written;
@@ -82,12 +83,12 @@ fs::path folder_of(const std::string& output) {
   return fs::absolute(output, failure).parent_path();
 }
 
-Status convert_to_g2o(const ConvertCommand& command) {
+Status convert_to_g2o(const ConvertCommand& command, const std::stop_token& stop) {
   const MapCommand mapping = mapping_of(command);
-  Result<PreparedRun> prepared = prepare_run(mapping);
+  Result<PreparedRun> prepared = prepare_run(mapping, stop);
   if (!prepared) return prepared.error();
   const Result<std::unique_ptr<MappedRun>> run =
-      map_with_progress_bar(mapping, std::move(prepared).value(), folder_of(command.output));
+      map_with_progress_bar(mapping, std::move(prepared).value(), folder_of(command.output), stop);
   if (!run) return run.error();
   const Backend& backend = (*run)->backend();
   const PoseGraph& graph = backend.pose_graph();
@@ -111,16 +112,17 @@ FileSink sink_that_stops(const FileSink& write, std::stop_source& over) {
 }
 
 /// Maps the recording into an MCAP file; `report` is of the input.
-Status write_mcap(const ConvertCommand& command, const FileSink& write, InputReport& report,
-                  std::uint64_t& messages) {
+Status write_mcap(const ConvertCommand& command, const std::stop_token& stop, const FileSink& write,
+                  InputReport& report, std::uint64_t& messages) {
   const MapCommand mapping = mapping_of(command);
-  Result<PreparedRun> run = prepare_run(mapping);
+  Result<PreparedRun> run = prepare_run(mapping, stop);
   if (!run) return run.error();
   Result<PrunedScans> pruned = PrunedScans::open(folder_of(command.output));
   if (!pruned) return pruned.error();
   SharedRunHistory shared;
-  std::stop_source full;
-  McapRun mcap(sink_that_stops(write, full));
+  std::stop_source over;
+  const std::stop_callback at_stop(stop, [&over] { over.request_stop(); });
+  McapRun mcap(sink_that_stops(write, over));
   bool is_complete = false;
   ProgressBar bar(stderr, ProgressBar::Clock::now());
   const auto after_sample = [&] {
@@ -137,28 +139,29 @@ Status write_mcap(const ConvertCommand& command, const FileSink& write, InputRep
     is_complete = true;
     return {};
   };
-  Status mapped = map_recording(*run, shared, full.get_token(),
+  Status mapped = map_recording(*run, shared, over.get_token(),
                                 {.after_sample = after_sample, .at_end = at_end, .pruned = &*pruned});
+  if (stop.stop_requested()) return stopped_error(command.input);
   if (!mapped && !is_complete) return mapped;
   if (!mapped && report.problems.empty()) report.problems.push_back(mapped.error().message);
   return {};
 }
 
-Status convert_to_mcap(const ConvertCommand& command) {
+Status convert_to_mcap(const ConvertCommand& command, const std::stop_token& stop) {
   InputReport report;
   std::uint64_t messages = 0;
-  Status written = write_file(
-      command.output, [&](const FileSink& write) { return write_mcap(command, write, report, messages); });
+  Status written = write_file(command.output, [&](const FileSink& write) {
+    return write_mcap(command, stop, write, report, messages);
+  });
   if (!written) return written;
   print_messages(command, messages);
   return damage_of(report);
 }
 
-/// What a running swiftletd publishes.
-Status record_mcap(const ConvertCommand& command) {
-  const SignalWatcher signals;
+/// What a running swiftletd publishes, until a stop is requested.
+Status record_mcap(const ConvertCommand& command, const std::stop_token& stop) {
   std::stop_source over;
-  const std::stop_callback at_signal(signals.token(), [&over] { over.request_stop(); });
+  const std::stop_callback at_stop(stop, [&over] { over.request_stop(); });
   std::printf("listening on %s; Ctrl-C ends\n", command.lcm_url.c_str());
   std::fflush(stdout);
   std::uint64_t messages = 0;
@@ -186,8 +189,9 @@ Status record_mcap(const ConvertCommand& command) {
 
 struct OutputKind {
   std::string_view ending;
-  Status (*convert)(const ConvertCommand& command);
-  Status (*record)(const ConvertCommand& command);  ///< a running swiftletd; nullptr: cannot be
+  Status (*convert)(const ConvertCommand& command, const std::stop_token& stop);
+  /// A running swiftletd; nullptr: cannot be.
+  Status (*record)(const ConvertCommand& command, const std::stop_token& stop);
 };
 constexpr std::array kOutputKinds{OutputKind{".csv", convert_to_csv, nullptr},
                                   OutputKind{".g2o", convert_to_g2o, nullptr},
@@ -220,7 +224,11 @@ Status run_convert_command(const ConvertCommand& command) {
   std::error_code failure;
   const bool replaces = fs::exists(command.output, failure);
   const OutputKind& kind = *kind_of(command.output);
-  Status converted = command.input == kLcmInput ? kind.record(command) : kind.convert(command);
+  const SignalWatcher signals;
+  const bool records = command.input == kLcmInput;
+  Status converted = (records ? kind.record : kind.convert)(command, signals.token());
+  if (!converted && !records && signals.token().stop_requested())
+    return Error{ErrorCode::kTimeout, "conversion stopped before its end; nothing was written"};
   const bool was_written = converted || converted.error().code == ErrorCode::kDamaged;
   if (replaces && was_written)
     std::fprintf(stderr, "swiftlet: note: %s was there and has been replaced\n", command.output.c_str());

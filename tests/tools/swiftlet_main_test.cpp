@@ -129,6 +129,15 @@ TEST_F(SwiftletCommand, MapThatIsStoppedSaysSoAndLeavesNoFolder) {
   EXPECT_FALSE(fs::exists(file("new")));
 }
 
+TEST_F(SwiftletCommand, ConvertThatIsStoppedSaysSoAndLeavesNoFile) {
+  fs::create_directory(file("out"));
+  for (const char* const name : {"run.csv", "run.g2o", "run.mcap"})
+    EXPECT_THAT(run_as(std::string("timeout --preserve-status --signal INT 1 ") + SWIFTLET_COMMAND,
+                       std::string("convert 'sim://patrol?laps=1000' {}/out/") + name),
+                refuses_with("conversion stopped before its end; nothing was written"));
+  EXPECT_TRUE(fs::is_empty(file("out")));
+}
+
 TEST_F(SwiftletCommand, ViewTellsOfADamagedInput) {
   write("log.clf", small_log() + "FLASER 180 garbled\n");
   const Outcome viewed = run_as(std::string("timeout --preserve-status --signal INT 5 ") + SWIFTLET_COMMAND,
