@@ -47,12 +47,15 @@ Status refine(const BatchRefinement& batch, std::vector<Pose2>& T_map_body) {
   return {};
 }
 
+std::vector<Point2> positions(const std::vector<Pose2>& path) {
+  std::vector<Point2> points;
+  points.reserve(path.size());
+  for (const Pose2& T : path) points.push_back(T.position());
+  return points;
+}
+
 double error_m(const std::vector<Pose2>& path, const std::vector<Pose2>& truth) {
-  std::vector<Point2> estimated;
-  std::vector<Point2> known;
-  for (const Pose2& T : path) estimated.push_back(T.position());
-  for (const Pose2& T : truth) known.push_back(T.position());
-  return trajectory_error(estimated, known).rmse_m;
+  return trajectory_error(positions(path), positions(truth)).rmse_m;
 }
 
 double misfit(const BatchRefinement& batch, const std::vector<Pose2>& T_map_body) {
