@@ -91,7 +91,8 @@ Simulated flights whose dead reckoning breaks {at_s} s after the first sample, s
 a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in flight, a `restart` the
 vehicle where it is; one that was `carried` restarts where it would have been by then. A `silence` behind that comes
 before the place can have been found. Nothing tells of a `jump` of the heading, of a `slip` (the estimate stays while the
-vehicle flies on) and of a `teleport` (it is carried and the estimate goes on). In `{fault_runs.STOREYS}` the vehicle flies up the stairs of a house and back: the floors must not be mixed.
+vehicle flies on) and of a `teleport` (it is carried and the estimate goes on). In `{fault_runs.STOREYS}` the vehicle
+flies up the stairs of a house and back: the floors must not be mixed.
 {page.EASIER_SENSOR}
 
 "Final error" is the RMSE of the corrected path after the best rigid alignment of the whole. "Wrong place" are the runs
