@@ -227,7 +227,7 @@ Status run_convert_command(const ConvertCommand& command) {
   const SignalWatcher signals;
   const bool records = command.input == kLcmInput;
   Status converted = (records ? kind.record : kind.convert)(command, signals.token());
-  if (!converted && !records && signals.token().stop_requested())
+  if (!converted && !records && converted.error().code == ErrorCode::kTimeout)
     return Error{ErrorCode::kTimeout, "conversion stopped before its end; nothing was written"};
   const bool was_written = converted || converted.error().code == ErrorCode::kDamaged;
   if (replaces && was_written)

@@ -3,8 +3,8 @@
 //
 // What the final refinement could give at best: a simulated flight is mapped as `swiftlet map` does, and the
 // refinement is begun again at the true path, with nothing else of the run. Where that ends is left to the
-// ranges and the dead reckoning; no better search for the path helps there. JSON with the errors of both and
-// how well both explain the ranges. For tools/benchmark-sensor-errors.
+// ranges and the dead reckoning; a better search for the path would hardly help there. JSON with the errors
+// of both and how well both explain the ranges. For tools/benchmark-sensor-errors.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -30,7 +30,8 @@ std::vector<Pose2> true_path(const BatchRefinement& batch, const StampedPath& tr
   return T_world_body;
 }
 
-/// As the final pass does, but that no held-out return refuses it: they always prefer the truth.
+/// The final pass from where its wide radius has done its work. No held-out return refuses it: they mostly
+/// prefer the truth.
 Status refine(const BatchRefinement& batch, std::vector<Pose2>& T_map_body) {
   const BackendTuning& tuning = batch.config.tuning;
   BatchProblem problem(batch);
