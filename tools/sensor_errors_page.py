@@ -94,8 +94,8 @@ beside the others. Where they change, it is what limits the maps.
 Each flight is mapped, and the final refinement is begun again at the true path: the same returns and dead reckoning,
 no loop closures, and no floors as unknowns (`tests/benchmarks/refined_truth.cpp`). Where that ends is left to what was
 measured and to how the refinement weighs it. A better search for the path, for closures or among paths would hardly
-lead beyond. Where the floors are spared, the path from the truth explains the ranges better than that of the map does in
-{preferred(report["from_truth"])} flights; half of them would mean that the ranges do not tell the two apart.
+lead beyond. Where the floors are spared, the path from the truth explains the ranges better than that of the map does
+in {preferred(report["from_truth"])} flights; half of them would mean that the ranges do not tell the two apart.
 
 {table_from_truth(report["from_truth"])}
 """
