@@ -23,9 +23,11 @@ double seen_in_map_rad(const PoseGraph& graph, KeyframeId keyframe, const WallAx
 
 double nearer_to_zero(double a, double b) { return std::abs(a) < std::abs(b) ? a : b; }
 
-/// Logarithm of the odds of walls that stand anywhere in a quarter turn over a Gaussian.
-double anywhere_log_odds(double off_rad, double variance_rad2) {
-  return (squared(off_rad) / variance_rad2 + std::log(2.0 * kPi * variance_rad2)) / 2.0 - std::log(kPi / 2.0);
+/// Of walls that may stand in any direction.
+constexpr double kAnywherePerRad = 2.0 / kPi;
+
+double gaussian(double off_rad, double variance_rad2) {
+  return std::exp(-squared(off_rad) / variance_rad2 / 2.0) / std::sqrt(2.0 * kPi * variance_rad2);
 }
 
 }  // namespace
@@ -34,15 +36,13 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
                             PoseGraph& graph) {
   Sight sight{keyframe, axis, yaw_variance_rad2};
   const std::vector<Fit> fits = fits_of(sight, graph);
-  sight.is_elsewhere = std::all_of(fits.begin(), fits.end(), [&](const Fit& fit) {
-    return fit.another_over_slip_log_odds >= tuning_.another_axis_log_odds;
-  });
+  sight.is_elsewhere = std::ranges::all_of(fits, &Fit::is_another_likelier);
+  ++votes_;
   const bool goes_on = !strays_.empty() && continues_strays(sight, graph);
   const bool is_own = goes_on && strays_.front().is_elsewhere;
   const std::optional<std::size_t> shared = is_own ? std::nullopt : shared_axis(fits);
   if (shared) {
     observe(*shared, yaw_variance_rad2);
-    if (!goes_on) share_strays_upto(sight, graph);
     hold(sight, *shared, graph);
   }
   if (shared || !goes_on) strays_.clear();
@@ -65,19 +65,26 @@ std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sigh
       wrap_axis(seen_in_map_rad(graph, graph.headings.back().pose, walls_.back().axis) -
                 directions[walls_.back().shared]);
   const double sight_rad2 = squared(sight.axis.sigma_rad);
+  const double another = static_cast<double>(1 + votes_ - walls_.size()) * kAnywherePerRad;
   std::vector<Fit> fits;
   for (std::size_t k = 0; k < shared_.size(); ++k) {
     const double in_map_rad = wrap_axis(seen_rad - directions[k]);
     const double off_rad = nearer_to_zero(in_map_rad, wrap_axis(in_map_rad - last_off_rad));
     const double turned_rad2 = shared_[k].variance_rad2 + sight.yaw_variance_rad2;
-    const double slipped_rad2 = squared(tuning_.slip_factor) * turned_rad2;
+    const double known =
+        static_cast<double>(shared_[k].headings) * likelihood(off_rad, turned_rad2, sight_rad2);
     fits.push_back({.misfit = squared(off_rad) / (turned_rad2 + sight_rad2),
                     .other_way_round = squared(kPi / 2.0 - std::abs(off_rad)) / (turned_rad2 + sight_rad2),
-                    .another_log_odds = anywhere_log_odds(off_rad, turned_rad2 + sight_rad2) -
-                                        std::log(static_cast<double>(shared_[k].headings)),
-                    .another_over_slip_log_odds = anywhere_log_odds(off_rad, slipped_rad2 + sight_rad2)});
+                    .is_another_likelier = another > known});
   }
   return fits;
+}
+
+/// Of walls so far off their axis.
+double BuildingAxisPrior::likelihood(double off_rad, double turned_rad2, double sight_rad2) const {
+  const double slipped_rad2 = squared(tuning_.slip_factor) * turned_rad2;
+  return (1.0 - tuning_.slip_share) * gaussian(off_rad, turned_rad2 + sight_rad2) +
+         tuning_.slip_share * gaussian(off_rad, slipped_rad2 + sight_rad2);
 }
 
 std::optional<std::size_t> BuildingAxisPrior::shared_axis(const std::vector<Fit>& fits) const {
@@ -93,7 +100,7 @@ std::optional<std::size_t> BuildingAxisPrior::shared_axis(const std::vector<Fit>
     best = k;
     least = misfit;
   }
-  if (fits[best].another_log_odds > tuning_.another_axis_log_odds) return std::nullopt;
+  if (fits[best].is_another_likelier) return std::nullopt;
   if (rival - least < 2.0 * tuning_.min_log_odds) return std::nullopt;
   return best;
 }
@@ -105,14 +112,6 @@ bool BuildingAxisPrior::continues_strays(const Sight& sight, const PoseGraph& gr
   const double variance_rad2 = std::max(0.0, sight.yaw_variance_rad2 - last.yaw_variance_rad2) +
                                squared(sight.axis.sigma_rad) + squared(last.axis.sigma_rad);
   return squared(off_rad) <= squared(tuning_.gate_sigmas) * variance_rad2;
-}
-
-/// Who comes back to a shared axis had not lost the heading: between, walls stood otherwise.
-void BuildingAxisPrior::share_strays_upto(const Sight& back, PoseGraph& graph) {
-  if (strays_.size() < kSightsApart) return;
-  shared_.push_back(
-      {.variance_rad2 = std::max(0.0, back.yaw_variance_rad2 - strays_.back().yaw_variance_rad2)});
-  for (const Sight& stray : strays_) hold(stray, shared_.size() - 1, graph);
 }
 
 /// Before the heading is added. While one axis is in sight it corrects what turning loses, and the variances
@@ -155,6 +154,7 @@ void BuildingAxisPrior::erase(const IdRanges<KeyframeId>& pruned, PoseGraph& gra
     graph.headings[kept] = graph.headings[i];
     walls_[kept++] = walls_[i];
   }
+  if (!walls_.empty()) votes_ = votes_ * kept / walls_.size();  // of those that hold to none as large a share
   graph.headings.resize(kept);
   walls_.resize(kept);
   std::erase_if(strays_, [&](const Sight& stray) { return pruned.contains(stray.keyframe); });

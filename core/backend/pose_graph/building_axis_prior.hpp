@@ -15,9 +15,10 @@ namespace swiftlet {
 /// Constrains headings by the axes that the walls of most buildings share. Dead reckoning by wheels loses
 /// degrees with every metre, and loops end tens of metres from where they began; the axis seen at the start
 /// gives the heading hundreds of metres later. Similar to the heuristic drift elimination of Borenstein &
-/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows: walls too far
-/// from all known axes for a slip, or from which the vehicle comes back to a known axis without a turn, have
-/// an axis of their own. One thread at a time.
+/// Ojeda 2010, but in the pose graph, robust, and with as many axes as the building shows. What walls have is
+/// a mixture, whose weights are learnt in the building: a known axis, seen after motion as modelled or after
+/// a slip, or another axis, anywhere. Where another is likelier, walls that agree with each other have an
+/// axis of their own. One thread at a time.
 class BuildingAxisPrior {
  public:
   explicit BuildingAxisPrior(const BuildingAxisPriorTuning& tuning = {}) : tuning_(tuning) {}
@@ -40,7 +41,7 @@ class BuildingAxisPrior {
     WallAxis axis;
     /// Of the keyframe's heading relative to that of the last heading factor.
     double yaw_variance_rad2 = 0.0;
-    bool is_elsewhere = false;  ///< too far from all shared axes for a slip
+    bool is_elsewhere = false;  ///< another axis is likelier than any shared one
   };
   /// An axis that walls share.
   struct Shared {
@@ -54,20 +55,19 @@ class BuildingAxisPrior {
   };
   /// Of walls to a shared axis.
   struct Fit {
-    double misfit = 0.0;            ///< in squared standard deviations
-    double other_way_round = 0.0;   ///< the same, if the heading is off by the rest of a quarter turn
-    double another_log_odds = 0.0;  ///< of another axis over this one
-    double another_over_slip_log_odds = 0.0;  ///< of another axis over a slip from this one
+    double misfit = 0.0;              ///< in squared standard deviations
+    double other_way_round = 0.0;     ///< the same, if the heading is off by the rest of a quarter turn
+    bool is_another_likelier = true;  ///< that the walls have another axis than this one
   };
   /// Walls are looked at every half submap: the first and the last of so many sights have none in common.
   static constexpr std::size_t kSightsApart = 3;
 
   [[nodiscard]] std::vector<Fit> fits_of(const Sight& sight, const PoseGraph& graph) const;
+  [[nodiscard]] double likelihood(double off_rad, double turned_rad2, double sight_rad2) const;
   /// The shared axis that clearly fits best, each a priori as likely as headings hold to it; where there is
   /// none yet, a first one.
   [[nodiscard]] std::optional<std::size_t> shared_axis(const std::vector<Fit>& fits) const;
   [[nodiscard]] bool continues_strays(const Sight& sight, const PoseGraph& graph) const;
-  void share_strays_upto(const Sight& back, PoseGraph& graph);
   void observe(std::size_t shared, double yaw_variance_rad2);
   void hold(const Sight& sight, std::size_t shared, PoseGraph& graph);
   /// Axes whose headings were all erased.
@@ -76,6 +76,7 @@ class BuildingAxisPrior {
   [[nodiscard]] std::vector<double> directions_rad(const PoseGraph& graph) const;
 
   BuildingAxisPriorTuning tuning_;
+  std::size_t votes_ = 0;  ///< walls looked at: those that hold to an axis and those that do not
   std::vector<Walls> walls_;
   std::vector<Shared> shared_;
   /// Since the last heading factor: they agree with each other, and with no shared axis.
