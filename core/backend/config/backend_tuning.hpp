@@ -152,8 +152,8 @@ struct BuildingAxisPriorTuning {
   double gate_sigmas = 4.0;  ///< between votes that agree: wheels lose more in a turn than their model has
   double slip_factor = 3.0;  ///< standard deviation of a slip over that of the model: Killian's robot lost 38
                              ///< degrees in spins of which the model has 4 to 9
-  double slip_share = 0.1;   ///< of votes that follow a slip, a priori: with none Killian's slips are other
-                            ///< axes, with a half the wings of buildings are slips
+  double slip_share = 0.1;   ///< of votes that follow a slip, a priori: with none Killian's slips are
+                             ///< other axes, with a half the wings of buildings are slips
   double min_log_odds = 6.0;     ///< of an axis over any other, and over one the other way round, where the
                                  ///< heading is off by the rest of a quarter turn: 400 to 1
   double variance_factor = 3.0;  ///< headings a few metres apart come from the same walls and err together
