@@ -43,7 +43,8 @@ Status run_tell_command(const TellCommand& command) {
   if (message.action != command_t::ACTION_MARK_PLACE && !command.name.empty())
     return refused("tell " + command.what + ": takes no name");
   if (!is_address(command.to))
-    return refused("--to '" + command.to + "': must be ADDRESS:PORT; the default is 127.0.0.1:8450");
+    return refused("--to '" + command.to + "': must be ADDRESS:PORT; the default is " +
+                   on_this_machine(kCommandsPort));
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   // As swiftletd will read it: a name that it would refuse is refused here.

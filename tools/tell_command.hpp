@@ -5,14 +5,15 @@
 #include <string>
 
 #include "core/base/result.hpp"
+#include "daemon/system/default_addresses.hpp"
 
 namespace swiftlet {
 
 /// The options of `swiftlet tell`.
 struct TellCommand {
-  std::string what;                   ///< save-map, mark-place or new-map
-  std::string name;                   ///< of the place
-  std::string to = "127.0.0.1:8450";  ///< where swiftletd takes commands
+  std::string what;                                 ///< save-map, mark-place or new-map
+  std::string name;                                 ///< of the place
+  std::string to = on_this_machine(kCommandsPort);  ///< where swiftletd takes commands
   std::string channel_prefix = "SWIFTLET_";
 };
 

@@ -8,15 +8,16 @@
 
 #include "core/base/result.hpp"
 #include "daemon/publish/lcm_transport.hpp"
+#include "daemon/system/default_addresses.hpp"
 
 namespace swiftlet {
 
 /// The options of `swiftlet view`.
 struct ViewCommand {
-  std::string input;                         ///< a recording or simulation; empty: a running swiftletd
-  std::string listen = "127.0.0.1:8440";     ///< where browsers find the page
-  std::vector<std::string> foreign_origins;  ///< pages of these may look, too
-  std::string lcm_url = kDefaultLcmUrl;      ///< where swiftletd publishes
+  std::string input;                                ///< a recording or simulation; empty: a running swiftletd
+  std::string listen = on_this_machine(kViewPort);  ///< where browsers find the page
+  std::vector<std::string> foreign_origins;         ///< pages of these may look, too
+  std::string lcm_url = kDefaultLcmUrl;             ///< where swiftletd publishes
   std::string channel_prefix = "SWIFTLET_";
   double rate = 1.0;         ///< a recording is played at this many times its pace
   std::string config_file;   ///< for a recording; empty: the defaults

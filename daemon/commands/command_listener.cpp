@@ -22,6 +22,7 @@
 #include "daemon/commands/command_message.hpp"
 #include "daemon/commands/tcpq_conversation.hpp"
 #include "daemon/publish/lcm_network.hpp"
+#include "daemon/system/default_addresses.hpp"
 
 namespace swiftlet {
 namespace {
@@ -69,7 +70,7 @@ Error refused(std::string_view address, const std::string& why) {
 }
 
 Result<sockaddr_in> loopback_address(std::string_view text) {
-  const Error no_address = refused(text, "no address; write 127.0.0.1:8450");
+  const Error no_address = refused(text, "no address; write " + on_this_machine(kCommandsPort));
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) return no_address;
   std::uint16_t port = 0;
@@ -83,7 +84,7 @@ Result<sockaddr_in> loopback_address(std::string_view text) {
   bound.sin_port = htons(port);
   const bool is_address = inet_pton(AF_INET, host.c_str(), &bound.sin_addr) == 1;
   if (!is_address || ntohl(bound.sin_addr.s_addr) >> 24U != kLoopbackNet)
-    return refused(text, "they are taken from this machine alone; write 127.0.0.1:8450");
+    return refused(text, "they are taken from this machine alone; write " + on_this_machine(kCommandsPort));
   return bound;
 }
 

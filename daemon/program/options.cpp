@@ -12,6 +12,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/commands/numbered_path.hpp"
 #include "daemon/outputs/output_directory.hpp"
+#include "daemon/system/default_addresses.hpp"
 #include "daemon/system/named_file.hpp"
 #include "daemon/version.hpp"
 #include "daemon/view/live_view.hpp"
@@ -22,8 +23,6 @@ namespace {
 
 constexpr int kBadInput = 2;
 constexpr const char* kShareHere = "udp://127.0.0.1:19850";
-constexpr const char* kViewHere = "127.0.0.1:8440";
-constexpr const char* kCommandsHere = "127.0.0.1:8450";
 
 /// What lies there would keep a run from beginning.
 bool is_taken(const Options& options) {
@@ -60,20 +59,22 @@ void declare_options(CLI::App& app, Options& options) {
           ->type_name("[FILE]")
           ->expected(0, 1);
   app.add_flag("--no-record", options.record.refused, "record nothing")->excludes(record);
-  app.add_option("--share", options.share,
-                 "let one other program use the vehicle too, and fly it; without ADDRESS on this machine "
-                 "alone, on udp://127.0.0.1:19850")
+  app.add_option(
+         "--share", options.share,
+         "let one other program use the vehicle too, and fly it; without ADDRESS on this machine alone, on " +
+             std::string(kShareHere))
       ->type_name("[ADDRESS]")
       ->expected(0, 1);
-  app.add_option(
-         "--view", options.view,
-         "show the map while it grows, to browsers; without ADDRESS:PORT to those on this machine, on "
-         "http://127.0.0.1:8440")
+  app.add_option("--view", options.view,
+                 "show the map while it grows, to browsers; without ADDRESS:PORT to those on this machine, "
+                 "on http://" +
+                     on_this_machine(kViewPort))
       ->type_name("[ADDRESS:PORT]")
       ->expected(0, 1);
   app.add_option("--commands", options.commands,
                  "take commands from programs on this machine: save the map, mark a place, begin a new map; "
-                 "without ADDRESS:PORT on 127.0.0.1:8450")
+                 "without ADDRESS:PORT on " +
+                     on_this_machine(kCommandsPort))
       ->type_name("[ADDRESS:PORT]")
       ->expected(0, 1);
   app.add_option("--log-file", options.log_file,
@@ -87,13 +88,13 @@ void declare_options(CLI::App& app, Options& options) {
 }
 
 void complete_options(const CLI::App& app, Options& options) {
-  const auto name = [&app](const char* option, const char* here, std::optional<std::string>& address) {
+  const auto name = [&app](const char* option, const std::string& here, std::optional<std::string>& address) {
     if (app.count(option) > 0 && address.value_or("").empty()) address = here;
   };
   options.record.asked = app.count("--record") > 0;
   name("--share", kShareHere, options.share);
-  name("--view", kViewHere, options.view);
-  name("--commands", kCommandsHere, options.commands);
+  name("--view", on_this_machine(kViewPort), options.view);
+  name("--commands", on_this_machine(kCommandsPort), options.commands);
 }
 
 ManualFacts manual_facts() {

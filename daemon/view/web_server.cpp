@@ -240,7 +240,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
 Error no_address(std::string_view text) {
   return {ErrorCode::kInvalidInput,
-          "'" + std::string(text) + "' is no address to listen on; write 127.0.0.1:8440"};
+          "'" + std::string(text) + "' is no address to listen on; write " + on_this_machine(kViewPort)};
 }
 
 Result<tcp::endpoint> endpoint_of(const ListenAddress& address) {

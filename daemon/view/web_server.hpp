@@ -9,13 +9,14 @@
 #include <string_view>
 
 #include "core/base/result.hpp"
+#include "daemon/system/default_addresses.hpp"
 #include "daemon/view/web_site.hpp"
 
 namespace swiftlet {
 
 struct ListenAddress {
   std::string host = "127.0.0.1";  ///< IPv4 or IPv6 address, or localhost
-  std::uint16_t port = 8440;       ///< 0: any that is free
+  std::uint16_t port = kViewPort;  ///< 0: any that is free
 };
 /// `HOST:PORT`, `HOST` or an IPv6 address in brackets. Error: kInvalidInput: it is none of these.
 [[nodiscard]] Result<ListenAddress> parse_listen_address(std::string_view text);
