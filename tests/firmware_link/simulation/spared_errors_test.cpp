@@ -31,17 +31,43 @@ double greatest_turn_error_rad(const VehicleModel& model, const SimulatedWorld& 
   return greatest_rad;
 }
 
-TEST(SparedErrors, LeaveTheOthersAsTheyAre) {
-  const SimulatedWorld world = draw_building(kPatchySeed);
-  const VehicleModel usual = vehicle_model_in(world, kPatchySeed);
-  ASSERT_FALSE(usual.odometry.floor_patches.empty());
-  VehicleModel spared = usual;
-  SparedErrors::parse("floors,lag").value().take_from(spared);
-  EXPECT_TRUE(spared.odometry.floor_patches.empty());
-  EXPECT_EQ(spared.range_age, VehicleModel().range_age);
-  EXPECT_NE(usual.range_age, spared.range_age);
-  EXPECT_EQ(spared.odometry.velocity_noise_m_s, usual.odometry.velocity_noise_m_s);
-  EXPECT_EQ(spared.ranger.noise_by_range.size(), usual.ranger.noise_by_range.size());
+/// What a name takes.
+struct Named {
+  const char* name;
+  bool (*is_there)(const VehicleModel&);
+};
+
+const Named kNamed[] = {
+    {"floors", [](const VehicleModel& m) { return !m.odometry.floor_patches.empty(); }},
+    {"slips", [](const VehicleModel& m) { return m.odometry.slips_per_s > 0.0; }},
+    {"scale", [](const VehicleModel& m) { return m.odometry.scale_spread > 0.0; }},
+    {"wander", [](const VehicleModel& m) { return m.odometry.scale_wander > 0.0; }},
+    {"flow", [](const VehicleModel& m) { return m.odometry.velocity_noise_m_s > 0.0; }},
+    {"drift", [](const VehicleModel& m) { return m.odometry.turn_scale_spread > 0.0; }},
+    {"walk", [](const VehicleModel& m) { return m.odometry.yaw_walk_rad_sqrt_s > 0.0; }},
+    {"jumps", [](const VehicleModel& m) { return m.odometry.yaw_jumps_per_s > 0.0; }},
+    {"sign", [](const VehicleModel& m) { return m.odometry.loses_reverse_sign; }},
+    {"ranges", [](const VehicleModel& m) { return m.ranger.wild_share > 0.0; }},
+    {"tilt", [](const VehicleModel& m) { return m.tilt.calm_rad > 0.0; }},
+    {"lag", [](const VehicleModel& m) { return m.range_age != VehicleModel().range_age; }},
+};
+
+VehicleModel with_all_errors() {
+  VehicleModel model = vehicle_model_in(draw_building(kPatchySeed), kPatchySeed);
+  model.odometry.slips_per_s = model.odometry.yaw_jumps_per_s = 0.1;
+  model.odometry.loses_reverse_sign = true;
+  model.tilt.calm_rad = 0.1;
+  return model;
+}
+
+/// Each its own, and nothing of another.
+TEST(SparedErrors, EachNameTakesItsOwnAlone) {
+  for (const Named& taken : kNamed) {
+    VehicleModel model = with_all_errors();
+    SparedErrors::parse(taken.name).value().take_from(model);
+    for (const Named& other : kNamed)
+      EXPECT_EQ(other.is_there(model), &other != &taken) << other.name << " without " << taken.name;
+  }
 }
 
 TEST(SparedErrors, LeaveNoneOfTheHeadingWhereAllOfThemAreSpared) {
