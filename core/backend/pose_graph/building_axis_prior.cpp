@@ -23,10 +23,10 @@ double seen_in_map_rad(const PoseGraph& graph, KeyframeId keyframe, const WallAx
 
 double nearer_to_zero(double a, double b) { return std::abs(a) < std::abs(b) ? a : b; }
 
-/// Of walls that may stand in any direction.
+/// Likelihood of walls that may stand in any direction of a quarter turn.
 constexpr double kAnywherePerRad = 2.0 / kPi;
 
-double gaussian(double off_rad, double variance_rad2) {
+double gaussian_per_rad(double off_rad, double variance_rad2) {
   return std::exp(-squared(off_rad) / variance_rad2 / 2.0) / std::sqrt(2.0 * kPi * variance_rad2);
 }
 
@@ -65,26 +65,26 @@ std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sigh
       wrap_axis(seen_in_map_rad(graph, graph.headings.back().pose, walls_.back().axis) -
                 directions[walls_.back().shared]);
   const double sight_rad2 = squared(sight.axis.sigma_rad);
-  const double another = static_cast<double>(1 + votes_ - walls_.size()) * kAnywherePerRad;
+  const double another_per_rad = static_cast<double>(1 + votes_ - walls_.size()) * kAnywherePerRad;
   std::vector<Fit> fits;
   for (std::size_t k = 0; k < shared_.size(); ++k) {
     const double in_map_rad = wrap_axis(seen_rad - directions[k]);
     const double off_rad = nearer_to_zero(in_map_rad, wrap_axis(in_map_rad - last_off_rad));
     const double turned_rad2 = shared_[k].variance_rad2 + sight.yaw_variance_rad2;
-    const double known =
-        static_cast<double>(shared_[k].headings) * likelihood(off_rad, turned_rad2, sight_rad2);
+    const double known_per_rad =
+        static_cast<double>(shared_[k].headings) * likelihood_per_rad(off_rad, turned_rad2, sight_rad2);
     fits.push_back({.misfit = squared(off_rad) / (turned_rad2 + sight_rad2),
                     .other_way_round = squared(kPi / 2.0 - std::abs(off_rad)) / (turned_rad2 + sight_rad2),
-                    .is_another_likelier = another > known});
+                    .is_another_likelier = another_per_rad > known_per_rad});
   }
   return fits;
 }
 
 /// Of walls so far off their axis.
-double BuildingAxisPrior::likelihood(double off_rad, double turned_rad2, double sight_rad2) const {
+double BuildingAxisPrior::likelihood_per_rad(double off_rad, double turned_rad2, double sight_rad2) const {
   const double slipped_rad2 = squared(tuning_.slip_factor) * turned_rad2;
-  return (1.0 - tuning_.slip_share) * gaussian(off_rad, turned_rad2 + sight_rad2) +
-         tuning_.slip_share * gaussian(off_rad, slipped_rad2 + sight_rad2);
+  return (1.0 - tuning_.slip_share) * gaussian_per_rad(off_rad, turned_rad2 + sight_rad2) +
+         tuning_.slip_share * gaussian_per_rad(off_rad, slipped_rad2 + sight_rad2);
 }
 
 std::optional<std::size_t> BuildingAxisPrior::shared_axis(const std::vector<Fit>& fits) const {

@@ -63,7 +63,7 @@ class BuildingAxisPrior {
   static constexpr std::size_t kSightsApart = 3;
 
   [[nodiscard]] std::vector<Fit> fits_of(const Sight& sight, const PoseGraph& graph) const;
-  [[nodiscard]] double likelihood(double off_rad, double turned_rad2, double sight_rad2) const;
+  [[nodiscard]] double likelihood_per_rad(double off_rad, double turned_rad2, double sight_rad2) const;
   /// The shared axis that clearly fits best, each a priori as likely as headings hold to it; where there is
   /// none yet, a first one.
   [[nodiscard]] std::optional<std::size_t> shared_axis(const std::vector<Fit>& fits) const;

@@ -198,6 +198,26 @@ TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreErasedGoWithThem) {
   }
 }
 
+TEST(BuildingAxisPrior, WhereVotesAreErasedTheOthersAreAsManyInProportion) {
+  PoseGraph graph;
+  BuildingAxisPrior hold;
+  const auto adds = [&](double deg) {
+    const std::size_t before = graph.headings.size();
+    graph.T_map_keyframe.push_back({});
+    hold.add(graph.T_map_keyframe.last_id(), axis_seen_at(0.0, radians(deg)), squared(radians(2.0)), graph);
+    return graph.headings.size() > before;
+  };
+  for (int i = 0; i < 60; ++i) EXPECT_TRUE(adds(0));
+  for (const double deg : {40.0, -20.0, 30.0, -40.0}) EXPECT_FALSE(adds(deg));
+  EXPECT_TRUE(adds(0));
+  IdRanges<KeyframeId> gone;
+  gone.add({make_id<KeyframeId>(10), make_id<KeyframeId>(60)});
+  graph.T_map_keyframe.erase(gone);
+  hold.erase(gone, graph);
+  ASSERT_EQ(graph.headings.size(), 11U);
+  EXPECT_TRUE(adds(12)) << "nearly all votes hold to the first axis, as before";
+}
+
 TEST(BuildingAxisPrior, AnAxisOfWhichNoHeadingIsLeftIsForgotten) {
   PoseGraph graph;
   BuildingAxisPrior hold;
