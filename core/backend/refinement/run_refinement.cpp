@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/backend/refinement/batch_refinement.hpp"
+#include "core/backend/refinement/map_evidence.hpp"
 #include "core/backend/refinement/point_to_line_factor.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensing/odometry_covariance.hpp"
@@ -288,11 +289,18 @@ std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGr
   return best;
 }
 
+/// All that the run says against a path, in nats. The misfit alone does not know a corridor that is drawn
+/// twice: its returns lie on walls of their own neighbours.
+double RunRefinement::cost_of(const Hypothesis& path, const RefinementReport& judged) const {
+  const double cell_m = 4.0 * config_->tuning.refinement.wall_sigma_m;  // what returns of one wall scatter
+  return sum(judged.misfit) - map_log_evidence(*scans_, path.T_map_body, cell_m);
+}
+
 /// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was
 /// judged by.
 void RunRefinement::take_better(MapSource source, std::span<const OtherPath> others, Hypothesis& best) const {
   if (others.empty()) return;
-  double least = sum(judge_as_it_is(batch(best, {}), best.T_map_body).misfit);
+  double least = cost_of(best, judge_as_it_is(batch(best, {}), best.T_map_body));
   for (const OtherPath& other : others) {
     Hypothesis correction{.source = source,
                           .T_map_body = from(best.T_map_body.front(), other.T_map_body),
@@ -300,9 +308,9 @@ void RunRefinement::take_better(MapSource source, std::span<const OtherPath> oth
                           .floor = best.floor};
     correction.report = judge_as_it_is(batch(correction, {}), correction.T_map_body);
     correction.report.held_out_before_m = best.report.held_out_before_m;
-    const double misfit = sum(correction.report.misfit);
-    if (misfit >= least) continue;
-    least = misfit;
+    const double cost = cost_of(correction, correction.report);
+    if (cost >= least) continue;
+    least = cost;
     best = std::move(correction);
   }
 }

@@ -58,7 +58,7 @@ class RunRefinement {
   /// dead reckoning alone; where it loses, so is the frontend's. All are refined in the same way, walls and
   /// poses in turn; the one chosen then together. Dead reckoning is the map unless the ranges pay for how far
   /// a correction departs from it. `map_again`: asked for final paths, unless dead reckoning is the map; one
-  /// of them becomes the map where it explains the ranges better. Then the floors are found, and with them
+  /// of them becomes the map where it explains the run better. Then the floors are found, and with them
   /// `map_again` is asked once more.
   bool refine_all(const PoseGraph& graph, const KeyframePoses& T_local_keyframe, const MapAgain& map_again);
   void erase(const IdRanges<ScanId>& scans, const IdRanges<TraversalId>& traversals);
@@ -101,6 +101,7 @@ class RunRefinement {
   [[nodiscard]] bool is_likelier(const Hypothesis& hypothesis, const Hypothesis& simpler) const;
   [[nodiscard]] std::optional<Hypothesis> best_of_run(const PoseGraph& graph,
                                                       const KeyframePoses& T_local_keyframe);
+  [[nodiscard]] double cost_of(const Hypothesis& path, const RefinementReport& judged) const;
   void take_better(MapSource source, std::span<const OtherPath> others, Hypothesis& best) const;
   [[nodiscard]] bool may_find_floor(const Hypothesis& best) const;
   bool find_floor(Hypothesis& best, const PoseGraph& graph);
