@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -264,6 +265,34 @@ TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
   EXPECT_EQ(beside.counters.map_source, MapSource::kPoseGraph);
   EXPECT_EQ(beside.counters.yaw_noise_factor, 1.0);
   EXPECT_TRUE(same_bits(beside.T_map_body, alone.T_map_body));
+}
+
+/// Few returns are held out, so that their misfit has little to say.
+TEST(RunRefinement, AnotherPathThatDrawsTheBuildingOnceIsTheMapThoughItsOdometryErsMore) {
+  TestVehicleModel drifting;
+  drifting.drift_rad_per_m = 0.009;
+  TestVehicle vehicle = vehicle_at_start(drifting, 76);
+  fly_along(vehicle, loop_corridor(), "bcdabcda");
+  const std::vector<Pose2> truth = true_poses(vehicle);
+  const std::vector<Pose2> twice = bent(vehicle, -0.001);  // the second lap beside the first
+  const StoredRun run(vehicle.samples(), twice);
+  SensorModel sensor = SensorModel::crazyflie();
+  sensor.odometry.yaw_rad = sensor.odometry.yaw_rad.scaled(0.25);
+  BackendConfig config;
+  config.tuning.refinement.hold_out_every = 1009;
+  config.tuning.refinement.correction_odds = 1e9;  // dead reckoning is not the map
+  const BatchRefinement batch{.scans = run.scans(), .sensor = sensor, .config = config};
+  const auto misfit = [&](const std::vector<Pose2>& path) {
+    const std::vector<double> of_traversals = judge_as_it_is(batch, path).misfit;
+    return std::accumulate(of_traversals.begin(), of_traversals.end(), 0.0);
+  };
+  ASSERT_LT(misfit(twice), misfit(truth));
+  ASSERT_EQ(final_map(run, twice, {}, config, sensor).counters.map_source, MapSource::kPoseGraph);
+  const FinalMap map = final_map(run, twice, {}, config, sensor, [&](std::span<const double>) {
+    return std::vector{OtherPath{1.4, truth}};
+  });
+  EXPECT_EQ(map.counters.map_source, MapSource::kOtherYawNoise);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.1);
 }
 
 TEST(RunRefinement, WhereDeadReckoningIsTheMapTheRunIsNotMappedAgain) {
