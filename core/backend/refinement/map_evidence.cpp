@@ -11,7 +11,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <utility>
+#include <vector>
 
 #include "core/backend/store/traversal.hpp"
 #include "core/geometry/grid.hpp"
@@ -30,19 +30,31 @@ class Cell {
     traversal_ = traversal;
     is_wall_ = is_wall;
   }
-  [[nodiscard]] double log_probability() const {
-    if (voters_ == 0) return 0.0;
-    const double walls = walls_;
-    const double voters = voters_;
-    return std::lgamma(walls + 0.5) + std::lgamma(voters - walls + 0.5) - std::lgamma(voters + 1.0) -
-           std::log(std::numbers::pi);
-  }
+  [[nodiscard]] std::size_t walls() const { return walls_; }
+  [[nodiscard]] std::size_t voters() const { return voters_; }
 
  private:
   std::uint32_t walls_ = 0;
   std::uint32_t voters_ = 0;
   std::optional<TraversalId> traversal_;  // the last that voted, and ...
   bool is_wall_ = false;                  // ... how
+};
+
+/// Probability of votes one after another: of each kind (k + 1/2) / (n + 1) after k of its kind among n.
+class VoteProbabilities {
+ public:
+  double log_of(const Cell& cell) {
+    while (votes_.size() <= cell.voters()) {
+      const auto before = static_cast<double>(votes_.size() - 1);
+      of_one_kind_.push_back(of_one_kind_.back() + std::log(before + 0.5));
+      votes_.push_back(votes_.back() + std::log(before + 1.0));
+    }
+    return of_one_kind_[cell.walls()] + of_one_kind_[cell.voters() - cell.walls()] - votes_[cell.voters()];
+  }
+
+ private:
+  std::vector<double> of_one_kind_{0.0};
+  std::vector<double> votes_{0.0};
 };
 
 class VotedGrid {
@@ -58,9 +70,10 @@ class VotedGrid {
     (*newest_)[in_tile(cell.y) * kSide + in_tile(cell.x)].add(traversal, is_wall);
   }
   [[nodiscard]] double log_probability() const {
+    VoteProbabilities probabilities;
     double sum = 0.0;
     for (const auto& [place, tile] : tiles_)
-      for (const Cell& cell : tile) sum += cell.log_probability();
+      for (const Cell& cell : tile) sum += probabilities.log_of(cell);
     return sum;
   }
 
