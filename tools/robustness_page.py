@@ -444,6 +444,8 @@ relations, the RMSE against a true path; where there is no truth, the number of 
 dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). The reference of
 {" and ".join(sorted(runs.WITHOUT_TRUTH))} is another program's estimate: there a run breaks out only where dead
 reckoning is nearer to it by as much. "Ratio" is the error over that of dead reckoning in the same run.
+Errors are those over what a cut start leaves of the log. Where that is easier, whole runs break out against cut ones
+(FR clinic, whose map is mostly dead reckoning).
 
 A map that lays two corridors on each other covers fewer cells, so logs without truth
 ({", ".join(sorted(runs.IN_CELLS))}) do not show it.
