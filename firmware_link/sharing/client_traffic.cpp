@@ -10,6 +10,7 @@ namespace {
 constexpr std::uint8_t kSetpointPort = 3;
 constexpr std::uint8_t kGenericSetpointPort = 7;
 constexpr std::uint8_t kHighLevelPort = 8;
+constexpr unsigned kPortAndChannel = 0xF3;  // of a header; the other bits are the link's
 
 bool is_reset(std::span<const std::uint8_t> packet) {
   return is_on(packet, kLogControlTopic) && packet.size() > 1 &&
@@ -24,10 +25,10 @@ bool is_steering(std::span<const std::uint8_t> packet) {
   return port == kSetpointPort || port == kGenericSetpointPort || port == kHighLevelPort;
 }
 
-void ClientTraffic::take(std::span<const std::uint8_t> packet) {
+void ClientTraffic::take(std::span<const std::uint8_t> packet, HostTime now) {
   if (!has_content(packet)) return;
   if (is_steering(packet)) {
-    if (!steering_.try_push(packet_of(packet))) ++counters_.steering_dropped;
+    if (!steering_.try_push({packet_of(packet), now})) ++counters_.steering_dropped;
   } else if (!requests_.try_push(packet_of(packet))) {
     ++counters_.requests_dropped;
   }
@@ -39,7 +40,7 @@ bool ClientTraffic::has_packet(HostTime now) const {
 }
 
 std::optional<CrtpPacket> ClientTraffic::next_packet(bool owner_waits, HostTime now) {
-  if (!steering_.empty() && steering_in_a_row_ < kMaxSteeringInARow) return next_steering();
+  if (!steering_.empty() && steering_in_a_row_ < kMaxSteeringInARow) return next_steering(now);
   steering_in_a_row_ = 0;
   if (owner_waits && was_clients_) {
     was_clients_ = false;
@@ -47,16 +48,26 @@ std::optional<CrtpPacket> ClientTraffic::next_packet(bool owner_waits, HostTime 
   }
   std::optional<CrtpPacket> request = next_request(now);
   was_clients_ = request.has_value();
-  if (!request && !owner_waits && !steering_.empty()) return next_steering();
+  if (!request && !owner_waits && !steering_.empty()) return next_steering(now);
   return request;
 }
 
 /// Precondition: there is one.
-std::optional<CrtpPacket> ClientTraffic::next_steering() {
-  const CrtpPacket packet = steering_.front();
+std::optional<CrtpPacket> ClientTraffic::next_steering(HostTime now) {
+  for (; is_over(now); ++counters_.steering_dropped) steering_.pop();
+  const CrtpPacket packet = steering_.front().packet;
   steering_.pop();
   ++steering_in_a_row_;
   return packet;
+}
+
+/// Whether the oldest is a setpoint that came long ago, and has a newer one behind it.
+bool ClientTraffic::is_over(HostTime now) const {
+  const unsigned header = steering_.front().packet[0] & kPortAndChannel;
+  if (header >> 4U == kHighLevelPort || now - steering_.front().came_at < kSetpointLife) return false;
+  for (std::size_t i = 1; i < steering_.size(); ++i)
+    if ((steering_[i].packet[0] & kPortAndChannel) == header) return true;
+  return false;
 }
 
 std::optional<CrtpPacket> ClientTraffic::next_request(HostTime now) {
@@ -147,7 +158,6 @@ std::optional<CrtpPacket> ClientTraffic::take_answer() {
 }
 
 void ClientTraffic::abandon() {
-  steering_.clear();
   requests_.clear();
   answers_.clear();
   open_.clear();

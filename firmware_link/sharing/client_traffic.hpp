@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,10 +33,13 @@ class ClientTraffic {
   /// So many packets that steer, one behind the other, let one other packet through: a client that sends more
   /// than the link carries must not end the map.
   static constexpr int kMaxSteeringInARow = 64;
+  /// A setpoint that has waited so long is dropped where a newer one of its kind waits: after a silence the
+  /// vehicle must not fly along what is over. Clients repeat setpoints at ten a second and more.
+  static constexpr Duration kSetpointLife = std::chrono::milliseconds(100);
 
   /// A packet of the client, in the order in which they came. Null packets are the link's own and are
   /// dropped, and so is what finds no room.
-  void take(std::span<const std::uint8_t> packet);
+  void take(std::span<const std::uint8_t> packet, HostTime now);
   /// Whether next_packet() would have one if the owner had none.
   [[nodiscard]] bool has_packet(HostTime now) const;
   /// As ClientUplink's.
@@ -51,13 +55,19 @@ class ClientTraffic {
   /// Whether the client has lost log blocks since the last call, because the owner reset the vehicle's log.
   [[nodiscard]] bool take_loss_of_blocks() { return std::exchange(has_lost_blocks_, false); }
 
-  /// The client is gone: nothing of it is sent any more, its log blocks are deleted.
+  /// The client is gone: nothing of it is sent any more but what steers, which may be its last word to the
+  /// motors; its log blocks are deleted.
   void abandon();
 
   [[nodiscard]] const SharingCounters& counters() const { return counters_; }
 
  private:
-  [[nodiscard]] std::optional<CrtpPacket> next_steering();
+  struct Steering {
+    CrtpPacket packet;
+    HostTime came_at{};
+  };
+  [[nodiscard]] std::optional<CrtpPacket> next_steering(HostTime now);
+  [[nodiscard]] bool is_over(HostTime now) const;
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   [[nodiscard]] std::optional<CrtpPacket> translate(const CrtpPacket& packet);
   void on_sent_by_owner(std::span<const std::uint8_t> packet);
@@ -65,7 +75,7 @@ class ClientTraffic {
   [[nodiscard]] std::optional<CrtpPacket> on_log_data(LinkFrame& frame);
   [[nodiscard]] std::optional<CrtpPacket> on_answer(LinkFrame& frame);
 
-  PacketRing<kSteeringCapacity> steering_;
+  PacketRing<kSteeringCapacity, Steering> steering_;
   PacketRing<kRequestCapacity> requests_;
   PacketRing<kRequestCapacity> answers_;
   int steering_in_a_row_ = 0;

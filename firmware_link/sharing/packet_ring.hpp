@@ -10,22 +10,24 @@
 
 namespace swiftlet {
 
-/// Packets in the order in which they came, in fixed storage.
-template <std::size_t kCapacity>
+/// Packets, or packets with what is known of them, in the order in which they came, in fixed storage.
+template <std::size_t kCapacity, typename Packet = CrtpPacket>
 class PacketRing {
  public:
   [[nodiscard]] bool empty() const { return size_ == 0; }
   /// False, and nothing changed, when full.
-  [[nodiscard]] bool try_push(const CrtpPacket& packet) {
+  [[nodiscard]] bool try_push(const Packet& packet) {
     if (size_ == kCapacity) return false;
     packets_[(first_ + size_) % kCapacity] = packet;
     ++size_;
     return true;
   }
   /// The oldest. Precondition: not empty().
-  [[nodiscard]] const CrtpPacket& front() const {
-    SWIFTLET_CHECK(size_ > 0, "there is a packet");
-    return packets_[first_];
+  [[nodiscard]] const Packet& front() const { return (*this)[0]; }
+  /// Oldest first. Precondition: i < size().
+  [[nodiscard]] const Packet& operator[](std::size_t i) const {
+    SWIFTLET_CHECK(i < size_, "there is a packet");
+    return packets_[(first_ + i) % kCapacity];
   }
   /// Removes the oldest. Precondition: not empty().
   void pop() {
@@ -37,7 +39,7 @@ class PacketRing {
   void clear() { size_ = 0; }
 
  private:
-  std::array<CrtpPacket, kCapacity> packets_{};
+  std::array<Packet, kCapacity> packets_{};
   std::size_t first_ = 0;
   std::size_t size_ = 0;
 };

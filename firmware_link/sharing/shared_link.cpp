@@ -51,7 +51,7 @@ void SharedLink::read_socket(HostTime now) {
     const ClientSocket::Arrival arrival = socket_->receive(now, is_connected());
     if (!arrival.is_any) return;
     if (arrival.ended) traffic_.abandon();
-    traffic_.take(arrival.packet);
+    traffic_.take(arrival.packet, now);
   }
 }
 

@@ -32,6 +32,7 @@ class ClientTrafficTest : public testing::Test {
     is_ours_ = frame.is_ours;
     return clients;
   }
+  void take(std::span<const std::uint8_t> packet) { traffic_.take(packet, now_); }
   Bytes next(bool owner_waits = false) { return packet_bytes(traffic_.next_packet(owner_waits, now_)); }
 
   ClientTraffic traffic_;
@@ -40,11 +41,11 @@ class ClientTrafficTest : public testing::Test {
 };
 
 TEST_F(ClientTrafficTest, WhatSteersComesFirstAndInItsOrder) {
-  traffic_.take(Bytes{0x2D, 1, 0});
-  traffic_.take(Bytes{0x3C, 1});
-  traffic_.take(Bytes{0x7C, 2});
-  traffic_.take(Bytes{0x8C, 3});
-  traffic_.take(Bytes{0x3C, 4});
+  take(Bytes{0x2D, 1, 0});
+  take(Bytes{0x3C, 1});
+  take(Bytes{0x7C, 2});
+  take(Bytes{0x8C, 3});
+  take(Bytes{0x3C, 4});
   EXPECT_TRUE(traffic_.has_packet(now_));
   EXPECT_EQ(next(true), (Bytes{0x3C, 1}));
   EXPECT_EQ(next(true), (Bytes{0x7C, 2}));
@@ -55,8 +56,30 @@ TEST_F(ClientTrafficTest, WhatSteersComesFirstAndInItsOrder) {
   EXPECT_FALSE(traffic_.has_packet(now_));
 }
 
+TEST_F(ClientTrafficTest, SetpointsThatNewerOnesHaveOvertakenAreNotSentLate) {
+  const auto after = [this](std::int64_t ms, const Bytes& packet) {
+    now_ += std::chrono::milliseconds(ms);
+    take(packet);
+  };
+  take(Bytes{0x3C, 1});
+  after(10, {0x7C, 1});  // the only one of its kind
+  after(10, {0x8C, 1});  // a command, no setpoint
+  for (std::uint8_t i = 2; i <= 80; ++i) after(10, {0x3C, i});
+  EXPECT_EQ(next(), (Bytes{0x7C, 1}));
+  EXPECT_EQ(next(), (Bytes{0x8C, 1}));
+  for (std::uint8_t i = 71; i <= 80; ++i) EXPECT_EQ(next(), (Bytes{0x3C, i}));
+  EXPECT_EQ(next(), Bytes{});
+  EXPECT_EQ(traffic_.counters().steering_dropped, 70U);
+}
+
+TEST_F(ClientTrafficTest, TheNewestSetpointIsSentHoweverLate) {
+  take(Bytes{0x3C, 1});
+  now_ += std::chrono::milliseconds(900);
+  EXPECT_EQ(next(), (Bytes{0x3C, 1}));
+}
+
 TEST_F(ClientTrafficTest, RequestsTakeTurnsWithTheOwners) {
-  for (std::uint8_t i = 0; i < 3; ++i) traffic_.take(Bytes{0x2D, i, 0});
+  for (std::uint8_t i = 0; i < 3; ++i) take(Bytes{0x2D, i, 0});
   EXPECT_EQ(next(true), (Bytes{0x2D, 0, 0}));
   EXPECT_EQ(next(true), Bytes{}) << "the owner's turn";
   EXPECT_EQ(next(true), (Bytes{0x2D, 1, 0}));
@@ -64,8 +87,8 @@ TEST_F(ClientTrafficTest, RequestsTakeTurnsWithTheOwners) {
 }
 
 TEST_F(ClientTrafficTest, MoreSetpointsThanTheLinkCarriesLetOtherPacketsThrough) {
-  for (int i = 0; i < 200; ++i) traffic_.take(Bytes{0x3C, 1});
-  traffic_.take(Bytes{0x2D, 1, 0});
+  for (int i = 0; i < 200; ++i) take(Bytes{0x3C, 1});
+  take(Bytes{0x2D, 1, 0});
   int owners = 0;
   int requests = 0;
   for (int i = 0; i < 190; ++i) {
@@ -79,10 +102,10 @@ TEST_F(ClientTrafficTest, MoreSetpointsThanTheLinkCarriesLetOtherPacketsThrough)
 
 TEST_F(ClientTrafficTest, RequestsWaitUntilTheOwnerHasResetTheLogSetpointsDoNot) {
   owner_sends(log_reset_request());
-  traffic_.take(Bytes{0x2D, 1, 0});
+  take(Bytes{0x2D, 1, 0});
   EXPECT_FALSE(traffic_.has_packet(now_));
   EXPECT_EQ(next(), Bytes{});
-  traffic_.take(Bytes{0x3C, 1});
+  take(Bytes{0x3C, 1});
   EXPECT_TRUE(traffic_.has_packet(now_));
   EXPECT_EQ(next(), (Bytes{0x3C, 1}));
   EXPECT_EQ(from_vehicle({0x5D, 5, 0, 0}), Bytes{});
@@ -92,14 +115,14 @@ TEST_F(ClientTrafficTest, RequestsWaitUntilTheOwnerHasResetTheLogSetpointsDoNot)
 
 TEST_F(ClientTrafficTest, NullPacketsOfTheClientDoNotReachTheVehiclesRadio) {
   for (const Bytes& packet : {Bytes{0xFF}, Bytes{0xFF, 0x05, 0x00}, Bytes{0xFF, 0xFE, 0x01}, Bytes{}})
-    traffic_.take(packet);
-  traffic_.take(Bytes(32, 0x2D));
+    take(packet);
+  take(Bytes(32, 0x2D));
   EXPECT_FALSE(traffic_.has_packet(now_));
 }
 
 TEST_F(ClientTrafficTest, EachSideGetsItsOwnAnswers) {
   const Bytes item{0x50, 2, 7, 0, 7, 'a', 0, 'b', 0};
-  traffic_.take(bytes_of(toc_item_request(kLogTocTopic, 7)));
+  take(bytes_of(toc_item_request(kLogTocTopic, 7)));
   EXPECT_EQ(next().size(), 4U);
   EXPECT_EQ(from_vehicle(item), item);
   EXPECT_FALSE(is_ours_);
@@ -111,7 +134,7 @@ TEST_F(ClientTrafficTest, EachSideGetsItsOwnAnswers) {
 TEST_F(ClientTrafficTest, ToTheSameQuestionBothGetTheSameAnswerOnce) {
   const Bytes item{0x50, 2, 7, 0, 7, 'a', 0, 'b', 0};
   owner_sends(toc_item_request(kLogTocTopic, 7));
-  traffic_.take(bytes_of(toc_item_request(kLogTocTopic, 7)));
+  take(bytes_of(toc_item_request(kLogTocTopic, 7)));
   EXPECT_EQ(next().size(), 4U);
   EXPECT_EQ(from_vehicle(item), item);
   EXPECT_TRUE(is_ours_);
@@ -120,7 +143,7 @@ TEST_F(ClientTrafficTest, ToTheSameQuestionBothGetTheSameAnswerOnce) {
 
 TEST_F(ClientTrafficTest, AnItemThatOnlyTheClientMissesDoesNotEndTheOwnersTable) {
   owner_sends(toc_item_request(kLogTocTopic, 7));
-  traffic_.take(bytes_of(toc_item_request(kLogTocTopic, 9999)));
+  take(bytes_of(toc_item_request(kLogTocTopic, 9999)));
   EXPECT_EQ(next().size(), 4U);
   EXPECT_EQ(from_vehicle({0x50, 2}), (Bytes{0x50, 2}));
   EXPECT_FALSE(is_ours_);
@@ -134,7 +157,7 @@ TEST_F(ClientTrafficTest, WhatTheVehicleSaysToAllGoesToBoth) {
 }
 
 TEST_F(ClientTrafficTest, LogDataGoesToItsOwner) {
-  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  take(Bytes{0x5D, 6, 1, 7, 0, 0});
   const std::uint8_t number = next()[2];
   EXPECT_EQ(from_vehicle({0x52, 1, 0, 0, 0, 42}), Bytes{});
   EXPECT_TRUE(is_ours_);
@@ -145,8 +168,8 @@ TEST_F(ClientTrafficTest, LogDataGoesToItsOwner) {
 }
 
 TEST_F(ClientTrafficTest, AResetWithoutBlocksIsAnsweredAtOnceAndSendsNothing) {
-  traffic_.take(Bytes{0x5D, 5});
-  traffic_.take(Bytes{0x2D, 1, 0});
+  take(Bytes{0x5D, 5});
+  take(Bytes{0x2D, 1, 0});
   EXPECT_EQ(next(), Bytes{});
   EXPECT_EQ(packet_bytes(traffic_.take_answer()), (Bytes{0x5D, 5, 0, 0}));
   EXPECT_EQ(next(), (Bytes{0x2D, 1, 0}));
@@ -154,12 +177,12 @@ TEST_F(ClientTrafficTest, AResetWithoutBlocksIsAnsweredAtOnceAndSendsNothing) {
 
 TEST_F(ClientTrafficTest, ALogThatTheOwnerResetsCostsTheClientItsBlocks) {
   EXPECT_FALSE(traffic_.take_loss_of_blocks()) << "it had none";
-  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  take(Bytes{0x5D, 6, 1, 7, 0, 0});
   EXPECT_FALSE(next().empty());
   reset_log();
   EXPECT_TRUE(traffic_.take_loss_of_blocks());
   EXPECT_FALSE(traffic_.take_loss_of_blocks()) << "once";
-  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  take(Bytes{0x5D, 6, 1, 7, 0, 0});
   EXPECT_FALSE(next().empty());
   traffic_.abandon();
   reset_log();
@@ -170,7 +193,7 @@ TEST_F(ClientTrafficTest, ASecondAnswerToARepeatedResetCostsNoBlocks) {
   owner_sends(log_reset_request());
   owner_sends(log_reset_request());
   EXPECT_EQ(from_vehicle({0x5D, 5, 0, 0}), Bytes{});
-  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  take(Bytes{0x5D, 6, 1, 7, 0, 0});
   const std::uint8_t number = next()[2];
   EXPECT_EQ(from_vehicle({0x5D, 5, 0, 0}), Bytes{});
   EXPECT_TRUE(is_ours_);
@@ -178,19 +201,20 @@ TEST_F(ClientTrafficTest, ASecondAnswerToARepeatedResetCostsNoBlocks) {
   EXPECT_EQ(from_vehicle({0x5D, 6, number, 0}), (Bytes{0x5D, 6, 1, 0}));
 }
 
-TEST_F(ClientTrafficTest, AClientThatIsGoneLeavesDeletionsOnly) {
-  traffic_.take(Bytes{0x5D, 6, 1, 7, 0, 0});
+TEST_F(ClientTrafficTest, AClientThatIsGoneLeavesItsLastSetpointsAndDeletionsOnly) {
+  take(Bytes{0x5D, 6, 1, 7, 0, 0});
   const std::uint8_t number = next()[2];
-  traffic_.take(Bytes{0x3C, 1});
-  traffic_.take(Bytes{0x2D, 1, 0});
+  take(Bytes{0x3C, 1});
+  take(Bytes{0x2D, 1, 0});
   traffic_.abandon();
+  EXPECT_EQ(next(), (Bytes{0x3C, 1}));
   EXPECT_EQ(next(), (Bytes{0x5D, 2, number}));
   EXPECT_EQ(next(), Bytes{});
 }
 
 TEST_F(ClientTrafficTest, WhatFindsNoRoomIsCounted) {
-  for (int i = 0; i < 70; ++i) traffic_.take(Bytes{0x2D, 1, 0});
-  for (int i = 0; i < 300; ++i) traffic_.take(Bytes{0x3C, 1});
+  for (int i = 0; i < 70; ++i) take(Bytes{0x2D, 1, 0});
+  for (int i = 0; i < 300; ++i) take(Bytes{0x3C, 1});
   EXPECT_EQ(traffic_.counters().requests_dropped, 6U);
   EXPECT_EQ(traffic_.counters().steering_dropped, 44U);
   traffic_.drop_steering();

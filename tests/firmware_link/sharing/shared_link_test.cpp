@@ -110,6 +110,17 @@ TEST_F(SharedLinkTest, AHelloIsAnsweredAndAGoodbyeEndsTheClient) {
   EXPECT_EQ(events(), (std::vector{Kind::kClientConnected, Kind::kClientGone}));
 }
 
+TEST_F(SharedLinkTest, AStopThatCameJustBeforeTheGoodbyeReachesTheVehicle) {
+  constexpr std::array<std::uint8_t, 2> kStop{0x7C, 0};
+  constexpr std::array<std::uint8_t, 1> kGoodbye{0xF4};
+  send(kStop);
+  send(kGoodbye);
+  const std::vector<LinkFrame> frames = pass();
+  ASSERT_FALSE(frames.empty());
+  EXPECT_EQ(Bytes(frames[0].packet().begin(), frames[0].packet().end()), Bytes(kStop.begin(), kStop.end()));
+  EXPECT_FALSE(link_->sharing().has_client);
+}
+
 TEST_F(SharedLinkTest, AScanIsAnsweredWhileTheVehicleIsReceivedAndMakesNoClient) {
   constexpr std::array<std::uint8_t, 1> kScan{0xFF};
   send(kScan);
