@@ -33,6 +33,8 @@ std::optional<CaptureLinkKind> kind_of(std::uint8_t byte) {
   return std::nullopt;
 }
 
+Error nothing_yet() { return {ErrorCode::kTimeout, "no packet"}; }
+
 /// nullopt if it holds no packet.
 std::optional<CaptureRecord> parse_record(std::span<const std::uint8_t> bytes) {
   const std::optional<CaptureLinkKind> kind = bytes.empty() ? std::nullopt : kind_of(bytes[0]);
@@ -135,14 +137,16 @@ std::optional<Error> CaptureReader::read_body() {
     take_body(0);
     return std::nullopt;
   }
+  const std::size_t both = first.length + pending_.back().length;
+  if (grows_ && size_ - offset_ < both + kPcapRecordHeader)
+    return unfinished("");  // what follows decides, too
   const std::optional<std::size_t> owner = owner_of_body();
   if (owner) {
     take_body(*owner);
     return std::nullopt;
   }
-  const bool both_are_there = first.length + pending_.back().length <= size_ - offset_;
-  return both_are_there ? resynchronise("two headers without a record")
-                        : unfinished("the file ends inside a record");
+  return both <= size_ - offset_ ? resynchronise("two headers without a record")
+                                 : unfinished("the file ends inside a record");
 }
 
 /// Whether what should be the body of a record is the header of another one of the same moment.
@@ -175,13 +179,14 @@ void CaptureReader::take_body(std::size_t owner) {
   pending_.erase(pending_.begin() + static_cast<std::ptrdiff_t>(owner));
 }
 
-/// Reads on behind the damage that begins at the first header without a body. An error: there is nothing.
+/// Reads on behind the damage that begins at the first header without a body. An error: there is nothing, or
+/// not yet.
 std::optional<Error> CaptureReader::resynchronise(const char* fault) {
   const std::uint64_t begin = pending_.front().at;
   offset_ = begin;
   pending_.clear();
   const std::optional<std::uint64_t> end = find_record(begin + 1);
-  if (!end) return damaged(fault);
+  if (!end) return grows_ ? nothing_yet() : damaged(fault);
   if (!damages_.empty() && damages_.back().end == begin)
     damages_.back().end = *end;
   else
@@ -191,10 +196,11 @@ std::optional<Error> CaptureReader::resynchronise(const char* fault) {
 }
 
 std::optional<std::uint64_t> CaptureReader::find_record(std::uint64_t from) {
-  for (std::uint64_t at = from; at + kPcapRecordHeader < size_; ++at) {
+  for (std::uint64_t at = std::max(from, searched_to_); at + kPcapRecordHeader < size_; ++at) {
     const std::optional<Header> header = certain_header_at(at);
     const std::uint64_t body_at = at + kPcapRecordHeader;
     if (header && (looks_like_body(body_at) || certain_header_at(body_at))) return at;
+    if (body_at + kPcapRecordHeader <= size_) searched_to_ = at + 1;  // behind, more bytes may tell more
   }
   return std::nullopt;
 }
@@ -202,13 +208,11 @@ std::optional<std::uint64_t> CaptureReader::find_record(std::uint64_t from) {
 /// At a place where the rest of a record is missing. A wrong length may reach beyond the end, too.
 std::optional<Error> CaptureReader::unfinished(const char* what) {
   if (!grows_ && !pending_.empty()) return resynchronise(what);
-  if (!pending_.empty()) offset_ = pending_.front().at;
-  pending_.clear();
-  return grows_ ? Error{ErrorCode::kTimeout, "no packet"} : damaged(what);
+  return grows_ ? nothing_yet() : damaged(what);
 }
 
 Error CaptureReader::end_of_capture() const {
-  if (grows_) return {ErrorCode::kTimeout, "no packet"};
+  if (grows_) return nothing_yet();
   if (is_gzip_damaged_) return damaged("the gzip stream is cut off or garbled");
   if (damages_.empty()) return {ErrorCode::kEndOfRecording, path_ + ": end of the capture"};
   return {ErrorCode::kDamaged, path_ + ": damaged" + left_out() + "; the rest is used"};
@@ -226,6 +230,7 @@ void CaptureReader::look_for_growth() {
 void CaptureReader::rewind() {
   offset_ = kPcapFileHeader;
   pending_.clear();
+  searched_to_ = 0;
   damages_.clear();
   skipped_ = 0;
 }

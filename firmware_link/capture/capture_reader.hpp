@@ -35,8 +35,8 @@ class CaptureReader {
   /// truncated or was damaged on the way; the message names the byte offsets of what is left out, and every
   /// later call returns the same error.
   [[nodiscard]] Result<CaptureRecord> next();
-  /// The file is still written: where it ends at present, even inside a record, next() returns kTimeout and
-  /// reads on at the next call. One in gzip is read as it is.
+  /// The file is still written: where it ends at present, even inside a record or behind damage, next()
+  /// returns kTimeout and reads on at the next call. One in gzip is read as it is.
   void follow() { grows_ = !is_gzip_; }
   /// Back to the first record.
   void rewind();
@@ -93,6 +93,7 @@ class CaptureReader {
   std::vector<Header> pending_;  // headers whose bodies come next: one, or two that are interleaved
   std::optional<CaptureRecord> found_;
   std::vector<DamagedBytes> damages_;
+  std::uint64_t searched_to_ = 0;  // no record begins before, behind the damage at which the search began
   std::uint64_t skipped_ = 0;
   bool grows_ = false;
   bool big_endian_ = false;

@@ -230,6 +230,46 @@ TEST(CaptureReader, ReadsRecordsThatTwoThreadsHaveInterleaved) {
   EXPECT_THAT(packets_of(reading), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet, c.packet));
 }
 
+/// The packets of a file that grows by one byte at a time.
+std::vector<Bytes> followed(const std::string& bytes) {
+  const TemporaryFile file("growing.pcap", bytes.substr(0, kPcapFileHeader));
+  Result<CaptureReader> reader = CaptureReader::open(file.path());
+  EXPECT_TRUE(reader.ok());
+  if (!reader) return {};
+  reader->follow();
+  std::vector<Bytes> packets;
+  for (std::size_t size = kPcapFileHeader; size <= bytes.size(); ++size) {
+    file.write(bytes.substr(0, size));
+    Result<CaptureRecord> record = reader->next();
+    for (; record; record = reader->next())
+      packets.emplace_back(record->frame.packet().begin(), record->frame.packet().end());
+    EXPECT_EQ(record.error().code, ErrorCode::kTimeout) << "byte " << size << ": " << record.error().message;
+  }
+  return packets;
+}
+
+TEST(CaptureReader, FollowsRecordsThatAreInterleavedWhereverTheFileEnds) {
+  const UsbRecord a = usb_record(2, "52 01 8e 11 00 aa");
+  const UsbRecord b = usb_record(1, "ff");
+  const UsbRecord c = usb_record(2, "52 01 f2 11 00 bb");
+  const std::string begin = as_text(hex(kHeader)) + c.header + c.body;
+  const std::string end = c.header + c.body;
+  for (const std::string& middle :
+       {a.header + b.header + a.body + b.body, a.header + b.header + b.body + a.body,
+        b.header + a.header + a.body + b.body, b.header + a.header + b.body + a.body})
+    EXPECT_THAT(followed(begin + middle + end), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet));
+  EXPECT_THAT(followed(begin + a.header + b.header + a.body + c.header + b.body + c.body + end),
+              UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet, c.packet));
+}
+
+TEST(CaptureReader, FollowsBehindDamage) {
+  const UsbRecord a = usb_record(2, "52 01 8e 11 00 aa");
+  const std::string damage(200, '\xEE');
+  EXPECT_THAT(
+      followed(as_text(hex(kHeader)) + a.header + a.body + damage + a.header + a.body + a.header + a.body),
+      UnorderedElementsAre(a.packet, a.packet, a.packet));
+}
+
 TEST(CaptureReader, ReadsOnBehindDamageAndNamesTheBytesLeftOut) {
   const std::vector<LinkFrame> frames = SyntheticCapture{}.frames();
   const TemporaryFile whole("whole.pcap");
