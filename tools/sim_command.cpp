@@ -39,7 +39,8 @@ Result<ListenAddress> parse_listen_address(const std::string& text) {
     const auto [rest, error] = std::from_chars(begin, end, address.port);
     if (error == std::errc() && rest == end) return address;
   }
-  return Error{ErrorCode::kInvalidInput, "'" + text + "' is no address to listen on; write 127.0.0.1:19850"};
+  return Error{ErrorCode::kInvalidInput,
+               "'" + text + "' is no address to listen on; write " + kLocalUdpAddress};
 }
 
 Result<VehicleModel> model_for(const SimCommand& command, const SimulatedWorld& world) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "firmware_link/link/udp_address.hpp"
 
 namespace swiftlet {
 
@@ -15,7 +16,7 @@ namespace swiftlet {
 struct SimCommand {
   std::string world = "office";
   std::uint64_t seed = 1;
-  std::string udp = "127.0.0.1:19850";     ///< IPv4 address and port to listen on
+  std::string udp = kLocalUdpAddress;      ///< IPv4 address and port to listen on
   int laps = 1;                            ///< of the world's script, each 6 to 8 minutes; then it lands
   std::optional<double> battery_minutes;   ///< in flight; unset: enough for all laps
   double clock_start_s = 4.0;              ///< the vehicle's clock at first

@@ -63,7 +63,7 @@ struct ShareConfig {
       "share", "Who else may use the vehicle while it is mapped: [flying](flying.md#who-flies)."};
   static constexpr Setting<ShareConfig> kSettings[] = {
       {"address", &ShareConfig::address, "",
-       "where one client may connect to a live vehicle, as udp://127.0.0.1:19850; empty: nowhere, unless "
+       "where one client may connect to a live vehicle, as udp://ADDRESS:PORT; empty: nowhere, unless "
        "--share is given"},
   };
 

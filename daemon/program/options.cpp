@@ -12,22 +12,27 @@
 #include "daemon/command_line.hpp"
 #include "daemon/commands/numbered_path.hpp"
 #include "daemon/outputs/output_directory.hpp"
+#include "daemon/publish/lcm_url.hpp"
 #include "daemon/system/default_addresses.hpp"
 #include "daemon/system/named_file.hpp"
 #include "daemon/version.hpp"
 #include "daemon/view/live_view.hpp"
 #include "firmware_link/input/input_uri.hpp"
+#include "firmware_link/link/udp_address.hpp"
 
 namespace swiftlet {
 namespace {
 
 constexpr int kBadInput = 2;
-constexpr const char* kShareHere = "udp://127.0.0.1:19850";
 
-/// What lies there would keep a run from beginning.
-bool is_taken(const Options& options) {
-  std::error_code ignored;
-  return (!options.record.file.empty() && std::filesystem::exists(options.record.file, ignored)) ||
+/// What lies there would keep a later run from beginning, or would be lost.
+bool is_taken(const Options& options, const Options& first) {
+  const auto is_there = [](const std::string& file) {
+    std::error_code ignored;
+    return !file.empty() && std::filesystem::exists(file, ignored);
+  };
+  const Result<LcmUrl> lcm = parse_lcm_url(options.lcm_url);
+  return is_there(options.record.file) || (options.lcm_url != first.lcm_url && lcm && is_there(lcm->file)) ||
          (options.output_directory && is_being_written_to(*options.output_directory));
 }
 
@@ -62,7 +67,7 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option(
          "--share", options.share,
          "let one other program use the vehicle too, and fly it; without ADDRESS on this machine alone, on " +
-             std::string(kShareHere))
+             std::string(kLocalUdpUri))
       ->type_name("[ADDRESS]")
       ->expected(0, 1);
   app.add_option("--view", options.view,
@@ -92,7 +97,7 @@ void complete_options(const CLI::App& app, Options& options) {
     if (app.count(option) > 0 && address.value_or("").empty()) address = here;
   };
   options.record.asked = app.count("--record") > 0;
-  name("--share", kShareHere, options.share);
+  name("--share", kLocalUdpUri, options.share);
   name("--view", on_this_machine(kViewPort), options.view);
   name("--commands", on_this_machine(kCommandsPort), options.commands);
 }
@@ -141,9 +146,8 @@ Options options_of_run(const Options& options, int& number) {
   for (;; ++number) {
     if (options.output_directory) of_run.output_directory = numbered_path(*options.output_directory, number);
     if (!options.record.file.empty()) of_run.record.file = numbered_path(options.record.file, number);
-    if (is_taken(of_run)) continue;
     of_run.lcm_url = numbered_lcm_url(options.lcm_url, number);
-    return of_run;
+    if (!is_taken(of_run, options)) return of_run;
   }
 }
 

@@ -20,8 +20,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::string_view kUdpScheme = "udp://";
-
 /// The recorder of this run, if it has any. Errors: as Recorder::open, where a recording was asked for; a
 /// recording by custom is only warned about.
 Result<std::unique_ptr<Recorder>> open_recorder(const Options& options, const Configuration& config) {
@@ -56,8 +54,7 @@ Result<std::optional<UdpAddress>> share_address(const Options& options, const Co
   const bool is_live = input && input->is(InputNature::kVehicle);
   if (text.empty() || (!options.share && !is_live)) return std::optional<UdpAddress>();
   if (!text.starts_with(kUdpScheme))
-    return Error{ErrorCode::kInvalidInput,
-                 fmt::format("--share {}: write {}127.0.0.1:19850", text, kUdpScheme)};
+    return Error{ErrorCode::kInvalidInput, fmt::format("--share {}: write {}", text, kLocalUdpUri)};
   text.remove_prefix(kUdpScheme.size());
   Result<UdpAddress> address = parse_udp_address(text);
   if (!address) return Error{ErrorCode::kInvalidInput, "--share: " + address.error().message};

@@ -24,7 +24,8 @@ Status split_host(std::string_view text, std::string_view& host, std::string_vie
     host = text.substr(0, colon);
     port = colon == std::string_view::npos ? std::string_view{} : text.substr(colon);
     if (port.find(':', 1) != std::string_view::npos)
-      return bad_address("an IPv6 address stands in brackets: udp://[::1]:19850");
+      return bad_address("an IPv6 address stands in brackets: udp://[::1]:" +
+                         std::to_string(kDefaultUdpPort));
   }
   const auto may_stand_in_host = [bracketed](char c) {
     return is_digit(c) || is_letter(c) || c == '.' || c == '-' || c == '_' ||

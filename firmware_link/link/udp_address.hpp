@@ -10,8 +10,13 @@
 
 namespace swiftlet {
 
-/// Where the vendor's simulated vehicles listen, and swiftlet's.
+inline constexpr std::string_view kUdpScheme = "udp://";
+
+/// Where the vendor's simulated vehicles listen, and swiftlet's: the port, and with it on this machine, as a
+/// URI and without its scheme.
 inline constexpr std::uint16_t kDefaultUdpPort = 19850;
+inline constexpr const char* kLocalUdpUri = "udp://127.0.0.1:19850";
+inline constexpr const char* kLocalUdpAddress = kLocalUdpUri + kUdpScheme.size();
 
 /// Where a vehicle listens: what a udp:// URI names.
 struct UdpAddress {

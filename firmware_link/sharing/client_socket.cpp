@@ -48,7 +48,7 @@ Result<std::unique_ptr<ClientSocket>> ClientSocket::open(const UdpAddress& addre
   bound.sin_port = htons(address.port);
   if (inet_pton(AF_INET, host.c_str(), &bound.sin_addr) != 1)
     return Error{ErrorCode::kInvalidInput,
-                 "cannot share on udp://" + where + ": not an IPv4 address; write udp://127.0.0.1:19850"};
+                 "cannot share on udp://" + where + ": not an IPv4 address; write " + kLocalUdpUri};
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket < 0) return no_socket(where);
   const int reports_errors = 1;

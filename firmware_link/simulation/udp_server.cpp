@@ -12,6 +12,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "firmware_link/link/udp_address.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -49,7 +51,7 @@ Result<std::unique_ptr<SimulatedUdpServer>> SimulatedUdpServer::open(const std::
   address.sin_port = htons(port);
   if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
     return Error{ErrorCode::kInvalidInput,
-                 "cannot listen on udp " + where + ": not an IPv4 address; write 127.0.0.1:19850"};
+                 "cannot listen on udp " + where + ": not an IPv4 address; write " + kLocalUdpAddress};
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket < 0) return no_socket(where);
   if (bind(socket, generic(&address), sizeof address) != 0) {

@@ -82,11 +82,13 @@ def a_new_map_is_a_run_of_its_own(bench):
 
 
 def a_new_map_takes_names_that_are_free_and_waits_for_what_is_not(bench):
-    (bench.folder / "flight_2.pcap").write_bytes(b"of another day")
-    in_the_way = bench.folder / "out_3"
+    another_days = [bench.folder / "flight_2.pcap", bench.folder / "run_3.lcm"]
+    for file in another_days:
+        file.write_bytes(b"of another day")
+    in_the_way = bench.folder / "out_4"
     in_the_way.write_text("no folder", encoding="utf-8")
     vehicle = bench.vehicle()
-    flight = commanded_flight(bench, vehicle)
+    flight = commanded_flight(bench, vehicle, lcm_url=f"file://{bench.folder}/run.lcm?mode=w")
     time.sleep(1.0)
     expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
     flight.wait_for("the next run cannot begin")
@@ -99,8 +101,9 @@ def a_new_map_takes_names_that_are_free_and_waits_for_what_is_not(bench):
     expect(flight.process.wait(timeout=60) == 0, flight.said())
     vehicle.end()
     expect((in_the_way / "report.json").exists(), sorted(os.listdir(bench.folder)))
-    expect((bench.folder / "flight_3.pcap").stat().st_size > 1000, sorted(os.listdir(bench.folder)))
-    expect((bench.folder / "flight_2.pcap").read_bytes() == b"of another day", "overwritten")
+    for name in ("flight_4.pcap", "run_4.lcm"):
+        expect((bench.folder / name).stat().st_size > 1000, sorted(os.listdir(bench.folder)))
+    expect(all(file.read_bytes() == b"of another day" for file in another_days), "overwritten")
 
 
 def a_new_map_does_not_cut_off_a_client(bench):
