@@ -13,6 +13,7 @@
 namespace swiftlet {
 namespace {
 
+constexpr std::size_t kLongestLine = std::size_t{16} << 20U;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin UTF-8 with it
 
 gzFile gzip_file(void* file) { return static_cast<gzFile>(file); }
@@ -39,6 +40,9 @@ Result<std::string_view> GzipLines::next() {
     const char* line_end = std::find(text + searched, text + end_, '\n');
     const bool complete = line_end != text + end_;
     const std::size_t waiting = end_ - begin_;
+    if (!complete && waiting > kLongestLine)
+      return Error{ErrorCode::kDamaged, path_ + ": line " + std::to_string(line_number_ + 1) +
+                                            " is longer than 16 MB; what precedes it is used"};
     if (complete || !fill()) {
       if (!complete && (waiting == 0 || damaged_)) return end_error();
       text = buffer_.data();

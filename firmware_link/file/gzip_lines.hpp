@@ -21,8 +21,8 @@ class GzipLines {
   [[nodiscard]] static Result<GzipLines> open(const std::string& path);
 
   /// The next line without its end; valid until the next call. Errors: kEndOfRecording. kDamaged: the gzip
-  /// stream is truncated or corrupt; the message names the byte offset in the file. The lines before it were
-  /// delivered, a truncated line was not.
+  /// stream is truncated or corrupt, or a line is longer than 16 MB; the message names the byte offset in the
+  /// file, or the line. The lines before it were delivered, a truncated line was not.
   [[nodiscard]] Result<std::string_view> next();
   /// The number of the line that next() returned last, from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxNamedLines = 10;
 constexpr std::size_t kMaxReadings = 10'000;  // of any laser
+constexpr double kMinStepRad = 1e-4;          // a fortieth of the finest scanner's
 constexpr const char* kOtherGeometry =
     "scan whose beams lie elsewhere than the first one's, or are fewer than are to be kept";
 
@@ -65,8 +66,8 @@ std::optional<ScanGeometry> read_geometry(Numbers& numbers, double& max_range_m)
                            numbers.read(ignored) && numbers.read(geometry.step_rad) &&
                            numbers.read(max_range_m) && numbers.read(ignored) && numbers.read(ignored) &&
                            numbers.read(geometry.readings);
-  const bool is_possible = std::abs(geometry.start_rad) <= 2.0 * kPi && geometry.step_rad > 0.0 &&
-                           geometry.readings <= kMaxReadings &&
+  const bool is_possible = std::abs(geometry.start_rad) <= 2.0 * kPi && geometry.step_rad >= kMinStepRad &&
+                           geometry.readings >= 1 && geometry.readings <= kMaxReadings &&
                            geometry.step_rad * static_cast<double>(geometry.readings) <= 2.1 * kPi;
   return is_complete && is_possible ? std::optional(geometry) : std::nullopt;
 }

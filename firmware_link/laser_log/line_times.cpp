@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace swiftlet {
 namespace {
@@ -13,12 +14,14 @@ constexpr std::size_t kMaxAround = 10;  // lines on either side: about 2 s, seve
 /// Lines without a pause, [first, end).
 void add_regular_times(std::span<const CarmenOdometry> lines, std::vector<DeviceTime>& times) {
   const HostTime zero = lines.front().stamp;
-  std::vector<Duration> sums{Duration::zero()};  // of the stamps before each line
-  for (const CarmenOdometry& line : lines) sums.push_back(sums.back() + (line.stamp - zero));
+  std::vector<std::uint64_t> sums_ns{0};  // of the stamps before each line; in a long log they wrap
+  for (const CarmenOdometry& line : lines)
+    sums_ns.push_back(sums_ns.back() + static_cast<std::uint64_t>((line.stamp - zero).count()));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t around = std::min({kMaxAround, i, lines.size() - 1 - i});
-    const Duration sum = sums[i + around + 1] - sums[i - around];
-    times.push_back(DeviceTime(zero.time_since_epoch()) + sum / static_cast<Duration::rep>(2 * around + 1));
+    const auto sum_ns = static_cast<Duration::rep>(sums_ns[i + around + 1] - sums_ns[i - around]);
+    times.push_back(DeviceTime(zero.time_since_epoch()) +
+                    Duration(sum_ns / static_cast<Duration::rep>(2 * around + 1)));
   }
 }
 

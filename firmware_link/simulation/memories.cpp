@@ -78,7 +78,7 @@ std::optional<PacketBytes> SimulatedMemories::read(std::span<const std::uint8_t>
   const std::uint8_t memory = packet[1];
   const std::uint32_t address = load_u32(packet, 2);
   const std::size_t length = packet[kRequestHead];
-  const std::size_t end = std::size_t{address} + length;
+  const std::uint64_t end = std::uint64_t{address} + length;
   const bool is_possible =
       length <= kMaxRead && ((memory == kEeprom && end <= eeprom_.size()) || memory == kTester);
   PacketBytes reply;
@@ -86,8 +86,8 @@ std::optional<PacketBytes> SimulatedMemories::read(std::span<const std::uint8_t>
   put_bytes(reply, packet.subspan(1, kRequestHead - 1));
   put(reply, is_possible ? std::uint8_t{0} : kIoError);
   if (!is_possible) return reply;
-  for (std::size_t at = address; at < end; ++at)
-    put(reply, memory == kEeprom ? eeprom_[at] : static_cast<std::uint8_t>(at));
+  for (std::uint64_t at = address; at < end; ++at)
+    put(reply, memory == kEeprom ? eeprom_[static_cast<std::size_t>(at)] : static_cast<std::uint8_t>(at));
   return reply;
 }
 
@@ -95,7 +95,8 @@ std::optional<PacketBytes> SimulatedMemories::write(std::span<const std::uint8_t
   if (packet.size() < kRequestHead) return std::nullopt;
   const std::span<const std::uint8_t> data = packet.subspan(kRequestHead);
   const std::size_t address = load_u32(packet, 2);
-  const bool fits_eeprom = packet[1] == kEeprom && address + data.size() <= eeprom_.size();
+  const bool fits_eeprom =
+      packet[1] == kEeprom && address <= eeprom_.size() && data.size() <= eeprom_.size() - address;
   if (fits_eeprom) std::ranges::copy(data, eeprom_.begin() + static_cast<std::ptrdiff_t>(address));
   PacketBytes reply;
   put(reply, kWriteHeader);

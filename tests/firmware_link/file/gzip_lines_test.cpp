@@ -72,6 +72,14 @@ TEST(GzipLines, LinesMayBeLongerThanItsBuffer) {
   EXPECT_THAT(read_all(file.path()).lines, ElementsAre("a", longest, "b"));
 }
 
+TEST(GzipLines, EndsAtALineWithoutEndBeforeItTakesAllMemory) {
+  const TemporaryFile file("a.txt", "one\n" + std::string(std::size_t{18} << 20U, 'x'));
+  const WholeRead read = read_all(file.path());
+  EXPECT_THAT(read.lines, ElementsAre("one"));
+  EXPECT_EQ(read.end.code, ErrorCode::kDamaged);
+  EXPECT_THAT(read.end.message, HasSubstr("line 2 is longer than 16 MB"));
+}
+
 TEST(GzipLines, DeliversWholeLinesBeforeDamageAndReportsTheByte) {
   std::mt19937 random(3);
   std::string text;

@@ -207,5 +207,16 @@ TEST(CarmenLog, ReportsScansThatCannotBeUsed) {
   EXPECT_THAT(log->problems[3], HasSubstr("fewer than are to be kept"));
 }
 
+TEST(CarmenLog, ScansWithoutReadingsOrSpreadAreLeftOut) {
+  const std::string good = scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "1");
+  const TemporaryFile file("a.clf", good + scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 0", 0, "0", "2") +
+                                        scan_line("RAWLASER1", "0 -1.5 3.0 1e-9 80 0.1 0 7", 7, "0", "3"));
+  const auto log = read_carmen_log(file.path(), 2);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_EQ(log->scans.size(), 1U);
+  EXPECT_THAT(log->problems, testing::Each(HasSubstr("RAWLASER1 line cut off or garbled")));
+  EXPECT_EQ(log->problems.size(), 2U);
+}
+
 }  // namespace
 }  // namespace swiftlet
