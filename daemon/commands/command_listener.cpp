@@ -15,7 +15,10 @@
 #include <bit>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,17 +32,23 @@ namespace {
 
 constexpr int kStopWaitMs = 100;  // the longest a stop goes unnoticed
 constexpr std::size_t kMaxWarnings = 10;
+constexpr std::chrono::seconds kSilence{1};  // a message may come in two pieces, 40 ms apart
 constexpr std::uint32_t kLoopbackNet = 127;
+
+using Steady = std::chrono::steady_clock;
 
 class Connection {
  public:
   Connection(int socket, TcpqConversation conversation)
       : socket_(socket), conversation_(std::move(conversation)) {}
   Connection(Connection&& other) noexcept
-      : socket_(std::exchange(other.socket_, -1)), conversation_(std::move(other.conversation_)) {}
+      : socket_(std::exchange(other.socket_, -1)),
+        conversation_(std::move(other.conversation_)),
+        heard_at_(other.heard_at_) {}
   Connection& operator=(Connection&& other) noexcept {
     std::swap(socket_, other.socket_);
     std::swap(conversation_, other.conversation_);
+    std::swap(heard_at_, other.heard_at_);
     return *this;
   }
   Connection(const Connection&) = delete;
@@ -49,8 +58,10 @@ class Connection {
   }
 
   [[nodiscard]] int socket() const { return socket_; }
+  [[nodiscard]] bool is_silent() const { return Steady::now() - heard_at_ > kSilence; }
   /// False: it is over.
   bool read() {
+    heard_at_ = Steady::now();
     std::array<std::uint8_t, 4096> bytes{};
     const ssize_t size = ::recv(socket_, bytes.data(), bytes.size(), 0);
     if (size < 0) return errno == EINTR || errno == EAGAIN;
@@ -63,7 +74,19 @@ class Connection {
  private:
   int socket_;
   TcpqConversation conversation_;
+  Steady::time_point heard_at_ = Steady::now();
 };
+
+/// Reads where something waits, and takes out who is gone. Who said something stands last.
+void read_all(std::vector<Connection>& connections, std::span<const pollfd> waits) {
+  std::vector<Connection> heard;
+  for (std::size_t i = connections.size(); i-- > 0;) {
+    if (waits[i].revents == 0) continue;
+    if (connections[i].read()) heard.push_back(std::move(connections[i]));
+    connections.erase(connections.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  std::ranges::move(heard, std::back_inserter(connections));
+}
 
 Error refused(std::string_view address, const std::string& why) {
   return {ErrorCode::kInvalidInput, "commands on " + std::string(address) + ": " + why};
@@ -130,19 +153,21 @@ std::string CommandListener::url() const {
 }
 
 void CommandListener::run(const std::stop_token& stop) {
-  std::vector<Connection> connections;
+  std::vector<Connection> connections;  // who has been silent longest stands first
   while (!stop.stop_requested()) {
-    const bool has_room = connections.size() < kMaxConnections;
+    const bool has_room = connections.size() < kMaxConnections || connections.front().is_silent();
     std::vector<pollfd> waits{{.fd = has_room ? socket_ : -1, .events = POLLIN, .revents = 0}};
     for (const Connection& connection : connections)
       waits.push_back({.fd = connection.socket(), .events = POLLIN, .revents = 0});
     if (::poll(waits.data(), waits.size(), kStopWaitMs) <= 0) continue;
-    for (std::size_t i = connections.size(); i-- > 0;)
-      if (waits[i + 1].revents != 0 && !connections[i].read())
-        connections.erase(connections.begin() + static_cast<std::ptrdiff_t>(i));
+    read_all(connections, std::span(waits).subspan(1));
     if (waits.front().revents == 0) continue;
     const int accepted = ::accept4(socket_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (accepted < 0) continue;
+    if (accepted < 0) {  // no descriptor is free: it still waits
+      std::this_thread::sleep_for(std::chrono::milliseconds(kStopWaitMs));
+      continue;
+    }
+    if (connections.size() == kMaxConnections) connections.erase(connections.begin());
     connections.emplace_back(
         accepted,
         TcpqConversation(channel_, [this](std::span<const std::uint8_t> message) { on_message(message); }));

@@ -23,6 +23,7 @@ class CommandListener {
  public:
   /// Called by the thread. What it returns says whether the command was taken.
   using Sink = std::function<bool(const Command&)>;
+  /// One more ends the one that was silent longest, after a second at least.
   static constexpr std::size_t kMaxConnections = 8;
 
   /// `address`: 127.0.0.1:8450. `channel`: of the commands. Error: kInvalidInput: it is no loopback address

@@ -5,8 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <future>
+#include <memory>
+#include <thread>
+#include <vector>
 
 #include "daemon/publish/lcm_transport.hpp"
 #include "tests/daemon/commands/encoded_command.hpp"
@@ -31,6 +35,29 @@ TEST(CommandListener, HearsWhatLcmPublishes) {
   std::future<std::string> name = heard.get_future();
   ASSERT_EQ(name.wait_for(std::chrono::seconds(30)), std::future_status::ready);
   EXPECT_EQ(name.get(), "kitchen");
+  (*listener)->stop();
+}
+
+TEST(CommandListener, ProgramsThatStayAndSayNothingMoreKeepNobodyOut) {
+  const auto listener = CommandListener::open("127.0.0.1:0", "T_COMMAND");
+  ASSERT_TRUE(listener) << listener.error().message;
+  constexpr std::size_t kPrograms = CommandListener::kMaxConnections + 1;
+  std::atomic<std::size_t> heard = 0;
+  std::promise<void> all;
+  (*listener)->start([&](const Command&) {
+    if (++heard == kPrograms) all.set_value();
+    return true;
+  });
+  std::vector<std::unique_ptr<LcmTransport>> programs;
+  for (std::size_t i = 0; i < kPrograms; ++i) {
+    if (i + 1 == kPrograms) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    auto lcm = LcmTransport::open((*listener)->url());
+    ASSERT_TRUE(lcm) << lcm.error().message;
+    programs.push_back(std::move(*lcm));
+    EXPECT_TRUE(
+        programs.back()->publish("T_COMMAND", encoded_command(command_t::ACTION_MARK_PLACE, "kitchen")));
+  }
+  EXPECT_EQ(all.get_future().wait_for(std::chrono::seconds(30)), std::future_status::ready) << heard;
   (*listener)->stop();
 }
 
