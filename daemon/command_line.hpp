@@ -32,6 +32,10 @@ inline CLI::Validator number_from(double lowest, double highest) {
 /// A limit of the file size (ulimit -f) becomes an error of what writes, instead of the end of the program.
 inline void take_file_size_limit_as_error() { static_cast<void>(std::signal(SIGXFSZ, SIG_IGN)); }
 
+/// Whoever reads what the program says may be gone (a pipe to a program that the same Ctrl-C ended): it goes
+/// on.
+inline void outlive_readers() { static_cast<void>(std::signal(SIGPIPE, SIG_IGN)); }
+
 /// Answers --help or --version; its exit code.
 inline int answer(const CLI::App& app, const CLI::Success& question) {
   std::ostringstream text;

@@ -50,8 +50,7 @@ int run(const Options& options) {
 }
 
 int main_without_exceptions(int argc, char** argv) {
-  // Whoever read the log may be gone (a pipe to a program that the same Ctrl-C ended): write the outputs.
-  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+  outlive_readers();
   take_file_size_limit_as_error();
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");

@@ -359,9 +359,16 @@ std::vector<Choice> add_commands(CLI::App& app, Commands& commands) {
   };
   Commands& c = commands;
   return {{add_map_command(app, c.map), [&c, done] { return done(swiftlet::run_map_command(c.map)); }},
-          {add_sim_command(app, c.sim), [&c, done] { return done(swiftlet::run_sim_command(c.sim)); }},
+          {add_sim_command(app, c.sim),
+           [&c, done] {
+             swiftlet::outlive_readers();
+             return done(swiftlet::run_sim_command(c.sim));
+           }},
           {add_record_command(app, c.record),
-           [&c, done] { return done(swiftlet::run_record_command(c.record)); }},
+           [&c, done] {
+             swiftlet::outlive_readers();
+             return done(swiftlet::run_record_command(c.record));
+           }},
           {add_doctor_command(app, c.doctor), [&c] { return run_doctor(c.doctor); }},
           {add_eval_command(app, c.eval), [&c, done] { return done(swiftlet::run_eval_command(c.eval)); }},
           {add_calibrate_command(app, c.calibrate),

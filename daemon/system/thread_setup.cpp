@@ -42,7 +42,11 @@ Status set_up_thread(pthread_t thread, const ThreadSetup& setup) {
   return {};
 }
 
+/// Within a limit, stacks of threads to come and memory to be asked for would fail, not wait.
 Status lock_memory() {
+  rlimit limit{};
+  const bool is_limited = ::getrlimit(RLIMIT_MEMLOCK, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
+  if (is_limited && ::geteuid() != 0) return refused("locked memory", EPERM);
   if (::mlockall(MCL_CURRENT) != 0) return refused("locked memory", errno);
   // Whole stacks of threads to come would be read in without this.
   if (::mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) return refused("locked memory", errno);

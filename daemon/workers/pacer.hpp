@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 
 #include "core/base/check.hpp"
 #include "core/base/time.hpp"
@@ -11,9 +12,12 @@
 namespace swiftlet {
 
 /// Gives a recording its own pace back: how far apart the samples' stamps are decides how far apart they are
-/// due, `rate` times as fast. The first is due at once; a stamp that goes back waits for nothing.
+/// due, `rate` times as fast. The first is due at once; a stamp that goes back waits for nothing, and one
+/// that leaps ahead (a clock that was set, a vehicle that stood for hours) for no more than kLongestPause.
 class Pacer {
  public:
+  static constexpr Duration kLongestPause = std::chrono::minutes(1);  ///< as recorded
+
   /// Precondition: rate > 0.
   explicit Pacer(double rate) : rate_(rate) {
     SWIFTLET_CHECK(rate > 0.0, "the rate of a replay is positive");
@@ -25,7 +29,7 @@ class Pacer {
       started_ = true;
       due_ = now;
     } else {
-      const Duration apart = std::max(stamp - last_stamp_, Duration(0));
+      const Duration apart = std::clamp(stamp - last_stamp_, Duration(0), kLongestPause);
       due_ += from_seconds(to_seconds(apart) / rate_);
     }
     last_stamp_ = stamp;

@@ -27,6 +27,12 @@ TEST(Pacer, CatchesUpAfterADelayInsteadOfShiftingTheRest) {
   EXPECT_EQ(pacer.due(stamp(milliseconds(100)), kNow + seconds(9)), kNow + milliseconds(100));
 }
 
+TEST(Pacer, WaitsNoLongerThanAMinuteForAClockThatWasSet) {
+  Pacer pacer(0.5);
+  static_cast<void>(pacer.due(stamp(milliseconds(0)), kNow));
+  EXPECT_EQ(pacer.due(stamp(std::chrono::hours(24 * 365)), kNow), kNow + std::chrono::minutes(2));
+}
+
 TEST(Pacer, WaitsForNothingWhenStampsGoBack) {
   Pacer pacer(1.0);
   static_cast<void>(pacer.due(stamp(milliseconds(1000)), kNow));
