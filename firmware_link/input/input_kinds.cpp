@@ -20,9 +20,9 @@ namespace {
 
 constexpr int kLastUsbIndex = 99;
 
-template <typename Address, Result<Address> (*parse)(std::string_view)>
+template <typename Address, Result<Address> (*kParse)(std::string_view)>
 Status parsed_by(std::string_view text, std::any& address) {
-  Result<Address> parsed = parse(text);
+  Result<Address> parsed = kParse(text);
   if (!parsed) return parsed.error();
   address = std::move(parsed).value();
   return {};
