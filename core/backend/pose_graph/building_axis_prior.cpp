@@ -37,7 +37,6 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
   Sight sight{keyframe, axis, yaw_variance_rad2};
   const std::vector<Fit> fits = fits_of(sight, graph);
   sight.is_elsewhere = std::ranges::all_of(fits, &Fit::is_another_likelier);
-  ++votes_;
   const bool goes_on = !strays_.empty() && continues_strays(sight, graph);
   const bool is_own = goes_on && strays_.front().is_elsewhere;
   const std::optional<std::size_t> shared = is_own ? std::nullopt : shared_axis(fits);
@@ -45,7 +44,7 @@ void BuildingAxisPrior::add(KeyframeId keyframe, const WallAxis& axis, double ya
     observe(*shared, yaw_variance_rad2);
     hold(sight, *shared, graph);
   }
-  if (shared || !goes_on) strays_.clear();
+  if (shared || !goes_on) drop_strays();
   if (shared) return;
   strays_.push_back(sight);
   if (strays_.size() < kSightsApart || !strays_.front().is_elsewhere) return;
@@ -65,7 +64,7 @@ std::vector<BuildingAxisPrior::Fit> BuildingAxisPrior::fits_of(const Sight& sigh
       wrap_axis(seen_in_map_rad(graph, graph.headings.back().pose, walls_.back().axis) -
                 directions[walls_.back().shared]);
   const double sight_rad2 = squared(sight.axis.sigma_rad);
-  const double another_per_rad = static_cast<double>(1 + votes_ - walls_.size()) * kAnywherePerRad;
+  const double another_per_rad = (1.0 + unheld_ + static_cast<double>(strays_.size())) * kAnywherePerRad;
   std::vector<Fit> fits;
   for (std::size_t k = 0; k < shared_.size(); ++k) {
     const double in_map_rad = wrap_axis(seen_rad - directions[k]);
@@ -103,6 +102,11 @@ std::optional<std::size_t> BuildingAxisPrior::shared_axis(const std::vector<Fit>
   if (fits[best].is_another_likelier) return std::nullopt;
   if (rival - least < 2.0 * tuning_.min_log_odds) return std::nullopt;
   return best;
+}
+
+void BuildingAxisPrior::drop_strays() {
+  unheld_ += static_cast<double>(strays_.size());
+  strays_.clear();
 }
 
 bool BuildingAxisPrior::continues_strays(const Sight& sight, const PoseGraph& graph) const {
@@ -154,7 +158,7 @@ void BuildingAxisPrior::erase(const IdRanges<KeyframeId>& pruned, PoseGraph& gra
     graph.headings[kept] = graph.headings[i];
     walls_[kept++] = walls_[i];
   }
-  if (!walls_.empty()) votes_ = votes_ * kept / walls_.size();  // of those that hold to none as large a share
+  if (!walls_.empty()) unheld_ *= static_cast<double>(kept) / static_cast<double>(walls_.size());
   graph.headings.resize(kept);
   walls_.resize(kept);
   std::erase_if(strays_, [&](const Sight& stray) { return pruned.contains(stray.keyframe); });

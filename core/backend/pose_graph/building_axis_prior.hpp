@@ -67,6 +67,7 @@ class BuildingAxisPrior {
   /// The shared axis that clearly fits best, each a priori as likely as headings hold to it; where there is
   /// none yet, a first one.
   [[nodiscard]] std::optional<std::size_t> shared_axis(const std::vector<Fit>& fits) const;
+  void drop_strays();
   [[nodiscard]] bool continues_strays(const Sight& sight, const PoseGraph& graph) const;
   void observe(std::size_t shared, double yaw_variance_rad2);
   void hold(const Sight& sight, std::size_t shared, PoseGraph& graph);
@@ -76,7 +77,8 @@ class BuildingAxisPrior {
   [[nodiscard]] std::vector<double> directions_rad(const PoseGraph& graph) const;
 
   BuildingAxisPriorTuning tuning_;
-  std::size_t votes_ = 0;  ///< walls looked at: those that hold to an axis and those that do not
+  /// Votes that hold to no axis, but for the strays. Of what is pruned they lose as large a share.
+  double unheld_ = 0.0;
   std::vector<Walls> walls_;
   std::vector<Shared> shared_;
   /// Since the last heading factor: they agree with each other, and with no shared axis.

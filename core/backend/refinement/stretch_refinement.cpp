@@ -25,6 +25,7 @@ StretchRefinement::Job::Job(const BatchRefinement& what, std::vector<Pose2> T_ma
     : batch(what), problem(what), T_map_graph(std::move(T_map_begun)), T_map_body(std::move(T_map_start)) {
   batch.closures = {};
   batch.headings = {};
+  batch.doubted = {};
 }
 
 void StretchRefinement::begin(const BatchRefinement& batch, std::vector<Pose2> T_map_graph,

@@ -47,7 +47,7 @@ class StretchRefinement {
     void lay_onto_graph();
     [[nodiscard]] double held_out_m(const std::vector<Pose2>& T_map) const;
 
-    BatchRefinement batch;  // without closures and headings, which the problem has
+    BatchRefinement batch;  // without what the problem has of it
     BatchProblem problem;
     std::vector<Pose2> T_map_graph;
     std::vector<Pose2> T_map_body;  // refined

@@ -215,7 +215,31 @@ TEST(BuildingAxisPrior, WhereVotesAreErasedTheOthersAreAsManyInProportion) {
   graph.T_map_keyframe.erase(gone);
   hold.erase(gone, graph);
   ASSERT_EQ(graph.headings.size(), 11U);
-  EXPECT_TRUE(adds(12)) << "nearly all votes hold to the first axis, as before";
+  EXPECT_TRUE(adds(11)) << "nearly all votes hold to the first axis, as before";
+}
+
+TEST(BuildingAxisPrior, WhatIsErasedBetweenVotesForANewAxisLeavesTheOldOneItsWeight) {
+  PoseGraph graph;
+  BuildingAxisPrior hold;
+  const auto adds = [&](double deg) {
+    const std::size_t before = graph.headings.size();
+    graph.T_map_keyframe.push_back({});
+    hold.add(graph.T_map_keyframe.last_id(), axis_seen_at(0.0, radians(deg)), squared(radians(2.0)), graph);
+    return graph.headings.size() > before;
+  };
+  const auto erase = [&](std::size_t first, std::size_t end) {
+    IdRanges<KeyframeId> gone;
+    gone.add({make_id<KeyframeId>(first), make_id<KeyframeId>(end)});
+    graph.T_map_keyframe.erase(gone);
+    hold.erase(gone, graph);
+  };
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(adds(0));
+  EXPECT_FALSE(adds(40));
+  erase(10, 13);
+  EXPECT_FALSE(adds(40));
+  erase(13, 16);
+  EXPECT_TRUE(adds(40)) << "three votes make an axis";
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(adds(0));
 }
 
 TEST(BuildingAxisPrior, AnAxisOfWhichNoHeadingIsLeftIsForgotten) {
