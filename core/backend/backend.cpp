@@ -212,7 +212,8 @@ bool Backend::can_be_mapped_again() const {
 
 Pruning Backend::next_pruning() {
   State& s = *state_;
-  return s.pruner.next(s.T_map_keyframe(), s.loops.open_since().value_or(s.chain.all().end_id()));
+  const KeyframeId first_in_use = s.loops.open_since().value_or(s.chain.all().end_id());
+  return s.pruner.next(s.T_map_keyframe(), first_in_use, s.loops.unplaced_since().has_value());
 }
 
 void Backend::prune(const Pruning& pruning) {

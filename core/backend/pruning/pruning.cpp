@@ -175,10 +175,10 @@ Pruning Pruner::plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recen
   return pruning;
 }
 
-Pruning Pruner::next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use) {
-  if (scans_->seeing() < due_at_ || chain_->size() == 0) return {};
+Pruning Pruner::next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use, bool may_wait) {
   const auto at_a_time =
       static_cast<std::size_t>(config_->tuning.pruning.share_at_a_time * config_->max_scans);
+  if (scans_->seeing() < due_at_ + (may_wait ? at_a_time : 0) || chain_->size() == 0) return {};
   Pruning pruning =
       plan(T_map_keyframe, first_recent(first_in_use), scans_->seeing() - max_scans() + at_a_time);
   // Where little can be spared, there is nothing to be gained by asking at every step.

@@ -44,8 +44,10 @@ class Pruner {
       : config_(&config), scans_(&scans), chain_(&chain), due_at_(max_scans()) {}
 
   /// What is to be pruned now: mostly empty, and always until there are config.max_scans scans with returns.
-  /// Nothing from keyframe `first_in_use` on is touched, nor what was travelled last.
-  [[nodiscard]] Pruning next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use);
+  /// Nothing from keyframe `first_in_use` on is touched, nor what was travelled last. `may_wait`: it is put
+  /// off until there are as many scans more as are pruned at a time.
+  [[nodiscard]] Pruning next(const KeyframePoses& T_map_keyframe, KeyframeId first_in_use,
+                             bool may_wait = false);
   /// At least `scans_wanted` scans with returns, or all that can be spared of what lies before
   /// `first_recent`.
   [[nodiscard]] Pruning plan(const KeyframePoses& T_map_keyframe, KeyframeId first_recent,

@@ -4,6 +4,8 @@
 
 #include <bit>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "core/backend/backend.hpp"
 #include "tests/support/closure_error.hpp"
@@ -80,6 +82,28 @@ TEST(BackendPruning, HoldsNoMoreScansThanItIsAllowedInKnownSpace) {
   EXPECT_EQ(finished_patrol().backend->counters().scans, patrol().samples().size());
   EXPECT_FALSE(finished_patrol().backend->can_be_mapped_again());
   EXPECT_EQ(finished_patrol().backend->counters().scans_pruned, finished_patrol().pruned);
+}
+
+/// After how many samples pruning is due for the first time; 0: never.
+std::size_t first_pruning(std::span<const RangeSample> samples) {
+  Backend backend(holding(kMaxScans), SensorModel::crazyflie(), BeamLayout::multiranger());
+  DeadReckoningFrontend frontend;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    backend.add(frontend.process(samples[i]));
+    if (!backend.next_pruning().empty()) return i + 1;
+  }
+  return 0;
+}
+
+TEST(BackendPruning, WaitsWhileTravelHasNoPlace) {
+  std::vector<RangeSample> samples = patrol().samples();
+  const std::size_t usual = first_pruning(samples);
+  ASSERT_GT(usual, 100U);
+  samples[usual - 20].starts_segment = true;  // a restart: some metres tell where
+  samples.resize(usual + kMaxScans / 5);
+  const std::size_t later = first_pruning(samples);
+  EXPECT_GT(later, usual);
+  EXPECT_LE(later, usual + kMaxScans / 10);
 }
 
 TEST(BackendPruning, KeepsTheMapAsGoodAsWithoutForgetting) {

@@ -217,6 +217,20 @@ TEST(Pruning, IsDueOnceThereAreMoreScansThanAllowed) {
       << "all of it lies behind what is in use";
 }
 
+TEST(Pruning, WaitsForAsMuchAsIsPrunedAtATimeWhereItMay) {
+  BackendConfig config;
+  const auto count = static_cast<int>(ten_laps().scans().size());
+  const KeyframeId end = ten_laps().chain().all().end_id();
+  const auto next = [&](int max_scans, bool may_wait) {
+    config.max_scans = max_scans;
+    return Pruner(config, ten_laps().scans(), ten_laps().chain())
+        .next(ten_laps().T_local_keyframe(), end, may_wait);
+  };
+  EXPECT_FALSE(next(count - 10, false).empty());
+  EXPECT_TRUE(next(count - 10, true).empty());
+  EXPECT_FALSE(next(count - count / 15, true).empty());
+}
+
 TEST(Pruning, IsNotDueForAVehicleThatStandsLanded) {
   std::vector<RangeSample> samples = laps(10);
   const std::size_t flown = samples.size();
