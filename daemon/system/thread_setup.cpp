@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/system/thread_setup.hpp"
 
+#include <linux/capability.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -21,6 +23,13 @@ constexpr std::size_t kPage = 4096;
 
 Error refused(const std::string& what, int why) {
   return {ErrorCode::kInvalidInput, what + ": " + std::strerror(why)};
+}
+
+bool may_lock_without_limit() {
+  __user_cap_header_struct header{.version = _LINUX_CAPABILITY_VERSION_3, .pid = 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> capabilities{};
+  return ::syscall(SYS_capget, &header, capabilities.data()) == 0 &&
+         (capabilities[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
 }  // namespace
@@ -46,7 +55,7 @@ Status set_up_thread(pthread_t thread, const ThreadSetup& setup) {
 Status lock_memory() {
   rlimit limit{};
   const bool is_limited = ::getrlimit(RLIMIT_MEMLOCK, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
-  if (is_limited && ::geteuid() != 0) return refused("locked memory", EPERM);
+  if (is_limited && !may_lock_without_limit()) return refused("locked memory", EPERM);
   if (::mlockall(MCL_CURRENT) != 0) return refused("locked memory", errno);
   // Whole stacks of threads to come would be read in without this.
   if (::mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) return refused("locked memory", errno);

@@ -129,8 +129,6 @@ SILENT_TEXTS = {
         this machine only
         ttl …: leaves this machine
         an ordinary kernel
-        without limit
-        up to … bytes
         the kernel may put the device to sleep while no program uses it
         swiftlet: looking, this takes some seconds
         : nothing stops a flight""",

@@ -54,8 +54,9 @@ Finding check_memory_lock(const SystemFiles& files) {
   if (has_capability(files, kCapIpcLock))
     return {Mark::kOk, "memory lock", "memory may be locked: CAP_IPC_LOCK", ""};
   const std::string limit = limit_of(files, "Max locked memory").value_or("0");
-  const std::string bytes = limit == "unlimited" ? "without limit" : "up to " + limit + " bytes";
-  return {Mark::kOk, "memory lock", "memory may be locked " + bytes, ""};
+  if (limit == "unlimited") return {Mark::kOk, "memory lock", "memory may be locked without limit", ""};
+  return {Mark::kOk, "memory lock",
+          "no memory is locked within a limit (RLIMIT_MEMLOCK " + limit + ")" + kNotNeeded, kHowToGrant};
 }
 
 }  // namespace

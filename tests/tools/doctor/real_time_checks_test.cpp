@@ -34,16 +34,19 @@ TEST_F(RealTimeChecks, SayWhatIsMissingAndHowToGrantIt) {
   EXPECT_EQ(findings[0].mark, Mark::kOk);
   EXPECT_THAT(findings[0].found, AllOf(HasSubstr("RLIMIT_RTPRIO 0"), HasSubstr("ordinary kernel")));
   EXPECT_THAT(findings[0].remedy, HasSubstr("/etc/security/limits.d"));
-  EXPECT_THAT(findings[1].found, HasSubstr("up to 8388608 bytes"));
+  EXPECT_THAT(findings[1].found, HasSubstr("RLIMIT_MEMLOCK 8388608"));
+  EXPECT_EQ(findings[1].remedy, findings[0].remedy);
 }
 
 TEST_F(RealTimeChecks, SeeALimitAndARealTimeKernel) {
   system_.write("/proc/self/limits",
+                "Max locked memory         unlimited            unlimited            bytes     \n"
                 "Max realtime priority     95                   95                   \n");
   system_.write("/proc/version", "Linux version 6.1.0-18-rt-amd64 #1 SMP PREEMPT_RT\n");
   const Findings findings = check_real_time(system_.files());
   EXPECT_THAT(findings[0].found, AllOf(HasSubstr("up to 95"), HasSubstr("PREEMPT_RT")));
   EXPECT_EQ(findings[0].remedy, "");
+  EXPECT_THAT(findings[1].found, HasSubstr("without limit"));
 }
 
 TEST_F(RealTimeChecks, SeeCapabilities) {
