@@ -51,7 +51,7 @@ Status set_up_thread(pthread_t thread, const ThreadSetup& setup) {
   return {};
 }
 
-/// Within a limit, stacks of threads to come and memory to be asked for would fail, not wait.
+/// Not within a limit: what is mapped later, stacks too, could not be had beyond it.
 Status lock_memory() {
   rlimit limit{};
   const bool is_limited = ::getrlimit(RLIMIT_MEMLOCK, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;

@@ -20,7 +20,7 @@ struct ThreadSetup {
 [[nodiscard]] Status set_up_thread(pthread_t thread, const ThreadSetup& setup);
 
 /// What is mapped now is read in and stays in memory, what comes later stays once it is touched. Error: as
-/// above.
+/// above; also where a limit (RLIMIT_MEMLOCK) holds for this process.
 [[nodiscard]] Status lock_memory();
 
 /// The calling thread, scheduled like any other program, runs after those of the same kind: its share of a

@@ -54,7 +54,7 @@ std::optional<CrtpPacket> ClientTraffic::next_packet(bool owner_waits, HostTime 
 
 /// Precondition: there is one.
 std::optional<CrtpPacket> ClientTraffic::next_steering(HostTime now) {
-  for (; is_over(now); ++counters_.steering_dropped) steering_.pop();
+  for (; is_overtaken(now); ++counters_.steering_dropped) steering_.pop();
   const CrtpPacket packet = steering_.front().packet;
   steering_.pop();
   ++steering_in_a_row_;
@@ -62,7 +62,7 @@ std::optional<CrtpPacket> ClientTraffic::next_steering(HostTime now) {
 }
 
 /// Whether the oldest is a setpoint that came long ago, and has a newer one behind it.
-bool ClientTraffic::is_over(HostTime now) const {
+bool ClientTraffic::is_overtaken(HostTime now) const {
   const unsigned header = steering_.front().packet[0] & kPortAndChannel;
   if (header >> 4U == kHighLevelPort || now - steering_.front().came_at < kSetpointLife) return false;
   for (std::size_t i = 1; i < steering_.size(); ++i)

@@ -67,7 +67,7 @@ class ClientTraffic {
     HostTime came_at{};
   };
   [[nodiscard]] std::optional<CrtpPacket> next_steering(HostTime now);
-  [[nodiscard]] bool is_over(HostTime now) const;
+  [[nodiscard]] bool is_overtaken(HostTime now) const;
   [[nodiscard]] std::optional<CrtpPacket> next_request(HostTime now);
   [[nodiscard]] std::optional<CrtpPacket> translate(const CrtpPacket& packet);
   void on_sent_by_owner(std::span<const std::uint8_t> packet);

@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// Packets, or packets with what is known of them, in the order in which they came, in fixed storage.
+/// Packets in the order in which they came, in fixed storage. `Packet` may say more of one than its bytes.
 template <std::size_t kCapacity, typename Packet = CrtpPacket>
 class PacketRing {
  public:

@@ -18,9 +18,10 @@
 namespace swiftlet {
 namespace {
 
+using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
-using testing::UnorderedElementsAre;
+using testing::UnorderedElementsAreArray;
 
 struct WholeRead {
   std::vector<CaptureRecord> records;
@@ -207,27 +208,38 @@ std::vector<Bytes> packets_of(const WholeRead& reading) {
   return packets;
 }
 
-TEST(CaptureReader, ReadsRecordsThatTwoThreadsHaveInterleaved) {
+struct InterleavedCapture {
+  std::string bytes;
+  std::vector<Bytes> packets;
+};
+
+/// Two records in each order of their pieces; in the last, the one thread writes its next record while the
+/// other has written half of its own.
+std::vector<InterleavedCapture> interleaved_captures() {
   // Seconds 1 and 2 look like the beginning of a body.
   const UsbRecord a = usb_record(2, "52 01 8e 11 00 aa");
   const UsbRecord b = usb_record(1, "ff");
   const UsbRecord c = usb_record(2, "52 01 f2 11 00 bb");
   const std::string begin = as_text(hex(kHeader)) + c.header + c.body;
   const std::string end = c.header + c.body;
-  const TemporaryFile file("a.pcap");
+  std::vector<InterleavedCapture> captures;
   for (const std::string& middle :
        {a.header + b.header + a.body + b.body, a.header + b.header + b.body + a.body,
-        b.header + a.header + a.body + b.body, b.header + a.header + b.body + a.body}) {
-    file.write(begin + middle + end);
+        b.header + a.header + a.body + b.body, b.header + a.header + b.body + a.body})
+    captures.push_back({begin + middle + end, {a.packet, b.packet, c.packet, c.packet}});
+  captures.push_back({begin + a.header + b.header + a.body + c.header + b.body + c.body + end,
+                      {a.packet, b.packet, c.packet, c.packet, c.packet}});
+  return captures;
+}
+
+TEST(CaptureReader, ReadsRecordsThatTwoThreadsHaveInterleaved) {
+  const TemporaryFile file("a.pcap");
+  for (const InterleavedCapture& capture : interleaved_captures()) {
+    file.write(capture.bytes);
     const WholeRead reading = read_all(file.path());
     EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording) << reading.end.message;
-    EXPECT_THAT(packets_of(reading), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet));
+    EXPECT_THAT(packets_of(reading), UnorderedElementsAreArray(capture.packets));
   }
-  // The one thread writes its next record while the other has written half of its own.
-  file.write(begin + a.header + b.header + a.body + c.header + b.body + c.body + end);
-  const WholeRead reading = read_all(file.path());
-  EXPECT_EQ(reading.end.code, ErrorCode::kEndOfRecording) << reading.end.message;
-  EXPECT_THAT(packets_of(reading), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet, c.packet));
 }
 
 /// The packets of a file that grows by one byte at a time.
@@ -249,17 +261,8 @@ std::vector<Bytes> followed(const std::string& bytes) {
 }
 
 TEST(CaptureReader, FollowsRecordsThatAreInterleavedWhereverTheFileEnds) {
-  const UsbRecord a = usb_record(2, "52 01 8e 11 00 aa");
-  const UsbRecord b = usb_record(1, "ff");
-  const UsbRecord c = usb_record(2, "52 01 f2 11 00 bb");
-  const std::string begin = as_text(hex(kHeader)) + c.header + c.body;
-  const std::string end = c.header + c.body;
-  for (const std::string& middle :
-       {a.header + b.header + a.body + b.body, a.header + b.header + b.body + a.body,
-        b.header + a.header + a.body + b.body, b.header + a.header + b.body + a.body})
-    EXPECT_THAT(followed(begin + middle + end), UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet));
-  EXPECT_THAT(followed(begin + a.header + b.header + a.body + c.header + b.body + c.body + end),
-              UnorderedElementsAre(a.packet, b.packet, c.packet, c.packet, c.packet));
+  for (const InterleavedCapture& capture : interleaved_captures())
+    EXPECT_THAT(followed(capture.bytes), UnorderedElementsAreArray(capture.packets));
 }
 
 TEST(CaptureReader, FollowsBehindDamage) {
@@ -267,7 +270,7 @@ TEST(CaptureReader, FollowsBehindDamage) {
   const std::string damage(200, '\xEE');
   EXPECT_THAT(
       followed(as_text(hex(kHeader)) + a.header + a.body + damage + a.header + a.body + a.header + a.body),
-      UnorderedElementsAre(a.packet, a.packet, a.packet));
+      ElementsAre(a.packet, a.packet, a.packet));
 }
 
 TEST(CaptureReader, ReadsOnBehindDamageAndNamesTheBytesLeftOut) {

@@ -198,48 +198,44 @@ TEST(BuildingAxisPrior, HeadingsOfKeyframesThatAreErasedGoWithThem) {
   }
 }
 
-TEST(BuildingAxisPrior, WhereVotesAreErasedTheOthersAreAsManyInProportion) {
-  PoseGraph graph;
-  BuildingAxisPrior hold;
-  const auto adds = [&](double deg) {
+/// Votes of a vehicle that keeps its heading, of which some are erased.
+struct ForgottenVotes {
+  /// Whether the vote adds headings.
+  bool add(double deg) {
     const std::size_t before = graph.headings.size();
     graph.T_map_keyframe.push_back({});
     hold.add(graph.T_map_keyframe.last_id(), axis_seen_at(0.0, radians(deg)), squared(radians(2.0)), graph);
     return graph.headings.size() > before;
-  };
-  for (int i = 0; i < 60; ++i) EXPECT_TRUE(adds(0));
-  for (const double deg : {40.0, -20.0, 30.0, -40.0}) EXPECT_FALSE(adds(deg));
-  EXPECT_TRUE(adds(0));
-  IdRanges<KeyframeId> gone;
-  gone.add({make_id<KeyframeId>(10), make_id<KeyframeId>(60)});
-  graph.T_map_keyframe.erase(gone);
-  hold.erase(gone, graph);
-  ASSERT_EQ(graph.headings.size(), 11U);
-  EXPECT_TRUE(adds(11)) << "nearly all votes hold to the first axis, as before";
-}
-
-TEST(BuildingAxisPrior, WhatIsErasedBetweenVotesForANewAxisLeavesTheOldOneItsWeight) {
-  PoseGraph graph;
-  BuildingAxisPrior hold;
-  const auto adds = [&](double deg) {
-    const std::size_t before = graph.headings.size();
-    graph.T_map_keyframe.push_back({});
-    hold.add(graph.T_map_keyframe.last_id(), axis_seen_at(0.0, radians(deg)), squared(radians(2.0)), graph);
-    return graph.headings.size() > before;
-  };
-  const auto erase = [&](std::size_t first, std::size_t end) {
+  }
+  void erase(std::size_t first, std::size_t end) {
     IdRanges<KeyframeId> gone;
     gone.add({make_id<KeyframeId>(first), make_id<KeyframeId>(end)});
     graph.T_map_keyframe.erase(gone);
     hold.erase(gone, graph);
-  };
-  for (int i = 0; i < 60; ++i) ASSERT_TRUE(adds(0));
-  EXPECT_FALSE(adds(40));
-  erase(10, 13);
-  EXPECT_FALSE(adds(40));
-  erase(13, 16);
-  EXPECT_TRUE(adds(40)) << "three votes make an axis";
-  for (int i = 0; i < 5; ++i) EXPECT_TRUE(adds(0));
+  }
+  PoseGraph graph;
+  BuildingAxisPrior hold;
+};
+
+TEST(BuildingAxisPrior, WhereVotesAreErasedTheOthersAreAsManyInProportion) {
+  ForgottenVotes votes;
+  for (int i = 0; i < 60; ++i) EXPECT_TRUE(votes.add(0));
+  for (const double deg : {40.0, -20.0, 30.0, -40.0}) EXPECT_FALSE(votes.add(deg));
+  EXPECT_TRUE(votes.add(0));
+  votes.erase(10, 60);
+  ASSERT_EQ(votes.graph.headings.size(), 11U);
+  EXPECT_TRUE(votes.add(11)) << "nearly all votes hold to the first axis, as before";
+}
+
+TEST(BuildingAxisPrior, WhatIsErasedBetweenVotesForANewAxisLeavesTheOldOneItsWeight) {
+  ForgottenVotes votes;
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(votes.add(0));
+  EXPECT_FALSE(votes.add(40));
+  votes.erase(10, 13);
+  EXPECT_FALSE(votes.add(40));
+  votes.erase(13, 16);
+  EXPECT_TRUE(votes.add(40)) << "three votes make an axis";
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(votes.add(0));
 }
 
 TEST(BuildingAxisPrior, AnAxisOfWhichNoHeadingIsLeftIsForgotten) {
