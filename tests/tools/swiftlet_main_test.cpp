@@ -405,6 +405,15 @@ TEST_F(SwiftletCommand, GivesTheSameBytesTwice) {
     EXPECT_EQ(text_of(file("a") / name), text_of(file("b") / name)) << name;
 }
 
+TEST_F(SwiftletCommand, ARecordingOutlivesWhoeverReadsItsMessages) {
+  const Outcome outcome = run_as("(sleep 0.2; " SWIFTLET_COMMAND
+                                 " record 'sim://corridors?seed=3' -o {}/flight.pcap --seconds 20 2>&1 "
+                                 ">{}/said; echo $? >{}/code) | true; cat",
+                                 "{}/code");
+  EXPECT_EQ(outcome.out, "0\n");
+  EXPECT_GT(fs::file_size(file("flight.pcap")), 10'000U);
+}
+
 TEST_F(SwiftletCommand, RecordsAFlightThatMapsAsTheFlightItselfDoes) {
   const Outcome outcome = run("record 'sim://corridors?seed=3' -o {}/flight.pcap --seconds 60");
   EXPECT_EQ(outcome.exit_code, 0);
