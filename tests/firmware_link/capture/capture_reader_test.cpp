@@ -226,7 +226,8 @@ std::vector<InterleavedCapture> interleaved_captures() {
   for (const std::string& middle :
        {a.header + b.header + a.body + b.body, a.header + b.header + b.body + a.body,
         b.header + a.header + a.body + b.body, b.header + a.header + b.body + a.body})
-    captures.push_back({begin + middle + end, {a.packet, b.packet, c.packet, c.packet}});
+    captures.push_back(
+        {std::string(begin).append(middle).append(end), {a.packet, b.packet, c.packet, c.packet}});
   captures.push_back({begin + a.header + b.header + a.body + c.header + b.body + c.body + end,
                       {a.packet, b.packet, c.packet, c.packet, c.packet}});
   return captures;
