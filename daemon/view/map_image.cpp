@@ -83,7 +83,8 @@ std::optional<MapImage> map_image(const RunHistory& history, std::optional<std::
 }
 
 std::string base64(std::span<const std::int8_t> bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr std::string_view kBase64Digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -91,7 +92,8 @@ std::string base64(std::span<const std::int8_t> bytes) {
     std::uint32_t bits = 0;
     for (std::size_t j = 0; j < 3; ++j)
       bits = bits << 8U | (j < count ? static_cast<std::uint8_t>(bytes[i + j]) : 0U);
-    for (std::size_t j = 0; j < 4; ++j) text += j <= count ? kDigits[bits >> (18U - 6U * j) & 63U] : '=';
+    for (std::size_t j = 0; j < 4; ++j)
+      text += j <= count ? kBase64Digits[bits >> (18U - 6U * j) & 63U] : '=';
   }
   return text;
 }

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t whose = bytes.byte();
     LinkFrame frame = bytes.frame();
     if (whose < 0x80)
-      traffic.take(frame.packet());
+      traffic.take(frame.packet(), frame.at);
     else if (whose < 0xF8)
       static_cast<void>(traffic.on_frame(frame));
     else
