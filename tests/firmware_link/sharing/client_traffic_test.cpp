@@ -28,7 +28,7 @@ class ClientTrafficTest : public testing::Test {
   /// What the client gets; is_ours_: the owner gets it, too.
   Bytes from_vehicle(const Bytes& packet) {
     LinkFrame frame = frame_of(LinkDirection::kFromVehicle, now_, packet);
-    const Bytes clients = packet_bytes(traffic_.on_frame(frame));
+    Bytes clients = packet_bytes(traffic_.on_frame(frame));
     is_ours_ = frame.is_ours;
     return clients;
   }
