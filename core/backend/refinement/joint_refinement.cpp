@@ -33,8 +33,7 @@ RigidNodes nodes_of(std::span<const StoredScan> stored, std::span<const Factor> 
       variance = {1.0 / motions[i - 1].information(0, 0), 1.0 / motions[i - 1].information(2, 2)};
     }
     variance_to.push_back(variance);
-    odometry.push_back(
-        {DeviceTime(stored[i].stamp.time_since_epoch()), T_first_body, stored[i].starts_segment});
+    odometry.push_back({stored[i].measured_at, T_first_body, stored[i].starts_segment});
   }
   return {std::move(odometry), std::move(variance_to), tuning};
 }

@@ -36,17 +36,17 @@ PointToLineFactor point_to_line_factor(const LocalWall& wall, const Pose2& T_map
 
 Pose2 reported_motion(const StoredScan& from, const StoredScan& to, const OdometryCalibration& calibration) {
   if (to.starts_segment && !to.odometry_ran_on) return {};
-  return calibration.corrected(between(from.T_odom_body, to.T_odom_body), to.stamp - from.stamp);
+  return calibration.corrected(between(from.T_odom_body, to.T_odom_body), to.measured_at - from.measured_at);
 }
 
 Eigen::Matrix3d motion_information(const StoredScan& from, const StoredScan& to, const OdometryNoise& noise) {
   OdometrySigma sigma = kUnknownMotion;
   const Pose2 T_from_to = between(from.T_dead_body, to.T_dead_body);
   if (to.starts_segment && to.odometry_ran_on) {
-    const UncertainMotion guess = unwatched_step(noise, T_from_to, to.stamp - from.stamp);
+    const UncertainMotion guess = unwatched_step(noise, T_from_to, to.measured_at - from.measured_at);
     sigma = {std::sqrt(guess.covariance(0, 0)), std::sqrt(guess.covariance(2, 2))};
   } else if (!to.starts_segment) {
-    sigma = odometry_sigma(noise, T_from_to, to.stamp - from.stamp);
+    sigma = odometry_sigma(noise, T_from_to, to.measured_at - from.measured_at);
   }
   return sigma.information().asDiagonal();
 }

@@ -69,7 +69,7 @@ TEST(WallFactor, DeadReckoningIsBelievedLessTheMoreItMovedAndTheLessItSaw) {
   const OdometryNoise noise = SensorModel::crazyflie().odometry;
   const StoredScan from{};
   StoredScan to{};
-  to.stamp = from.stamp + std::chrono::seconds(2);
+  to.measured_at = from.measured_at + std::chrono::seconds(2);
   const double at_rest = motion_information(from, to, noise)(0, 0);
   EXPECT_DOUBLE_EQ(at_rest, 1.0 / (2.0 * noise.xy_m.after_second * noise.xy_m.after_second));
   to.T_dead_body = Pose2(0.5, 0.0, 0.2);
