@@ -15,6 +15,7 @@
 #include "core/frontend/landmark_graph_solver.hpp"
 #include "core/frontend/line_extractor.hpp"
 #include "core/frontend/odometry_drift.hpp"
+#include "core/geometry/pose_residual.hpp"
 #include "core/sensing/multiscan.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 
@@ -187,7 +188,7 @@ void Frontend::State::update_drift() {
   const PoseVertex& to = graph.poses()[graph.poses().size() - lag - 1];
   const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
   const double yaw_error_rad =
-      motion_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
+      pose_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
   drift.update(to.T_previous_body.x_m(), wrap_angle(to.T_previous_body.yaw_rad() - corrected_rad),
                yaw_error_rad, 1.0 / to.information(2, 2));
 }

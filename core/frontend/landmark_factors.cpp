@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/frontend/landmark_factors.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 namespace swiftlet {
@@ -13,26 +12,6 @@ bool normals_oppose(const Line2& a, const Line2& b) {
 }
 
 }  // namespace
-
-MotionResidual motion_residual(const Pose2& T_from_to_measured, const Pose2& T_local_from,
-                               const Pose2& T_local_to) {
-  const Pose2 T_from_local = T_local_from.inverse();
-  const Pose2 T_from_to = T_from_local * T_local_to;
-  const Pose2 T_to_from_measured = T_from_to_measured.inverse();
-  const Eigen::Matrix3d J_measured = jacobian_compose_second(T_to_from_measured);
-  MotionResidual out;
-  out.error = (T_to_from_measured * T_from_to).vector();
-  out.J_from = J_measured * jacobian_compose_first(T_from_local, T_local_to) * jacobian_inverse(T_local_from);
-  out.J_to = J_measured * jacobian_compose_second(T_from_local);
-  return out;
-}
-
-Eigen::Matrix3d motion_information(const Pose2& T_from_to_measured, const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix3d J = jacobian_compose_second(T_from_to_measured.inverse());
-  const Eigen::Matrix3d covariance_of_error = J * covariance * J.transpose();
-  const Eigen::Matrix3d information = covariance_of_error.inverse();
-  return 0.5 * (information + information.transpose());
-}
 
 LineError line_error(const Line2& measured_body, const Pose2& T_local_body, const Line2& line_local) {
   const TransformedLine predicted = transform_line(T_local_body.inverse(), line_local);

@@ -9,21 +9,8 @@
 
 namespace swiftlet {
 
-// The error terms of eq. (9) of "Efficient 2D Graph SLAM for Sparse Sensing" (Zhou, Hu, Liu, Khan; IROS 2022)
+// Error terms of eq. (9) of "Efficient 2D Graph SLAM for Sparse Sensing" (Zhou, Hu, Liu, Khan; IROS 2022)
 // with their derivatives. Poses and lines are in the local frame. Nothing here allocates.
-
-/// e_o of eq. (10): order (x, y, yaw), in the frame of the measured end of the motion.
-struct MotionResidual {
-  Eigen::Vector3d error;
-  Eigen::Matrix3d J_from;  ///< d error / d T_local_from
-  Eigen::Matrix3d J_to;    ///< d error / d T_local_to
-};
-MotionResidual motion_residual(const Pose2& T_from_to_measured, const Pose2& T_local_from,
-                               const Pose2& T_local_to);
-
-/// Information matrix of e_o for a measured motion with `covariance` (of T_from_to as a vector).
-/// Precondition: the covariance is positive definite.
-Eigen::Matrix3d motion_information(const Pose2& T_from_to_measured, const Eigen::Matrix3d& covariance);
 
 /// e_l of eq. (11): order (rho, alpha). The predicted line gets the sign of rho that turns its normal towards
 /// the measured one, so that a landmark whose extension is near the vehicle does not jump by pi.

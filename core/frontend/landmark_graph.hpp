@@ -31,7 +31,7 @@ struct PoseVertex {
   KeyframeId id{};
   Pose2 T_local_body;
   Pose2 T_previous_body;                                  ///< measured
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of motion_residual()
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of pose_residual()
 };
 
 /// What poses that have left the window contributed to a landmark.

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/frontend/landmark_graph.hpp"
+#include "core/geometry/pose_residual.hpp"
 
 namespace swiftlet {
 
@@ -22,7 +23,7 @@ template <LandmarkGraphCapacity kCapacity>
 bool LandmarkGraph<kCapacity>::try_add_pose(KeyframeId id, const UncertainMotion& motion) {
   SWIFTLET_CHECK(!poses_.empty(), "motion leads from a pose");
   return poses_.try_push_back({id, poses_.back().T_local_body * motion.T_from_to, motion.T_from_to,
-                               motion_information(motion.T_from_to, motion.covariance)});
+                               residual_information(motion.T_from_to, motion.covariance)});
 }
 
 template <LandmarkGraphCapacity kCapacity>
@@ -154,7 +155,7 @@ double LandmarkGraph<kCapacity>::chi_square() const {
   double sum = 0.0;
   for (std::size_t i = 1; i < poses_.size(); ++i) {
     const Eigen::Vector3d e =
-        motion_residual(poses_[i].T_previous_body, poses_[i - 1].T_local_body, poses_[i].T_local_body).error;
+        pose_residual(poses_[i].T_previous_body, poses_[i - 1].T_local_body, poses_[i].T_local_body).error;
     sum += e.dot(poses_[i].information * e);
   }
   for (const LineObservation& observation : observations_) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/frontend/landmark_graph_solver.hpp"
+#include "core/geometry/pose_residual.hpp"
 
 namespace swiftlet {
 
@@ -115,8 +116,8 @@ template <LandmarkGraphCapacity kCapacity>
 void LandmarkGraphSolver<kCapacity>::linearize_motions(const Graph& graph) {
   const std::span<const PoseVertex> poses = graph.poses();
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const MotionResidual motion =
-        motion_residual(poses[i].T_previous_body, poses[i - 1].T_local_body, poses[i].T_local_body);
+    const PoseResidual motion =
+        pose_residual(poses[i].T_previous_body, poses[i - 1].T_local_body, poses[i].T_local_body);
     const Eigen::Matrix3d weighted_to = poses[i].information * motion.J_to;
     const Eigen::Matrix3d weighted_from = poses[i].information * motion.J_from;
     const std::size_t to = row_of(i);

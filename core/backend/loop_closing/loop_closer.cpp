@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/geometry/pose_residual.hpp"
+
 namespace swiftlet {
 namespace {
 

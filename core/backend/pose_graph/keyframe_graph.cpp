@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/backend/pose_graph/relative_uncertainty.hpp"
+#include "core/geometry/pose_residual.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {

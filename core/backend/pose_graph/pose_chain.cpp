@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/backend/pose_graph/pose_system.hpp"
+#include "core/geometry/pose_residual.hpp"
 
 namespace swiftlet {
 

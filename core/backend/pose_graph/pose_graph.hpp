@@ -56,14 +56,6 @@ struct PoseGraph {
   }
 };
 
-/// Eq. 10 and 24: e = z^-1 (+) (y_i^-1 (+) y_j), with its derivatives by (x, y, yaw) of both poses.
-struct PoseResidual {
-  Eigen::Vector3d error;
-  Eigen::Matrix3d J_from;
-  Eigen::Matrix3d J_to;
-};
-PoseResidual pose_residual(const Pose2& T_from_to, const Pose2& T_map_from, const Pose2& T_map_to);
-
 /// How far the poses are from what is measured, in units of the measurement's noise.
 [[nodiscard]] double chi_square(const RelativePoseFactor<KeyframeId>& factor,
                                 const KeyframePoses& T_map_keyframe);
@@ -71,10 +63,6 @@ PoseResidual pose_residual(const Pose2& T_from_to, const Pose2& T_map_from, cons
 [[nodiscard]] double chi_square(const RelativePoseFactor<PoseIndex>& factor,
                                 const std::vector<Pose2>& T_map_pose);
 [[nodiscard]] double chi_square(const HeadingFactor<PoseIndex>& factor, const std::vector<Pose2>& T_map_pose);
-
-/// The covariance of a composition's vector (x, y, yaw of T_from_to, in the frame of `from`), as the
-/// information of eq. 24's error, which is expressed in the frame of `to`.
-Eigen::Matrix3d residual_information(const Pose2& T_from_to, const Eigen::Matrix3d& covariance);
 
 /// DCS (Agarwal et al. 2013, "Robust map optimization using dynamic covariance scaling", eq. 15): the factor
 /// on a closure's error of the given chi-square.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/geometry/angle.hpp"
+#include "core/geometry/pose_residual.hpp"
 
 namespace swiftlet {
 namespace {

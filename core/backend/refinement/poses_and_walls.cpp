@@ -11,6 +11,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "core/geometry/geman_mcclure.hpp"
+#include "core/geometry/pose_residual.hpp"
 
 namespace swiftlet {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/backend/store/traversal.hpp"
+#include "core/geometry/pose_residual.hpp"
 
 namespace swiftlet {
 

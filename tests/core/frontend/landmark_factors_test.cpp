@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include "tests/support/numeric_jacobian.hpp"
 #include "tests/support/random_geometry.hpp"
 
@@ -19,43 +17,6 @@ constexpr int kFactorDraws = 1000;
 
 Pose2 nearly(const Pose2& pose, test::RandomGeometry& random) {
   return pose * Pose2(random.normal(0.1), random.normal(0.1), random.normal(0.1));
-}
-
-TEST(MotionResidual, IsNoneWhenThePosesAreWhereTheMotionLeads) {
-  test::RandomGeometry random(1);
-  for (int i = 0; i < kFactorDraws; ++i) {
-    const Pose2 from = random.pose();
-    const Pose2 motion = random.pose();
-    EXPECT_LT(motion_residual(motion, from, from * motion).error.norm(), 1e-12);
-  }
-}
-
-TEST(MotionResidual, JacobiansAgreeWithCentralDifferences) {
-  test::RandomGeometry random(2);
-  for (int i = 0; i < kFactorDraws; ++i) {
-    const Pose2 from = random.pose();
-    const Pose2 motion = random.pose();
-    const Pose2 to = nearly(from * motion, random);
-    const MotionResidual at = motion_residual(motion, from, to);
-    const auto of_from = [&](const Eigen::Vector3d& v) {
-      return motion_residual(motion, pose_of(v), to).error;
-    };
-    const auto of_to = [&](const Eigen::Vector3d& v) {
-      return motion_residual(motion, from, pose_of(v)).error;
-    };
-    EXPECT_TRUE(at.J_from.isApprox(numeric_jacobian<3, 3>(of_from, from.vector()), 1e-6));
-    EXPECT_TRUE(at.J_to.isApprox(numeric_jacobian<3, 3>(of_to, to.vector()), 1e-6));
-  }
-}
-
-TEST(MotionInformation, WeighsAnErrorAsTheCovarianceOfTheMotionDoes) {
-  const Pose2 motion(0.5, 0.1, 0.7);
-  Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 9e-4, 4e-4).asDiagonal();
-  covariance(1, 2) = covariance(2, 1) = 2e-4;
-  const Eigen::Vector3d deviation(1e-4, -2e-4, 1e-4);
-  const Eigen::Vector3d error = motion_residual(motion, Pose2(), pose_of(motion.vector() + deviation)).error;
-  EXPECT_NEAR(error.dot(motion_information(motion, covariance) * error),
-              deviation.dot(covariance.inverse() * deviation), 1e-9);
 }
 
 TEST(LineError, IsNoneForTheLineAsSeenFromThePose) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/backend/confidence/pose_confidence.hpp"
+#include "core/geometry/pose_residual.hpp"
 #include "tests/support/stored_run.hpp"
 
 namespace swiftlet {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/geometry/pose_residual.hpp"
 #include "tests/support/closure_error.hpp"
 #include "tests/support/loop_corridor.hpp"
 #include "tests/support/other_storey.hpp"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/geometry/pose_residual.hpp"
 #include "tests/support/pose_near.hpp"
 #include "tests/support/random_draws.hpp"
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/pose_residual.hpp"
 #include "tests/support/pose_near.hpp"
 #include "tests/support/random_draws.hpp"
 

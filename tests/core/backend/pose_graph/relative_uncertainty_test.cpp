@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "core/geometry/pose_residual.hpp"
 #include "tests/support/random_draws.hpp"
 
 namespace swiftlet {
