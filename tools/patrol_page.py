@@ -42,9 +42,9 @@ def document(report, number):
 `swiftlet map 'sim://patrol?seed=1&laps=940' -o out` and shorter: a simulated vehicle flies round one room of 8 m x 6 m
 for hours, a round in 46 s, mapped at full speed with the default settings. Times are in ms, memory in MiB; each length
 is run once. The map is drawn once, after the final pass. "Memory" is the maximum before the outputs are written: of it
-some 300 bytes a sample are the poses and doubts that were published, which `swiftlet map` keeps for a simulation's report and
-`swiftletd` does not. "Kept" are the scans in the backend at the end, "pruned" those it removed because others cover the
-same space; both are in the trajectories. "Error" is the RMSE of the corrected path.
+some 300 bytes a sample are the poses and doubts that were published, which `swiftlet map` keeps for a simulation's
+report and `swiftletd` does not. "Kept" are the scans in the backend at the end, "pruned" those it removed because others
+cover the same space; both are in the trajectories. "Error" is the RMSE of the corrected path.
 
 {patrol_table(report['patrol'], number)}
 
