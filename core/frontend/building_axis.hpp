@@ -40,7 +40,7 @@ class BuildingAxis {
   std::optional<double> yaw_rad_;
   double variance_rad2_ = 0.0;          // of the axis
   double heading_variance_rad2_ = 0.0;  // of the heading against the axis
-  int other_axis_ = 0;                  // keyframes with walls that agreed on another one, since any on this
+  int other_axis_ = 0;                  // keyframes whose walls agreed on another one, since the last on this
 };
 
 }  // namespace swiftlet

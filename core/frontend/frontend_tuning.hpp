@@ -50,7 +50,7 @@ struct BuildingAxisTuning {
   double robust_sigmas = 2.0;           ///< Geman-McClure: walls farther off lose their weight
   double keyframes_in_window = 10.0;    ///< a wall is estimated again at about so many keyframes
   double min_sigma_rad = radians(0.3);  ///< of the axis
-  int other_axis_keyframes = 24;        ///< of other axes, none of the present one between: then it goes
+  int other_axis_keyframes = 24;        ///< that agree on another axis, until that replaces the present one
   WallAxisTuning walls;
 
   static constexpr TuningValue<BuildingAxisTuning> kValues[] = {

@@ -9,8 +9,8 @@
 
 namespace swiftlet {
 
-// Error terms of eq. (9) of "Efficient 2D Graph SLAM for Sparse Sensing" (Zhou, Hu, Liu, Khan; IROS 2022)
-// with their derivatives. Poses and lines are in the local frame. Nothing here allocates.
+// The error of a line in eq. (9) of "Efficient 2D Graph SLAM for Sparse Sensing" (Zhou, Hu, Liu, Khan; IROS
+// 2022) with its derivatives. Poses and lines are in the local frame. Nothing here allocates.
 
 /// e_l of eq. (11): order (rho, alpha). The predicted line gets the sign of rho that turns its normal towards
 /// the measured one, so that a landmark whose extension is near the vehicle does not jump by pi.

@@ -64,10 +64,9 @@ TEST(ResidualInformation, TurnsTheCovarianceIntoTheFrameOfTheLaterPose) {
 }
 
 TEST(ResidualInformation, IsWhatErrorPropagationThroughTheResidualGives) {
-  test::RandomGeometry poses(3);
   std::mt19937 random(33);
   for (int i = 0; i < kDraws; ++i) {
-    const Pose2 motion = poses.pose();
+    const Pose2 motion = random_pose(random, 5.0);
     const Eigen::Matrix3d covariance = random_covariance(random, 0.1);
     const auto error = [&](const Eigen::Vector3d& v) {
       return pose_residual(motion, Pose2(), pose_of(v)).error;
