@@ -118,6 +118,11 @@ KeyframeId LoopCloser::watched_since() const {
   return is_unwatched ? watched_since_ : chain_->all().first_id();
 }
 
+/// Where the travel begins that a place moves as a whole. Precondition: it is unplaced.
+KeyframeId LoopCloser::travel_since() const {
+  return unplaced_by_ == UnplacedBy::kContradiction ? *unplaced_since_ : watched_since_;
+}
+
 std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
   const std::size_t earlier = chain_->size() - 1;
   if (!config_->close_loops || earlier % static_cast<std::size_t>(config_->match_every_keyframes) != 0)
@@ -228,7 +233,7 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   // Travel does not tell how long ago the old contact was: it does not grow across a break.
   if (unplaced_by_ != UnplacedBy::kContradiction) contact_.reset();
   note_contact(decided.front().to, graph.graph());
-  if (!graph.accommodate(factors)) {
+  if (!graph.accommodate(factors, travel_since())) {
     contact_ = contact_before;
     return false;
   }

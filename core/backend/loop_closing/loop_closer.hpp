@@ -85,6 +85,7 @@ class LoopCloser {
  private:
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
   [[nodiscard]] KeyframeId watched_since() const;
+  [[nodiscard]] KeyframeId travel_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
                                                     const PoseGraph& graph) const;
   void begin_break(const Keyframe& made);

@@ -20,6 +20,16 @@ double misfit(std::span<const RelativePoseFactor<KeyframeId>> group, const Keyfr
   return sum / static_cast<double>(group.size());
 }
 
+/// Moves the poses from `since` on as a whole to where the closure is satisfied. Solving from where they are
+/// fails where that is about half a turn away.
+void move_since(KeyframeId since, const RelativePoseFactor<KeyframeId>& closure,
+                KeyframePoses& T_map_keyframe) {
+  const Pose2 T_map_to = T_map_keyframe[closure.from] * closure.T_from_to;
+  const Pose2 T_moved = T_map_to * T_map_keyframe[closure.to].inverse();
+  for (auto k = T_map_keyframe.at_or_after(since); k < T_map_keyframe.end_id(); k = T_map_keyframe.next(k))
+    T_map_keyframe[k] = T_moved * T_map_keyframe[k];
+}
+
 }  // namespace
 
 KeyframeGraph::KeyframeGraph(const BackendConfig& config, const KeyframeChain& chain)
@@ -105,10 +115,11 @@ FactorId KeyframeGraph::add_closure(const RelativePoseFactor<KeyframeId>& closur
   return new_closures_.emplace_back(graph_.factors.push_back(closure));
 }
 
-bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> group) {
+bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> group, KeyframeId since) {
   if (misfit(group, graph_.T_map_keyframe) <= tuning().max_misfit) return true;
   building_axis_prior_.update(graph_);
   PoseGraph trial = graph_;
+  move_since(since, group.back(), trial.T_map_keyframe);
   for (RelativePoseFactor<KeyframeId> factor : group) {
     factor.is_closure = false;
     trial.factors.push_back(factor);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/backend/pose_graph/relative_uncertainty.hpp"
+#include "core/geometry/angle.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 #include "tests/support/pose_near.hpp"
 
@@ -72,22 +73,47 @@ TEST_F(KeyframeGraphTest, AVehicleThatRestartedMostLikelyStoodStillUntilClosures
   EXPECT_NEAR(sigma_m(), kStoodStill.xy_m, 0.01);
   const std::vector<RelativePoseFactor<KeyframeId>> elsewhere{closure_to(12, 6.0), closure_to(15, 6.0),
                                                               closure_to(18, 6.0)};
-  ASSERT_TRUE(graph_.accommodate(elsewhere));
+  ASSERT_TRUE(graph_.accommodate(elsewhere, keyframe_id(10)));
   for (const RelativePoseFactor<KeyframeId>& closure : elsewhere) graph_.add_closure(closure);
   graph_.optimize();
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(9)].x_m(), 9 * kStepM, 0.05);
 }
 
+class CarriedVehicleTest : public KeyframeGraphTest, public testing::WithParamInterface<double> {};
+
+TEST_P(CarriedVehicleTest, FitsWhereItWasPutDownWithAnyHeading) {
+  fly(10);
+  add_keyframe(true);
+  fly(9);
+  const Pose2 T_map_put_down(3.0, 2.0, GetParam());
+  const Pose2 T_restarted_map = graph_.T_map_keyframe()[keyframe_id(10)].inverse();
+  std::vector<RelativePoseFactor<KeyframeId>> matches;
+  double error_rad = 5e-4;  // of a match: half a turn either way
+  for (const std::uint32_t to : {12U, 14U, 16U, 18U}) {
+    const Pose2 T_map_to = T_map_put_down * T_restarted_map * graph_.T_map_keyframe()[keyframe_id(to)];
+    error_rad = -error_rad;
+    const Pose2 T_from_to =
+        between(graph_.T_map_keyframe()[keyframe_id(4)], T_map_to) * Pose2(0.0, 0.0, error_rad);
+    matches.push_back({keyframe_id(4), keyframe_id(to), T_from_to, 1e6 * Eigen::Matrix3d::Identity(), true});
+  }
+  ASSERT_TRUE(graph_.accommodate(matches, keyframe_id(10)));
+  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[keyframe_id(10)], T_map_put_down, 0.01, 0.01));
+  EXPECT_TRUE(poses_near(graph_.T_map_keyframe()[keyframe_id(9)], Pose2(9 * kStepM, 0.0, 0.0), 0.01, 0.01));
+}
+
+INSTANTIATE_TEST_SUITE_P(Headings, CarriedVehicleTest,
+                         testing::Values(0.0, 0.5 * kPi, kPi - 0.1, kPi, 0.1 - kPi, -0.5 * kPi));
+
 TEST_F(KeyframeGraphTest, AMotionInDoubtHoldsUntilClosuresContradictIt) {
   fly(20);
   const std::vector<RelativePoseFactor<KeyframeId>> elsewhere{closure_to(12, 6.0), closure_to(15, 6.0),
                                                               closure_to(18, 6.0)};
-  EXPECT_FALSE(graph_.accommodate(elsewhere)) << "the motion is known";
+  EXPECT_FALSE(graph_.accommodate(elsewhere, keyframe_id(10))) << "the motion is known";
   graph_.doubt_motion_to(keyframe_id(10));
   graph_.optimize();
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM, 1e-6);
-  ASSERT_TRUE(graph_.accommodate(elsewhere));
+  ASSERT_TRUE(graph_.accommodate(elsewhere, keyframe_id(10)));
   for (const RelativePoseFactor<KeyframeId>& closure : elsewhere) graph_.add_closure(closure);
   graph_.optimize();
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
@@ -117,7 +143,7 @@ TEST_F(KeyframeGraphTest, AClosureThatDisagreesMovesTheGraphAtOnce) {
 TEST_F(KeyframeGraphTest, AGroupThatAgreesMovesNothing) {
   fly(20);
   const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(17, 0.0), closure_to(19, 0.0)};
-  EXPECT_TRUE(graph_.accommodate(group));
+  EXPECT_TRUE(graph_.accommodate(group, keyframe_id(1)));
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
 }
 
@@ -125,7 +151,7 @@ TEST_F(KeyframeGraphTest, AGroupThatFitsMovesTheGraphToItself) {
   fly(400);
   std::vector<RelativePoseFactor<KeyframeId>> group;
   for (const std::uint32_t to : {390U, 393U, 396U, 399U}) group.push_back(closure_to(to, 0.5));
-  EXPECT_TRUE(graph_.accommodate(group));
+  EXPECT_TRUE(graph_.accommodate(group, keyframe_id(200)));
   EXPECT_EQ(graph_.state(), GraphState::kMoved);
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(399)].x_m(), 399 * kStepM + 0.5, 0.05);
   for (const RelativePoseFactor<KeyframeId>& closure : group) graph_.add_closure(closure);
@@ -136,7 +162,7 @@ TEST_F(KeyframeGraphTest, AGroupThatFitsMovesTheGraphToItself) {
 TEST_F(KeyframeGraphTest, AGroupThatContradictsTheMotionIsRefused) {
   fly(20);
   const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(17, 3.0), closure_to(19, 3.0)};
-  EXPECT_FALSE(graph_.accommodate(group));
+  EXPECT_FALSE(graph_.accommodate(group, keyframe_id(10)));
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
   EXPECT_TRUE(
       poses_near(graph_.T_map_keyframe()[keyframe_id(19)], Pose2(19 * kStepM, 0.0, 0.0), 1e-12, 1e-12));
