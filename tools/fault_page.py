@@ -84,9 +84,10 @@ def wrong_though_told(rows):
 
 
 def document(report):
-    at_s, near_m = fault_runs.BREAK_S, fault_runs.NEAR_M
+    at_s, early_s, near_m = fault_runs.BREAK_S, fault_runs.EARLY_S, fault_runs.NEAR_M
     return f"""{page.head("Breaks of motion", "benchmark-faults", report)}
-Simulated flights whose dead reckoning breaks {at_s} s after the first sample, seeds 1 to {report['seeds']}:
+Simulated flights whose dead reckoning breaks {at_s} s after the first sample, or {early_s} s, when most of the world is
+unknown still, seeds 1 to {report['seeds']}:
 `swiftlet map 'sim://office?seed=1&fault=carried@{at_s}:60' -o out`. Amounts are in seconds, of a `jump` in degrees. In
 a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in flight, a `restart` the
 vehicle where it is; one that was `carried` restarts where it would have been by then. A `silence` behind that comes
@@ -116,7 +117,9 @@ A vehicle that was carried unseen over more than 6 m, or to new ground, is drawn
 as the final errors show; the error of a slip also holds the stretch over which the estimate stood still.
 
 The office looks nearly the same after half a turn around its middle. A vehicle that is carried to ground that it has not
-flown yet, but whose twin it has, is placed at the twin: nothing that it sees there speaks against it.
+flown yet, but whose twin it has, is placed at the twin: nothing that it sees there speaks against it. So is one that
+restarts where it is and goes on over new ground (`restart@{early_s}:60`): that it was not moved counts as a million times
+likelier, but 20 m and more that look like known ground outweigh that.
 
 Runs that believe a wrong place though the input told of the break, and over how much way:
 

@@ -18,7 +18,8 @@ import whole_runs
 WORLDS = ["office", "maze"]
 STOREYS = "storeys"  # nothing breaks there: the vehicle flies up the stairs, and back
 SEEDS = 10  # of each world, from 1 on
-BREAK_S = 150  # after the first sample
+BREAK_S = 150  # after the first sample: much of the world is known
+EARLY_S = 80  # likewise: most of it is not
 SHORT_SILENCE_S = 2
 NEAR_M = 0.5  # within which a live pose is right again, and counts as found back...
 STAYS_M = 5.0  # ...if it stays so for this way...
@@ -34,14 +35,15 @@ class Fault:
     kind: str  # of `sim://`; or none
     amount: int | None = None  # s, or deg of a jump
     silent_after_s: int | None = None  # after the end of the break, for SHORT_SILENCE_S
+    at_s: int = BREAK_S
 
     def text(self):
         if self.kind == "none":
             return self.kind
-        text = f"{self.kind}@{BREAK_S}" + ("" if self.amount is None else f":{self.amount}")
+        text = f"{self.kind}@{self.at_s}" + ("" if self.amount is None else f":{self.amount}")
         if self.silent_after_s is None:
             return text
-        return text + f",silence@{BREAK_S + (self.amount or 0) + self.silent_after_s}:{SHORT_SILENCE_S}"
+        return text + f",silence@{self.at_s + (self.amount or 0) + self.silent_after_s}:{SHORT_SILENCE_S}"
 
     def is_told(self):
         """Whether the input shows that motion broke. A flight without a break counts, for comparison."""
@@ -49,11 +51,11 @@ class Fault:
 
     def end_s(self):
         """After the first sample, by the stamps of the files: what a restart takes is not in them as flight."""
-        return BREAK_S + (self.amount if self.kind in ("silence", "carried") else 0)
+        return self.at_s + (self.amount if self.kind in ("silence", "carried") else 0)
 
 
 FAULTS = [Fault("none"), Fault("silence", 20), Fault("silence", 31), Fault("silence", 60), Fault("reset"),
-          Fault("restart", 60), Fault("carried", 30), Fault("carried", 60),
+          Fault("restart", 60), Fault("restart", 60, at_s=EARLY_S), Fault("carried", 30), Fault("carried", 60),
           Fault("carried", 60, silent_after_s=4), Fault("jump", 10), Fault("jump", 20),
           Fault("jump", 30), Fault("slip", 6), Fault("teleport", 20)]
 
@@ -155,7 +157,7 @@ def wrong_way_m(final, truth, fault):
     before: a fit of the whole would share the error out. `final`, `truth`: as log_sharpness.poses_of() has them."""
     start, ways = min(truth), flown_m(truth)
     pairs = {stamp: (complex(*final[stamp][:2]), complex(*truth[stamp][:2])) for stamp in sorted(final.keys() & truth)}
-    placed = doubt_runs.onto([pair for stamp, pair in pairs.items() if stamp < start + 1e3 * BREAK_S])
+    placed = doubt_runs.onto([pair for stamp, pair in pairs.items() if stamp < start + 1e3 * fault.at_s])
     return counted_m([(1e-3 * stamp, ways[stamp], abs(placed(mapped) - true) > WRONG_M)
                       for stamp, (mapped, true) in pairs.items() if stamp >= start + 1e3 * fault.end_s()])
 

@@ -130,12 +130,15 @@ class FaultRuns(unittest.TestCase):
         self.assertEqual(titles[:len(titles) // 5], [run.title() for run in runs.all_runs(2)])
         self.assertIn("sim://office?seed=1", titles)
         self.assertIn("sim://maze?seed=10&fault=reset@150", titles)
+        self.assertIn("sim://office?seed=3&fault=restart@80:60", titles)
         self.assertIn("sim://office?seed=2&fault=carried@150:60", titles)
         self.assertIn("sim://maze?seed=2&fault=carried@150:60,silence@214:2", titles)
 
     def test_a_break_that_takes_time_in_the_air_ends_when_that_is_over(self):
         self.assertEqual([runs.Fault(kind, 60).end_s() for kind in ("silence", "carried", "restart")], [210, 210, 150])
         self.assertEqual(runs.Fault("reset").end_s(), 150)
+        self.assertEqual(runs.Fault("carried", 60, at_s=80).end_s(), 140)
+        self.assertEqual(runs.Fault("carried", 60, 4, at_s=80).text(), "carried@80:60,silence@144:2")
 
     def test_a_run_has_its_final_error_and_what_its_moments_tell(self):
         with tempfile.TemporaryDirectory() as name:
