@@ -33,10 +33,12 @@ LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, cons
 void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe) {
   if (made.id != chain_->all().first_id() &&
       chain_->storey(made.id) != chain_->storey(chain_->all().previous(made.id)))
-    leave_storey(made.id, T_local_keyframe);
+    finish_open(made.id, T_local_keyframe);
   if (made.starts_segment) {
+    const bool has_map = !submaps_.empty();  // else there is none to place it in
+    if (has_map) finish_open(made.id, T_local_keyframe);
     open_submaps_.clear();
-    if (!submaps_.empty()) begin_break(made);  // else there is no map to place it in
+    if (has_map) begin_break(made);
   }
   const double here_m = chain_->path_m(made.id);
   if (open_submaps_.empty() || here_m - chain_->path_m(open_submaps_.back()) >=
@@ -74,9 +76,10 @@ void LoopCloser::finish_oldest(KeyframeId end, const KeyframePoses& T_local_keyf
   ++counters_.submaps;
 }
 
-/// What is known of it when the vehicle comes back, although its submap is short.
-void LoopCloser::leave_storey(KeyframeId first_elsewhere, const KeyframePoses& T_local_keyframe) {
-  if (!open_submaps_.empty()) finish_oldest(first_elsewhere, T_local_keyframe);
+/// The newest ground is known, though its submap is short: to who comes back to a storey; and behind a break,
+/// where it tells whether the vehicle stands where it stood.
+void LoopCloser::finish_open(KeyframeId end, const KeyframePoses& T_local_keyframe) {
+  if (!open_submaps_.empty()) finish_oldest(end, T_local_keyframe);
   open_submaps_.clear();
 }
 

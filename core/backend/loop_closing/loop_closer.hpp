@@ -90,7 +90,7 @@ class LoopCloser {
                                                     const PoseGraph& graph) const;
   void begin_break(const Keyframe& made);
   void finish_oldest(KeyframeId end, const KeyframePoses& T_local_keyframe);
-  void leave_storey(KeyframeId first_elsewhere, const KeyframePoses& T_local_keyframe);
+  void finish_open(KeyframeId end, const KeyframePoses& T_local_keyframe);
   void suspend_doubt();
   [[nodiscard]] bool resume_doubt();
   void forget_places(const IdRanges<KeyframeId>& pruned = {});

@@ -81,6 +81,7 @@ class FlownLoops {
     return distance_m(T_map_newest.position(), local().values().back().position());
   }
   void optimize() { graph_.optimize(); }
+  [[nodiscard]] ScanId newest_scan() const { return scans_.all().last_id(); }
   [[nodiscard]] const LoopCloser& loops() const { return loops_; }
   [[nodiscard]] bool is_over() const { return scans_.size() == vehicle_.samples().size(); }
 
@@ -199,6 +200,13 @@ TEST(LoopCloser, APlaceBehindABreakIsAContactOfItsOwn) {
   ASSERT_FALSE(flown.loops().unplaced_since());
   ASSERT_TRUE(flown.contact_that_moved());
   EXPECT_GE(flown.contact_that_moved()->since, restarted);
+}
+
+TEST(LoopCloser, TheGroundBeforeABreakIsKnownUpToThere) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  EXPECT_EQ(flown.loops().submaps().back()->scans.end, flown.newest_scan());
 }
 
 TEST(LoopCloser, ASilenceDoesNotPlaceWhoWasCarriedBefore) {
