@@ -121,9 +121,10 @@ KeyframeId LoopCloser::watched_since() const {
   return is_unwatched ? watched_since_ : chain_->all().first_id();
 }
 
-/// Where the travel begins that a place moves as a whole. Precondition: it is unplaced.
+/// Where the travel begins that a place moves as a whole. In doubt nobody knows at which keyframe the motion
+/// went wrong: none is moved so.
 KeyframeId LoopCloser::travel_since() const {
-  return unplaced_by_ == UnplacedBy::kContradiction ? *unplaced_since_ : watched_since_;
+  return unplaced_by_ == UnplacedBy::kContradiction ? chain_->all().end_id() : watched_since_;
 }
 
 std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
