@@ -45,6 +45,7 @@ class KeyframeGraph {
   /// Whether a group of closures, not yet added, agrees with the graph. One that lies farther off than DCS
   /// lets closures pull may move the poses there first, beginning with those from `since` on where its last
   /// closure has them; where it does not fit against what else is known, they stay and the answer is false.
+  /// Precondition: the group is not empty. With the end id as `since` none is moved beforehand.
   bool accommodate(std::span<const RelativePoseFactor<KeyframeId>> group, KeyframeId since);
 
   /// Once a keyframe, after everything was added: optimises if that is due. True: poses have moved.

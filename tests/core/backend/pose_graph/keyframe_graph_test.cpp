@@ -89,7 +89,7 @@ TEST_P(CarriedVehicleTest, FitsWhereItWasPutDownWithAnyHeading) {
   const Pose2 T_map_put_down(3.0, 2.0, GetParam());
   const Pose2 T_restarted_map = graph_.T_map_keyframe()[keyframe_id(10)].inverse();
   std::vector<RelativePoseFactor<KeyframeId>> matches;
-  double error_rad = 5e-4;  // of a match: half a turn either way
+  double error_rad = 5e-4;  // of a match's heading: from half a turn away, residuals of both signs
   for (const std::uint32_t to : {12U, 14U, 16U, 18U}) {
     const Pose2 T_map_to = T_map_put_down * T_restarted_map * graph_.T_map_keyframe()[keyframe_id(to)];
     error_rad = -error_rad;
