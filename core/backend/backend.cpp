@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/backend/confidence/map_agreement.hpp"
 #include "core/backend/confidence/pose_covariances.hpp"
@@ -28,6 +29,7 @@ struct Backend::State {
   void compare_newest_scan(const FrontendStep& step);
   [[nodiscard]] bool newest_contact_is_at_fault() const;
   bool doubt_motion_if_contradicted();
+  bool end_doubt();
   [[nodiscard]] bool has_restarted_unplaced() const;
   [[nodiscard]] Tracking tracking() const;
   [[nodiscard]] PoseConfidence computed_confidence() const;
@@ -45,6 +47,7 @@ struct Backend::State {
   std::optional<PoseConfidence>
       confidence;                // as it was last computed; nothing once it does not hold any more
   double confidence_at_m = 0.0;  // the travel then
+  bool is_in_doubt = false;      // of a motion, which a contradiction began
   std::uint32_t version = 0;     // counts up whenever earlier keyframes have moved
   std::uint64_t scans_pruned = 0;
 };
@@ -107,14 +110,22 @@ bool Backend::State::newest_contact_is_at_fault() const {
   return corrected > evidence(T_map_without) + 0.5 * config.tuning.confidence.alarm_log_odds;
 }
 
+/// The loops that were closed meanwhile tell which motion was wrong. True: the poses have moved.
+bool Backend::State::end_doubt() {
+  loops.end_doubt();
+  if (!std::exchange(is_in_doubt, false)) return false;
+  if (!graph.release_bent_motion()) return false;
+  confidence.reset();
+  if (!follow_graph(graph.settle())) return false;
+  refinement.follow(T_map_keyframe());
+  return true;
+}
+
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
 /// True: the poses have moved. They do so at once where a contact was dropped: the next loops are looked for
 /// from there.
 bool Backend::State::doubt_motion_if_contradicted() {
-  if (!agreement.is_contradicted()) {
-    loops.end_doubt();
-    return false;
-  }
+  if (!agreement.is_contradicted()) return end_doubt();
   if (loops.unplaced_since()) return false;
   const ScanId agreed = scans.all().at_or_after(agreement.agreed_last());  // it may have been pruned
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
@@ -122,6 +133,7 @@ bool Backend::State::doubt_motion_if_contradicted() {
   const bool is_at_fault = newest_contact_is_at_fault();
   if (is_at_fault) loops.drop_contact(graph);
   graph.doubt_motion_to(first);
+  is_in_doubt = true;
   loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds);  // its returns count for half
   confidence.reset();
   if (!is_at_fault || !follow_graph(graph.settle())) return false;
@@ -195,6 +207,8 @@ BackendUpdate Backend::finish(const MapAgain& map_again) {
   BackendUpdate update;
   if (!s.loops.closures().empty() || !s.graph.graph().headings.empty()) {
     update.poses_changed = s.follow_graph(s.graph.optimize());
+    while (s.graph.release_bent_motion() && s.follow_graph(s.graph.optimize())) {
+    }
     while (s.loops.drop_worst(s.graph) && s.follow_graph(s.graph.optimize())) {
     }
   }

@@ -72,6 +72,13 @@ TEST(TrackingState, IsDoubtedOnWhereACorrectionInterruptedTheDoubt) {
       << "all of them, if places that were weighed before the correction do not count behind it";
 }
 
+TEST(SlippedVehicle, IsDrawnWhereItWasUntilTheMapContradictedIt) {
+  int wrong = 0;
+  for (const char* seed : {"1", "4", "8"})
+    if (error_m(corrected_run("sim://office?seed=" + std::string(seed) + "&fault=slip@150:6")) > 0.2) ++wrong;
+  EXPECT_LE(wrong, 1) << "all of them, if the doubt stays where the contradiction begins";
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, MotionBreaksTest,
                          testing::Values("silence@150:60", "reset@150", "restart@150:60", "carried@150:60"));
 

@@ -30,6 +30,10 @@ void move_since(KeyframeId since, const RelativePoseFactor<KeyframeId>& closure,
     T_map_keyframe[k] = T_moved * T_map_keyframe[k];
 }
 
+bool is_unknown(const RelativePoseFactor<KeyframeId>& motion) {
+  return motion.information == kUnknownMotion.information().asDiagonal().toDenseMatrix();
+}
+
 }  // namespace
 
 KeyframeGraph::KeyframeGraph(const BackendConfig& config, const KeyframeChain& chain)
@@ -67,13 +71,63 @@ void KeyframeGraph::add_motion(const Keyframe& made, const KeyframePoses& T_loca
 }
 
 void KeyframeGraph::doubt_motion_to(KeyframeId keyframe) {
-  RelativePoseFactor<KeyframeId>& motion = graph_.factors[*motion_factor_[keyframe]];
+  RelativePoseFactor<KeyframeId>& motion = motion_to(keyframe);
   RelativePoseFactor<KeyframeId> as_measured = motion;
-  const Eigen::Matrix3d unknown = kUnknownMotion.information().asDiagonal();
-  if (motion.information == unknown) return;
-  motion.information = unknown;
+  if (is_unknown(motion)) return;
+  motion.information = kUnknownMotion.information().asDiagonal();
   as_measured.is_closure = true;
   graph_.doubted.push_back(graph_.factors.push_back(as_measured));
+}
+
+/// Farther back than what counts as older map there is none: what was flown since would be that map itself.
+KeyframeId KeyframeGraph::most_bent_before(KeyframeId last) const {
+  const double first_m = chain_->path_m(last) - config_->tuning.confidence.old_after_m;
+  KeyframeId bent = last;
+  double most = 0.0;
+  for (KeyframeId k = chain_->all().previous(last);
+       k > chain_->all().first_id() && chain_->path_m(k) > first_m; k = chain_->all().previous(k)) {
+    const double strain = chi_square(motion_to(k), graph_.T_map_keyframe);
+    if (strain <= most || is_unknown(motion_to(k))) continue;
+    most = strain;
+    bent = k;
+  }
+  return bent;
+}
+
+/// `released`: solved with this motion free in place of the doubted one.
+bool KeyframeGraph::is_better_without(KeyframeId bent, FactorId doubted, PoseGraph& released) {
+  PoseGraph as_it_is = graph_;
+  released = graph_;
+  RelativePoseFactor<KeyframeId>& in_doubt = released.factors[doubted];
+  RelativePoseFactor<KeyframeId>& motion = released.factors[*motion_factor_[bent]];
+  released.factors[*motion_factor_[in_doubt.to]].information = in_doubt.information;
+  in_doubt = motion;
+  in_doubt.is_closure = true;
+  in_doubt.information.setZero();
+  motion.information = kUnknownMotion.information().asDiagonal();
+  const OptimizeEffort effort{tuning().live_step, config_->optimizer_iterations};
+  const Result<OptimizeReport> before = optimizer_.optimize(as_it_is, effort);
+  const Result<OptimizeReport> after = optimizer_.optimize(released, effort);
+  counters_.solver_failures += static_cast<std::uint64_t>(!before || !after);
+  return before && after &&
+         0.5 * (before->chi_square - after->chi_square) > config_->tuning.confidence.alarm_log_odds;
+}
+
+bool KeyframeGraph::release_bent_motion() {
+  PoseGraph released;
+  for (const FactorId id : graph_.doubted) {
+    const RelativePoseFactor<KeyframeId>& doubted = graph_.factors[id];
+    if (doubted.information.isZero(0.0)) continue;  // released already
+    const KeyframeId bent = most_bent_before(doubted.to);
+    const double strain = chi_square(motion_to(bent), graph_.T_map_keyframe);
+    if (bent == doubted.to || strain < tuning().expected_chi_square ||
+        strain < chi_square(doubted, graph_.T_map_keyframe) || !is_better_without(bent, id, released))
+      continue;
+    graph_ = std::move(released);
+    state_ = GraphState::kMoved;
+    return true;
+  }
+  return false;
 }
 
 void KeyframeGraph::predict_new_poses() {

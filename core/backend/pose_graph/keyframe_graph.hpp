@@ -39,6 +39,11 @@ class KeyframeGraph {
   void add_keyframe(const Keyframe& made, const KeyframePoses& T_local_keyframe);
   /// The motion to this keyframe may not be as it was measured: it counts under DCS from now on.
   void doubt_motion_to(KeyframeId keyframe);
+  /// Doubt begins where a contradiction is seen, behind the motion that went wrong. Where closures bend one
+  /// shortly before the doubted one, and all that is known fits better by as much as raises an alarm if it is
+  /// free, that is the one: it is unknown from now on, the doubted one counts as measured again, and the
+  /// poses have moved. Returns whether there was one. One at a time.
+  bool release_bent_motion();
   /// Every few metres: the newest keyframe gets a heading by the axis of the walls around it.
   void observe_building_axis(const FrontendEstimates& estimates);
   FactorId add_closure(const RelativePoseFactor<KeyframeId>& closure);
@@ -66,6 +71,11 @@ class KeyframeGraph {
   [[nodiscard]] const RelativePoseFactor<KeyframeId>& motion_to(KeyframeId keyframe) const {
     return graph_.factors[*motion_factor_[keyframe]];
   }
+  [[nodiscard]] RelativePoseFactor<KeyframeId>& motion_to(KeyframeId keyframe) {
+    return graph_.factors[*motion_factor_[keyframe]];
+  }
+  [[nodiscard]] KeyframeId most_bent_before(KeyframeId last) const;
+  [[nodiscard]] bool is_better_without(KeyframeId bent, FactorId doubted, PoseGraph& released);
   void add_motion(const Keyframe& made, const KeyframePoses& T_local_keyframe);
   void predict_new_poses();
   [[nodiscard]] double yaw_variance_rad2(KeyframeId from, KeyframeId to) const;

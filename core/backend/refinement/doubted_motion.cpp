@@ -13,8 +13,8 @@ std::vector<DoubtedMotion> doubted_motions(const PoseGraph& graph, const Keyfram
   std::vector<DoubtedMotion> doubted;
   for (const FactorId id : graph.doubted) {
     const RelativePoseFactor<KeyframeId>& motion = graph.factors[id];
-    doubted.push_back(
-        {{chain.scan_of(motion.from) + 1, chain.scan_of(motion.to) + 1}, squared(motion.dcs_scale)});
+    const double weight = motion.information.isZero(0.0) ? 0.0 : squared(motion.dcs_scale);
+    doubted.push_back({{chain.scan_of(motion.from) + 1, chain.scan_of(motion.to) + 1}, weight});
   }
   return doubted;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/backend/pose_graph/relative_uncertainty.hpp"
+#include "core/backend/refinement/doubted_motion.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensing/odometry_covariance.hpp"
 #include "tests/support/pose_near.hpp"
@@ -118,6 +119,48 @@ TEST_F(KeyframeGraphTest, AMotionInDoubtHoldsUntilClosuresContradictIt) {
   graph_.optimize();
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(15)].x_m(), 15 * kStepM + 6.0, 0.05);
   EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(9)].x_m(), 9 * kStepM, 0.05);
+}
+
+/// Dead reckoning misses a part of the way to keyframe 10. What is seen contradicts the map eight keyframes
+/// later only.
+class MissedWayTest : public KeyframeGraphTest {
+ protected:
+  void fly_and_close_loops(double missed_m) {
+    fly(20);
+    for (std::uint32_t to = 4; to < 20; ++to) {
+      RelativePoseFactor<KeyframeId> closure = closure_to(to, to < 10 ? 0.0 : missed_m);
+      closure.information *= 0.25;
+      graph_.add_closure(closure);
+    }
+    graph_.doubt_motion_to(keyframe_id(18));
+    graph_.optimize();
+  }
+};
+
+TEST_F(MissedWayTest, TheDoubtGoesToTheMotionThatClosuresBend) {
+  fly_and_close_loops(0.15);
+  ASSERT_TRUE(graph_.release_bent_motion());
+  EXPECT_FALSE(graph_.release_bent_motion()) << "there is one doubt";
+  for (const std::uint32_t k : {9U, 10U, 17U, 18U}) {
+    const double x_m = k * kStepM + (k < 10 ? 0.0 : 0.15);
+    EXPECT_NEAR(graph_.T_map_keyframe()[keyframe_id(k)].x_m(), x_m, 0.002) << k;
+  }
+  const std::vector<DoubtedMotion> doubted = doubted_motions(graph_.graph(), chain_);
+  ASSERT_EQ(doubted.size(), 1U);
+  EXPECT_EQ(doubted[0].scans.first, chain_.scan_of(keyframe_id(10)));
+  EXPECT_EQ(doubted[0].weight, 0.0) << "refinement refuses it, too";
+}
+
+TEST_F(MissedWayTest, WhatLiesFartherBackIsNotAtFault) {
+  config_.tuning.confidence.old_after_m = 6 * kStepM;
+  fly_and_close_loops(0.15);
+  EXPECT_FALSE(graph_.release_bent_motion());
+}
+
+TEST_F(MissedWayTest, ALittleReleasesNothing) {
+  fly_and_close_loops(0.05);
+  EXPECT_FALSE(graph_.release_bent_motion());
+  EXPECT_EQ(graph_.graph().factors[graph_.graph().doubted[0]].to, keyframe_id(18));
 }
 
 TEST_F(KeyframeGraphTest, AnExpectedClosureWaitsForOthersButNotForEver) {
