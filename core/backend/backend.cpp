@@ -47,7 +47,7 @@ struct Backend::State {
   std::optional<PoseConfidence>
       confidence;                // as it was last computed; nothing once it does not hold any more
   double confidence_at_m = 0.0;  // the travel then
-  bool is_in_doubt = false;      // of a motion, which a contradiction began
+  bool is_in_doubt = false;      // a contradiction that is not over has put a motion in doubt
   std::uint32_t version = 0;     // counts up whenever earlier keyframes have moved
   std::uint64_t scans_pruned = 0;
 };

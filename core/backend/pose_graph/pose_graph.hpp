@@ -48,7 +48,8 @@ struct PoseGraph {
   KeyframePoses T_map_keyframe;  ///< the first one is held fixed
   IdMap<FactorId, RelativePoseFactor<KeyframeId>> factors;
   std::vector<HeadingFactor<KeyframeId>> headings;
-  std::vector<FactorId> doubted;  ///< motions between neighbours as they were measured, subject to DCS
+  /// Motions between neighbours as they were measured, subject to DCS; one that was wrong has no information.
+  std::vector<FactorId> doubted;
 
   /// Of a keyframe among the poses of the problem that a solver makes of the graph.
   [[nodiscard]] PoseIndex pose_index(KeyframeId id) const {

@@ -17,7 +17,7 @@ struct DoubtedMotion {
   double weight = 1.0;  ///< on its information: 1 nothing speaks against it, towards 0 it is refused
 };
 
-/// As DCS weighted them last. Allocates.
+/// As DCS weighted them last; those that were wrong have weight 0. Allocates.
 [[nodiscard]] std::vector<DoubtedMotion> doubted_motions(const PoseGraph& graph, const KeyframeChain& chain);
 
 /// Weakens dead reckoning: `steps[i]` leads to scan i + 1 of the range. What little is known of a motion that
