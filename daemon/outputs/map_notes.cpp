@@ -13,6 +13,9 @@ std::vector<std::string> map_notes(const BackendCounters& counters) {
         fmt::format("the map is that of the run mapped again with {:g} times the noise of the heading: it "
                     "explains the ranges better",
                     counters.yaw_noise_factor));
+  else if (counters.map_source == MapSource::kBackwards)
+    notes.emplace_back(
+        "the map is that of the run mapped again from its end to its start: it explains the ranges better");
   else if (!follows_closures(counters.map_source))
     notes.push_back(
         fmt::format("the map follows {} alone, which explains the ranges no worse than loop closures do",

@@ -2,32 +2,37 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/workers/map_again.hpp"
 
+#include <functional>
 #include <future>
 #include <optional>
 #include <utility>
 
-#include "core/run/other_yaw_noise.hpp"
+#include "core/run/other_paths.hpp"
 
 namespace swiftlet {
 
 std::vector<OtherPath> map_again(const Backend& backend, const MappingSettings& settings,
                                  std::span<const double> step_scale) {
   if (!backend.can_be_mapped_again()) return {};
+  using Path = std::optional<OtherPath>;
   std::vector<RangeSample> samples = backend.scans().samples();
-  std::vector<double> factors(kOtherYawNoise.begin(), kOtherYawNoise.end());
-  if (!step_scale.empty()) {
+  const BeamLayout& beams = backend.scans().beams();
+  std::vector<std::function<Path()>> ways;
+  if (step_scale.empty()) {
+    for (const double factor : kOtherYawNoise)
+      ways.emplace_back([&, factor] { return path_with_yaw_noise(factor, samples, settings, beams); });
+    ways.emplace_back([&] { return path_backwards(samples, settings, beams); });
+  } else {
     stretch_steps(samples, step_scale);
-    factors = {1.0};
+    ways.emplace_back([&] { return path_over_known_floor(samples, settings, beams); });
   }
-  std::vector<std::future<std::optional<OtherPath>>> begun;
-  begun.reserve(factors.size());
-  for (const double factor : factors)
-    begun.push_back(std::async([&, factor] {  // in this thread where the system has no other to give
-      return path_with_yaw_noise(factor, samples, settings, backend.scans().beams());
-    }));
+  std::vector<std::future<Path>> begun;
+  begun.reserve(ways.size());
+  for (const std::function<Path()>& way : ways)
+    begun.push_back(std::async(way));  // in this thread where the system has no other to give
   std::vector<OtherPath> others;
-  for (std::future<std::optional<OtherPath>>& path : begun)
-    if (std::optional<OtherPath> other = path.get()) others.push_back(std::move(*other));
+  for (std::future<Path>& path : begun)
+    if (Path other = path.get()) others.push_back(std::move(*other));
   return others;
 }
 

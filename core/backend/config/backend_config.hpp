@@ -92,7 +92,8 @@ struct BackendConfig {
       {"floor_varies", &BackendConfig::floor_varies, "",
        "at the end of a flight find floors of which the flow sensor sees a part"},
       {"map_again", &BackendConfig::map_again, "",
-       "at the end of a run map it again with other noise of the heading, and keep the best map"},
+       "at the end of a run map it again, with other noise of the heading and backwards, and keep the best "
+       "map"},
       {"max_scans", &BackendConfig::max_scans, "",
        "with more than these that have returns, scans of space that others cover as well are pruned; "
        "600 are a minute at 10 Hz",

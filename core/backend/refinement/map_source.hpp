@@ -13,6 +13,7 @@ enum class MapSource : std::uint8_t {
   kFrontend,       ///< the landmark graph: no loop closures
   kPoseGraph,
   kOtherYawNoise,  ///< the map of the run mapped again (OtherPath)
+  kBackwards,      ///< likewise, from its end to its start
   kFloorKnown,     ///< likewise, once the floors had been found (FloorField)
 };
 
@@ -29,6 +30,8 @@ constexpr std::string_view name_of(MapSource source) {
       return "frontend";
     case MapSource::kOtherYawNoise:
       return "other yaw noise";
+    case MapSource::kBackwards:
+      return "backwards";
     case MapSource::kFloorKnown:
       return "floor known";
     case MapSource::kPoseGraph:

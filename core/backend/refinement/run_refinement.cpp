@@ -298,11 +298,11 @@ double RunRefinement::cost_of(const Hypothesis& path, const RefinementReport& ju
 
 /// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was
 /// judged by.
-void RunRefinement::take_better(MapSource source, std::span<const OtherPath> others, Hypothesis& best) const {
+void RunRefinement::take_better(std::span<const OtherPath> others, Hypothesis& best) const {
   if (others.empty()) return;
   double least = cost_of(best, judge_as_it_is(batch(best, {}), best.T_map_body));
   for (const OtherPath& other : others) {
-    Hypothesis correction{.source = source,
+    Hypothesis correction{.source = other.source,
                           .T_map_body = from(best.T_map_body.front(), other.T_map_body),
                           .yaw_noise_factor = other.yaw_noise_factor,
                           .floor = best.floor};
@@ -352,9 +352,9 @@ bool RunRefinement::refine_all(const PoseGraph& graph, const KeyframePoses& T_lo
   std::optional<Hypothesis> best = best_of_run(graph, T_local_keyframe);
   if (!best) return false;
   const bool again = map_again && best->source != MapSource::kDeadReckoning;
-  if (again) take_better(MapSource::kOtherYawNoise, map_again({}), *best);
+  if (again) take_better(map_again({}), *best);
   if (may_find_floor(*best) && find_floor(*best, graph) && again)
-    take_better(MapSource::kFloorKnown, map_again(best->floor.step_scale), *best);
+    take_better(map_again(best->floor.step_scale), *best);
   take(std::move(*best));
   return is_final();
 }

@@ -26,6 +26,8 @@ TEST(MapNotes, SayHowARunWasMappedAgain) {
   counters.map_source = MapSource::kOtherYawNoise;
   counters.yaw_noise_factor = 0.25;
   EXPECT_THAT(map_notes(counters), ElementsAre(HasSubstr("mapped again with 0.25 times the noise")));
+  counters.map_source = MapSource::kBackwards;
+  EXPECT_THAT(map_notes(counters), ElementsAre(HasSubstr("from its end to its start")));
   counters.map_source = MapSource::kFloorKnown;
   counters.floor_cost = 3.0;
   EXPECT_THAT(map_notes(counters), ElementsAre(HasSubstr("over some floors")));

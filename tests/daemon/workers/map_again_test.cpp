@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/frontend/frontend.hpp"
-#include "core/run/other_yaw_noise.hpp"
+#include "core/run/other_paths.hpp"
 #include "tests/support/loop_corridor.hpp"
 #include "tests/support/pose_near.hpp"
 
@@ -33,11 +33,14 @@ TEST(MapAgain, GivesThePathsInTheirOrderAndTheSameOnesEachTime) {
   const FlownBackend flown({});
   const std::vector<OtherPath> once = map_again(flown.backend, flown.settings, {});
   const std::vector<OtherPath> again = map_again(flown.backend, flown.settings, {});
-  ASSERT_EQ(once.size(), kOtherYawNoise.size());
-  for (std::size_t i = 0; i < once.size(); ++i) {
-    EXPECT_EQ(once[i].yaw_noise_factor, kOtherYawNoise[i]);
+  ASSERT_EQ(once.size(), kOtherYawNoise.size() + 1);
+  for (std::size_t i = 0; i < once.size(); ++i)
     EXPECT_TRUE(same_bits(once[i].T_map_body, again[i].T_map_body));
+  for (std::size_t i = 0; i < kOtherYawNoise.size(); ++i) {
+    EXPECT_EQ(once[i].source, MapSource::kOtherYawNoise);
+    EXPECT_EQ(once[i].yaw_noise_factor, kOtherYawNoise[i]);
   }
+  EXPECT_EQ(once.back().source, MapSource::kBackwards);
 }
 
 TEST(MapAgain, GivesOnePathWithStepsOfOtherLengths) {
@@ -48,6 +51,7 @@ TEST(MapAgain, GivesOnePathWithStepsOfOtherLengths) {
   const std::vector<OtherPath> other = map_again(flown.backend, flown.settings, longer);
   ASSERT_EQ(one.size(), 1U);
   ASSERT_EQ(other.size(), 1U);
+  EXPECT_EQ(one.front().source, MapSource::kFloorKnown);
   EXPECT_EQ(one.front().yaw_noise_factor, 1.0);
   EXPECT_FALSE(same_bits(one.front().T_map_body, other.front().T_map_body));
 }

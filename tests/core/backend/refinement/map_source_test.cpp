@@ -10,7 +10,8 @@ namespace {
 TEST(MapSource, DeadReckoningAndFrontendFollowNoClosures) {
   EXPECT_FALSE(follows_closures(MapSource::kDeadReckoning));
   EXPECT_FALSE(follows_closures(MapSource::kFrontend));
-  for (const MapSource source : {MapSource::kPoseGraph, MapSource::kOtherYawNoise, MapSource::kFloorKnown})
+  for (const MapSource source :
+       {MapSource::kPoseGraph, MapSource::kOtherYawNoise, MapSource::kBackwards, MapSource::kFloorKnown})
     EXPECT_TRUE(follows_closures(source)) << name_of(source);
 }
 

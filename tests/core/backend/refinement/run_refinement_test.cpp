@@ -254,7 +254,7 @@ FinalMap final_map_beside(const OtherPath& other, const std::vector<Pose2>& T_gr
 
 TEST(RunRefinement, AnotherPathThatExplainsTheRangesBetterIsTheMapAsItIs) {
   const std::vector<Pose2> truth = true_poses(two_laps());
-  const FinalMap map = final_map_beside({0.5, truth}, bent(two_laps(), -0.015));
+  const FinalMap map = final_map_beside({MapSource::kOtherYawNoise, 0.5, truth}, bent(two_laps(), -0.015));
   EXPECT_EQ(map.counters.map_source, MapSource::kOtherYawNoise);
   EXPECT_EQ(map.counters.yaw_noise_factor, 0.5);
   EXPECT_TRUE(poses_near(between(map.T_map_body.front(), map.T_map_body.back()),
@@ -264,7 +264,7 @@ TEST(RunRefinement, AnotherPathThatExplainsTheRangesBetterIsTheMapAsItIs) {
 TEST(RunRefinement, AnotherPathThatExplainsTheRangesNoBetterIsLeftOut) {
   const std::vector<Pose2> waves = in_small_waves(true_poses(two_laps()));
   const FinalMap alone = final_map(StoredRun(two_laps().samples()), waves);
-  const FinalMap beside = final_map_beside({2.0, waves}, waves);
+  const FinalMap beside = final_map_beside({MapSource::kOtherYawNoise, 2.0, waves}, waves);
   EXPECT_EQ(beside.counters.map_source, MapSource::kPoseGraph);
   EXPECT_EQ(beside.counters.yaw_noise_factor, 1.0);
   EXPECT_TRUE(same_bits(beside.T_map_body, alone.T_map_body));
@@ -289,20 +289,21 @@ TEST(RunRefinement, AnotherPathThatDrawsTheBuildingOnceIsTheMapThoughItsOdometry
   ASSERT_LT(misfit(twice), misfit(truth));
   ASSERT_EQ(final_map(run, twice, {}, config, sensor).counters.map_source, MapSource::kPoseGraph);
   const FinalMap map = final_map(run, twice, {}, config, sensor, [&](std::span<const double>) {
-    return std::vector{OtherPath{1.4, truth}};
+    return std::vector{OtherPath{MapSource::kBackwards, 1.0, truth}};
   });
-  EXPECT_EQ(map.counters.map_source, MapSource::kOtherYawNoise);
+  EXPECT_EQ(map.counters.map_source, MapSource::kBackwards);
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.1);
 }
 
 TEST(RunRefinement, WhereDeadReckoningIsTheMapTheRunIsNotMappedAgain) {
   const TestVehicle vehicle = along_the_corridor();
   bool was_asked = false;
-  const FinalMap map = final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {},
-                                 SensorModel::crazyflie(), [&](std::span<const double>) {
-                                   was_asked = true;
-                                   return std::vector{OtherPath{1.4, true_poses(vehicle)}};
-                                 });
+  const FinalMap map =
+      final_map(StoredRun(vehicle.samples()), bent(vehicle, 0.02), {}, {}, SensorModel::crazyflie(),
+                [&](std::span<const double>) {
+                  was_asked = true;
+                  return std::vector{OtherPath{MapSource::kOtherYawNoise, 1.4, true_poses(vehicle)}};
+                });
   EXPECT_FALSE(was_asked);
   EXPECT_EQ(map.counters.map_source, MapSource::kDeadReckoning);
 }
@@ -328,7 +329,8 @@ TEST(RunRefinement, FloorsThatTheOdometryMissesAreFoundAndTheRunIsMappedAgainWit
   std::vector<std::vector<double>> asked;
   const MapAgain map_again = [&](std::span<const double> step_scale) {
     asked.emplace_back(step_scale.begin(), step_scale.end());
-    return asked.size() == 1 ? std::vector<OtherPath>() : std::vector{OtherPath{1.0, flight.truth}};
+    return asked.size() == 1 ? std::vector<OtherPath>()
+                             : std::vector{OtherPath{MapSource::kFloorKnown, 1.0, flight.truth}};
   };
   const FinalMap map = final_map(StoredRun(flight.samples), in_small_waves(flight.truth), {}, {},
                                  SensorModel::crazyflie(), map_again);
@@ -455,6 +457,7 @@ TEST(MapSource, EachHasAName) {
   EXPECT_EQ(name_of(MapSource::kFrontend), "frontend");
   EXPECT_EQ(name_of(MapSource::kPoseGraph), "pose graph");
   EXPECT_EQ(name_of(MapSource::kOtherYawNoise), "other yaw noise");
+  EXPECT_EQ(name_of(MapSource::kBackwards), "backwards");
   EXPECT_EQ(name_of(MapSource::kFloorKnown), "floor known");
 }
 
