@@ -19,8 +19,7 @@ namespace swiftlet {
 // their poses refined at the end only, over floors as they are reported; there is none where that map is
 // dead reckoning alone. `samples`: all of the run. Thread-safe.
 
-/// Of its standard deviations. With half of them other copies of the laser logs break than with all, with 1.4
-/// times more of them.
+/// Of its standard deviations (what each breaks: docs/decisions/0029-a-run-is-mapped-again.md).
 inline constexpr std::array kOtherYawNoise{0.5, 0.7};
 
 [[nodiscard]] std::optional<OtherPath> path_with_yaw_noise(double factor,
@@ -29,7 +28,7 @@ inline constexpr std::array kOtherYawNoise{0.5, 0.7};
                                                            const BeamLayout& beams);
 
 /// The run mapped from its last sample to its first: what was taken for a loop on the way there is met with
-/// another error. Poses are in the order of `samples`, in the frame of the last.
+/// another error. Poses are in the order of `samples`, in a map frame of their own.
 [[nodiscard]] std::optional<OtherPath> path_backwards(std::span<const RangeSample> samples,
                                                       const MappingSettings& settings,
                                                       const BeamLayout& beams);
