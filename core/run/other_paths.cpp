@@ -3,10 +3,11 @@
 #include "core/run/other_paths.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace swiftlet {
-
 namespace {
 
 std::optional<OtherPath> path(MapSource source, double factor, std::span<const RangeSample> samples,

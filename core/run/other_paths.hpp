@@ -19,7 +19,8 @@ namespace swiftlet {
 // their poses refined at the end only, over floors as they are reported; there is none where that map is
 // dead reckoning alone. `samples`: all of the run. Thread-safe.
 
-/// Of its standard deviations (what each breaks: docs/decisions/0029-a-run-is-mapped-again.md).
+/// Times the standard deviation of that noise. docs/decisions/0029-a-run-is-mapped-again.md has what each
+/// breaks.
 inline constexpr std::array kOtherYawNoise{0.5, 0.7};
 
 [[nodiscard]] std::optional<OtherPath> path_with_yaw_noise(double factor,
