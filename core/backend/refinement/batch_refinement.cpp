@@ -4,8 +4,10 @@
 
 #include <utility>
 
+#include "core/backend/refinement/dead_reckoning_misfit.hpp"
 #include "core/backend/refinement/joint_refinement.hpp"
 #include "core/backend/store/traversal.hpp"
+#include "core/sensing/systematic_prior.hpp"
 
 namespace swiftlet {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 struct Judged {
   double held_out_m = 0.0;
   double share_on_walls = 0.0;  ///< RefinementReport's
+  double of_returns = 0.0;      ///< of the misfit
   std::vector<double> misfit;   ///< RefinementReport's
 };
 
@@ -26,13 +29,14 @@ Judged judge(const BatchRefinement& batch, const BatchProblem& problem,
   const std::span<const StoredScan> stored = batch.stored();
   const std::uint32_t first = index_of(traversal_of(stored.front()));
   const WallsByStorey walls = problem.hits().walls_at(T_map_body, tuning.walls.radius_m);
-  Judged judged{0.0, 0.0, std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
+  Judged judged{0.0, 0.0, 0.0, std::vector<double>(index_of(traversal_of(stored.back())) - first + 1)};
   std::size_t count = 0;
   for (const BatchProblem::Factor& f : motions)
     judged.misfit[index_of(traversal_of(stored[index_of(f.to)])) - first] +=
         0.5 * dcs_cost(chi_square(f, T_map_body), batch.config.dcs_phi);
   problem.hits().for_held_out(walls, T_map_body, [&](std::uint32_t traversal, double distance_m) {
     judged.misfit[traversal - first] += distance_m / tuning.wall_sigma_m;
+    judged.of_returns += distance_m / tuning.wall_sigma_m;
     judged.held_out_m += distance_m;
     judged.share_on_walls += is_on_wall(distance_m, tuning) ? 1.0 : 0.0;
     ++count;
@@ -61,14 +65,16 @@ void take(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report
   T_map_body = std::move(T_refined);
 }
 
-/// Of walls and poses together.
-void take_if_held_out_agree(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report,
-                            std::vector<Pose2>& T_map_body) {
+/// Of walls and poses together. In turn, a scan moves to its own returns, and those held out share its pose:
+/// they agree better than the poses are. So they do not judge here, but where they refused that.
+void take_together(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report,
+                   std::vector<Pose2>& T_map_body) {
   HeldOutVerdict verdict;
   verdict.judge(report.held_out_before_m, refined.held_out_m);
-  report.moved_walls = verdict.accepted;
-  if (!verdict.accepted) return;
-  static_cast<HeldOutVerdict&>(report) = verdict;
+  report.moved_walls = report.accepted || verdict.accepted;
+  if (!report.moved_walls) return;
+  report.held_out_after_m = refined.held_out_m;
+  report.accepted = true;
   take(std::move(refined), std::move(T_refined), report, T_map_body);
 }
 
@@ -82,6 +88,14 @@ RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<
   report.share_on_walls = judged.share_on_walls;
   report.misfit = judged.misfit;
   report.misfit_at_start = std::move(judged.misfit);
+  RigidNodes nodes = nodes_of(batch.stored(), problem.motions(), batch.config.tuning.nodes);
+  SystematicPrior prior = systematic_prior(batch.sensor.odometry);
+  if (!nodes.shows_time_offset()) prior.range_age_s = 0.0;
+  report.misfit_of_path =
+      judged.of_returns +
+      dead_reckoning_misfit(std::move(nodes),
+                            covariance_of(prior, yaw_goes_with_travel(batch.sensor.odometry)), T_map_body,
+                            batch.config.dcs_phi);
   return report;
 }
 
@@ -130,7 +144,7 @@ Status refine_together(const BatchRefinement& batch, RefinementReport& report,
                                  batch.config.tuning, factors, T);
   if (!solved) return solved;
   Judged refined = judge(batch, problem, std::span(factors).first(T.size() - 1), T);
-  take_if_held_out_agree(std::move(refined), std::move(T), report, T_map_body);
+  take_together(std::move(refined), std::move(T), report, T_map_body);
   return {};
 }
 
@@ -145,7 +159,7 @@ Result<FloorFindings> refine_together_with_floor(const BatchRefinement& batch, R
                                 batch.config.tuning, factors, T);
   if (!floor) return floor;
   Judged refined = judge(batch, problem, std::span(factors).first(T.size() - 1), T);
-  take_if_held_out_agree(std::move(refined), std::move(T), report, T_map_body);
+  take_together(std::move(refined), std::move(T), report, T_map_body);
   return report.moved_walls ? std::move(floor) : FloorFindings();
 }
 

@@ -19,6 +19,8 @@ struct RefinementReport : HeldOutVerdict {
   /// that one slip does not outweigh the rest). Comparable between starts of one run.
   std::vector<double> misfit;
   std::vector<double> misfit_at_start;
+  /// What all held-out returns have of `misfit`, and dead_reckoning_misfit(). Of judge_as_it_is() only.
+  double misfit_of_path = 0.0;
 };
 
 /// Refinement of every scan's pose: a sparse Gauss-Newton problem of point-to-line factors to the walls of

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/backend/refinement/rigid_nodes.hpp"
 #include "core/sensing/systematic_motion.hpp"
 #include "core/sensing/systematic_prior.hpp"
 
@@ -17,26 +16,6 @@ using Factor = RelativePoseFactor<PoseIndex>;
 
 constexpr double kWallSigmasOfReading = 1.7;  // at least: a wall is no plane, and the error of a scan's pose
                                               // is in all of its returns
-
-/// By dead reckoning from each scan to the next.
-RigidNodes nodes_of(std::span<const StoredScan> stored, std::span<const Factor> motions,
-                    const RigidNodesTuning& tuning) {
-  std::vector<TimedOdometry> odometry;
-  std::vector<StepVariance> variance_to;
-  Pose2 T_first_body;
-  odometry.reserve(stored.size());
-  variance_to.reserve(stored.size());
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    StepVariance variance;
-    if (i > 0) {
-      T_first_body = T_first_body * motions[i - 1].T_from_to;
-      variance = {1.0 / motions[i - 1].information(0, 0), 1.0 / motions[i - 1].information(2, 2)};
-    }
-    variance_to.push_back(variance);
-    odometry.push_back({stored[i].measured_at, T_first_body, stored[i].starts_segment});
-  }
-  return {std::move(odometry), std::move(variance_to), tuning};
-}
 
 /// Of the systematic errors that whole walls show best: the age of the ranges and the scales.
 SystematicCovariance prior_of(const SensorModel& sensor, bool shows_age,
@@ -84,6 +63,25 @@ FloorFindings floor_of(const PosesAndWalls& problem, std::span<const StoredScan>
 }
 
 }  // namespace
+
+RigidNodes nodes_of(std::span<const StoredScan> scans, std::span<const Factor> motions,
+                    const RigidNodesTuning& tuning) {
+  std::vector<TimedOdometry> odometry;
+  std::vector<StepVariance> variance_to;
+  Pose2 T_first_body;
+  odometry.reserve(scans.size());
+  variance_to.reserve(scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    StepVariance variance;
+    if (i > 0) {
+      T_first_body = T_first_body * motions[i - 1].T_from_to;
+      variance = {1.0 / motions[i - 1].information(0, 0), 1.0 / motions[i - 1].information(2, 2)};
+    }
+    variance_to.push_back(variance);
+    odometry.push_back({scans[i].measured_at, T_first_body, scans[i].starts_segment});
+  }
+  return {std::move(odometry), std::move(variance_to), tuning};
+}
 
 std::unique_ptr<PosesAndWalls> joint_problem(std::span<const StoredScan> scans, const SensorModel& sensor,
                                              std::span<const PlacedReturn> returns,

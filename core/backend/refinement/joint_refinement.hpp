@@ -11,6 +11,7 @@
 #include "core/backend/refinement/floor_field.hpp"
 #include "core/backend/refinement/poses_and_walls.hpp"
 #include "core/backend/refinement/refinement_problem.hpp"
+#include "core/backend/refinement/rigid_nodes.hpp"
 #include "core/backend/store/scan_store.hpp"
 #include "core/base/result.hpp"
 #include "core/sensing/sensor_model.hpp"
@@ -42,6 +43,11 @@ namespace swiftlet {
     std::span<const StoredScan> scans, const SensorModel& sensor, std::span<const PlacedReturn> returns,
     std::span<const HeadingFactor<PoseIndex>> headings, const BackendTuning& tuning,
     std::vector<RelativePoseFactor<PoseIndex>>& factors, std::vector<Pose2>& T_map_body);
+
+/// The scans as nodes, by dead reckoning from each scan to the next.
+[[nodiscard]] RigidNodes nodes_of(std::span<const StoredScan> scans,
+                                  std::span<const RelativePoseFactor<PoseIndex>> motions,
+                                  const RigidNodesTuning& tuning);
 
 /// The problem alone, for a caller that solves it step by step. Views nothing of its arguments.
 [[nodiscard]] std::unique_ptr<PosesAndWalls> joint_problem(

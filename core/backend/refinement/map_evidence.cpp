@@ -93,14 +93,25 @@ class VotedGrid {
   Tile* newest_ = nullptr;
 };
 
+constexpr int kGrids = 16;  // one alone errs by a hundred nats; docs/decisions/0032-a-map-has-evidence.md
+
+/// Spreads evenly over offsets and quarter turns, however many there are: multiples of irrational shares,
+/// those of a plane by the root of x³ = x + 1.
+Pose2 T_grid_map_of(int grid, double cell_m) {
+  constexpr double kPlastic = 1.324717957244746;
+  return {grid * cell_m / kPlastic, grid * cell_m / (kPlastic * kPlastic),
+          grid * 0.5 * std::numbers::pi / std::numbers::phi};
+}
+
 }  // namespace
 
-double map_log_evidence(const ScanStore& scans, std::span<const Pose2> T_map_body, double cell_m) {
+double log_evidence_in_grid(const ScanStore& scans, std::span<const Pose2> T_map_body, double cell_m,
+                            const Pose2& T_grid_map) {
   VotedGrid grid;
   const auto in_cells = [&](const Point2& p) { return Point2{p.x_m / cell_m, p.y_m / cell_m}; };
   std::size_t i = 0;
   for (const StoredScan& scan : scans.all().values()) {
-    const Pose2& T = T_map_body[i++];
+    const Pose2 T = T_grid_map * T_map_body[i++];
     const TraversalId traversal = traversal_of(scan);
     grid.enter(scan.storey);
     for (const ScanReturn& beam : scans.returns(scan)) {
@@ -115,6 +126,13 @@ double map_log_evidence(const ScanStore& scans, std::span<const Pose2> T_map_bod
     }
   }
   return grid.log_probability();
+}
+
+double map_log_evidence(const ScanStore& scans, std::span<const Pose2> T_map_body, double cell_m) {
+  double sum = 0.0;
+  for (int grid = 0; grid < kGrids; ++grid)
+    sum += log_evidence_in_grid(scans, T_map_body, cell_m, T_grid_map_of(grid, cell_m));
+  return sum / kGrids;
 }
 
 }  // namespace swiftlet

@@ -292,8 +292,9 @@ std::optional<RunRefinement::Hypothesis> RunRefinement::best_of_run(const PoseGr
 /// All that the run says against a path, in nats. The misfit alone does not know a corridor that is drawn
 /// twice: its returns lie on walls of their own neighbours.
 double RunRefinement::cost_of(const Hypothesis& path, const RefinementReport& judged) const {
-  const double cell_m = 4.0 * config_->tuning.refinement.wall_sigma_m;  // what returns of one wall scatter
-  return sum(judged.misfit) - map_log_evidence(*scans_, path.T_map_body, cell_m);
+  const double cell_m =
+      8.0 * config_->tuning.refinement.wall_sigma_m;  // twice what one wall's returns scatter
+  return judged.misfit_of_path - map_log_evidence(*scans_, path.T_map_body, cell_m);
 }
 
 /// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was

@@ -316,6 +316,26 @@ TEST(Refinement, WhereWallsCannotMovePosesDo) {
   EXPECT_TRUE(same_bits(T_map_body, T_map_turn));
 }
 
+/// They share the pose of a scan that moved to the others, and flatter it.
+TEST(Refinement, HeldOutReturnsJudgeWallsAndPosesOnlyWhereTheyRefusedPosesAlone) {
+  const LooksAtARoom looks = looks_at_a_room();
+  const BatchRefinement batch{.scans = looks.scans, .sensor = looks.sensor, .config = {}};
+  std::vector<Pose2> T_map_turn = shaken(looks.T_map_body);
+  Result<RefinementReport> report = refine_in_turn(batch, T_map_turn);
+  ASSERT_TRUE(report && report->accepted);
+  report->held_out_before_m = 0.0;  // nothing is as near
+  RefinementReport refused = *report;
+  refused.accepted = false;
+  std::vector<Pose2> T_map_body = T_map_turn;
+  ASSERT_TRUE(refine_together(batch, refused, T_map_body));
+  EXPECT_FALSE(refused.moved_walls);
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_TRUE(same_bits(T_map_body, T_map_turn));
+  ASSERT_TRUE(refine_together(batch, *report, T_map_body));
+  EXPECT_TRUE(report->moved_walls);
+  EXPECT_FALSE(same_bits(T_map_body, T_map_turn));
+}
+
 TEST(Refinement, ATenthOfTheReturnsHasNoSay) {
   const auto refined = [](const LooksAtARoom& looks) {
     std::vector<Pose2> T_map_body = shaken(looks.T_map_body);

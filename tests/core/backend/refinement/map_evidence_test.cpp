@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -31,7 +32,9 @@ class BeamsAhead {
     scans_.add(step);
     T_map_body_.push_back(T_map_body);
   }
-  [[nodiscard]] double log_evidence() const { return map_log_evidence(scans_, T_map_body_, kCellM); }
+  [[nodiscard]] double log_evidence() const {
+    return log_evidence_in_grid(scans_, T_map_body_, kCellM, Pose2());
+  }
 
  private:
   ScanStore scans_{BeamLayout::multiranger()};
@@ -104,6 +107,26 @@ TEST(MapEvidence, IsTheSameWhereverTheMapLies) {
     return beams.log_evidence();
   };
   EXPECT_NEAR(at(0.0, 0.0), at(-80.0, 12.8), 1e-9);
+}
+
+/// Of one grid it depends on where its lines lie.
+TEST(MapEvidence, HardlyDependsOnWhereTheMapLiesInTheGrid) {
+  TestVehicle vehicle = vehicle_at_start({}, 75);
+  fly_along(vehicle, loop_corridor(), "bcdabcda");
+  const StoredRun run(vehicle.samples());
+  std::vector<double> in_grid;
+  std::vector<double> mean;
+  for (int i = 0; i < 5; ++i) {
+    std::vector<Pose2> path = true_poses(vehicle);
+    for (Pose2& T : path) T = Pose2(0.04 * i, 0.03 * i, 0.1 * i) * T;
+    in_grid.push_back(log_evidence_in_grid(run.scans(), path, kCellM, Pose2()));
+    mean.push_back(map_log_evidence(run.scans(), path, kCellM));
+  }
+  const auto spread = [](const std::vector<double>& values) {
+    const auto [least, most] = std::ranges::minmax(values);
+    return most - least;
+  };
+  EXPECT_LT(spread(mean), 0.3 * spread(in_grid));
 }
 
 /// Twice round the block.

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "core/backend/refinement/dead_reckoning_misfit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cstddef>
+
+#include "core/backend/pose_graph/pose_graph.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr int kSteps = 3;              // of Gauss-Newton: nearly linear, but for the weights
+constexpr double kNoVariance = 1e-12;  // of an error that is none
+
+using ErrorsMatrix = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
+
+/// A node where the path has it, in the frame in which dead reckoning predicts it.
+struct Motion {
+  Eigen::Vector3d error;
+  Eigen::Matrix<double, 3, kSystematicErrors> by_errors;
+  Eigen::Vector3d information;
+  [[nodiscard]] double chi_square() const { return error.dot(information.cwiseProduct(error)); }
+};
+
+Motion motion_to(const RigidNodes& nodes, std::size_t node, std::span<const Pose2> T_map_body) {
+  const PoseInNode& predicted = nodes.next(node - 1);
+  const Pose2 T_predicted_from = predicted.T_node_body.inverse();
+  const Pose2 moved = between(T_map_body[nodes.first_scan(node - 1)], T_map_body[nodes.first_scan(node)]);
+  const StepVariance& variance = nodes.variance_to(node);
+  const double by_xy = 1.0 / variance.xy_m2;
+  return {(T_predicted_from * moved).vector(),
+          jacobian_compose_first(T_predicted_from, moved) * jacobian_inverse(predicted.T_node_body) *
+              predicted.by_errors,
+          {by_xy, by_xy, 1.0 / variance.yaw_rad2}};
+}
+
+}  // namespace
+
+double dead_reckoning_misfit(RigidNodes nodes, const SystematicCovariance& prior,
+                             std::span<const Pose2> T_map_body, double dcs_phi) {
+  const ErrorsMatrix prior_information = (prior + kNoVariance * ErrorsMatrix::Identity()).inverse();
+  SystematicErrors errors = SystematicErrors::Zero();
+  for (int step = 0;; ++step) {
+    nodes.reckon(errors);
+    ErrorsMatrix information = prior_information;
+    SystematicErrors gradient = prior_information * errors;
+    double misfit = 0.5 * errors.dot(gradient);
+    for (std::size_t node = 1; node < nodes.size(); ++node) {
+      const Motion motion = motion_to(nodes, node, T_map_body);
+      const double chi_square = motion.chi_square();
+      const double scale = dcs_scale(chi_square, dcs_phi);
+      const Eigen::Matrix<double, kSystematicErrors, 3> weighted =
+          scale * scale * motion.by_errors.transpose() * motion.information.asDiagonal();
+      information += weighted * motion.by_errors;
+      gradient += weighted * motion.error;
+      misfit += 0.5 * dcs_cost(chi_square, dcs_phi);
+    }
+    if (step == kSteps) return misfit;
+    errors -= information.ldlt().solve(gradient);
+  }
+}
+
+}  // namespace swiftlet
