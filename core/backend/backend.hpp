@@ -46,7 +46,7 @@ struct BackendCounters {
   std::uint64_t stretches_refined = 0;  ///< likewise, of newest stretches
   std::uint64_t stretches_refused = 0;
   bool refined = false;            ///< the batch refinement was accepted
-  double held_out_before_m = 0.0;  ///< its criterion: distance of held-out returns from walls
+  double held_out_before_m = 0.0;  ///< distance of held-out returns from walls, before it
   double held_out_after_m = 0.0;
   MapSource map_source = MapSource::kPoseGraph;  ///< what the final map follows
   double yaw_noise_factor = 1.0;                 ///< OtherPath's of what it follows

@@ -65,8 +65,7 @@ void take(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report
   T_map_body = std::move(T_refined);
 }
 
-/// Of walls and poses together. In turn, a scan moves to its own returns, and those held out share its pose:
-/// they agree better than the poses are. So they do not judge here, but where they refused that.
+/// Of walls and poses together.
 void take_together(Judged refined, std::vector<Pose2> T_refined, RefinementReport& report,
                    std::vector<Pose2>& T_map_body) {
   HeldOutVerdict verdict;

@@ -12,7 +12,7 @@
 namespace swiftlet {
 
 struct RefinementReport : HeldOutVerdict {
-  bool moved_walls = false;     ///< refine_together() was accepted
+  bool moved_walls = false;     ///< refine_together() was accepted, whatever the distance did
   double share_on_walls = 0.0;  ///< of the held-out returns: that lie on walls of other traversals
   /// By traversal, in order: minus the log likelihood of the poses returned, but for a constant. Of the
   /// held-out returns (distance over wall sigma) and of the dead reckoning (half the dcs_cost() of a step, so
@@ -37,7 +37,9 @@ RefinementReport judge_as_it_is(const BatchRefinement& batch, const std::vector<
 [[nodiscard]] double share_on_walls_of_any(const BatchRefinement& batch,
                                            const std::vector<Pose2>& T_map_body);
 /// Then walls and poses together, by refine_jointly(), from what refine_in_turn() reports and returns.
-/// Accepted on the same condition; else, and where there is no solution (kSolver), both are left as they are.
+/// Accepted where that was, else on the same condition: in turn, scans move to the returns that share their
+/// poses with those held out. Where it is not, and where there is no solution (kSolver), both are left as
+/// they are.
 Status refine_together(const BatchRefinement& batch, RefinementReport& report,
                        std::vector<Pose2>& T_map_body);
 /// The same with the floors as unknowns, by refine_jointly_with_floor(). Where it was not accepted, the
