@@ -25,6 +25,7 @@ struct Backend::State {
   bool follow_graph(bool has_moved);
   bool refine_stretch(const BackendUpdate& update);
   ScanRange refine_window(const BackendUpdate& update);
+  void drop_closures_off_map();
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
   [[nodiscard]] bool newest_contact_is_at_fault() const;
@@ -70,6 +71,14 @@ ScanRange Backend::State::refine_window(const BackendUpdate& update) {
   const ScanRange refined = refinement.refine_window(graph.graph(), T_local_keyframe());
   if (!refined.empty()) ++version;
   return refined;
+}
+
+/// Of the final map: where that is another path's, it was found without them.
+void Backend::State::drop_closures_off_map() {
+  KeyframePoses T_map_refined = T_map_keyframe();
+  for (const auto& [keyframe, scan] : chain.all())
+    T_map_refined[keyframe] = refinement.T_map_body(scan, T_map_keyframe());
+  loops.drop_those_off(T_map_refined, graph);
 }
 
 /// At the newest keyframe. What contradicts a pose is no evidence against the one it is corrected to.
@@ -215,6 +224,7 @@ BackendUpdate Backend::finish(const MapAgain& map_again) {
   if (s.refinement.refine_all(s.graph.graph(), s.T_local_keyframe(), map_again)) {
     update.poses_changed = true;
     ++s.version;
+    s.drop_closures_off_map();
   }
   if (s.chain.size() > 0) s.correct_newest(s.T_local_keyframe().values().back());
   return update;

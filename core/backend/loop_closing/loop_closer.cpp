@@ -271,6 +271,14 @@ bool LoopCloser::drop_worst(KeyframeGraph& graph) {
   return true;
 }
 
+void LoopCloser::drop_those_off(const KeyframePoses& T_map_keyframe, KeyframeGraph& graph) {
+  for (LoopClosure& closure : closures_.values()) {
+    if (closure.dropped) continue;
+    closure.dcs_scale = dcs_scale(chi_square(factor_of(closure), T_map_keyframe), config_->dcs_phi);
+    if (closure.dcs_scale < config_->drop_scale) drop(closure, graph);
+  }
+}
+
 void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
   std::erase_if(submaps_, [&](const auto& submap) { return pruned.contains(submap->reference); });
   closures_.erase_if([&](const LoopClosure& closure) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <utility>
@@ -56,6 +57,13 @@ class FlownLoops {
   }
   void doubt_newest_motion() { loops_.doubt_since(chain_.all().last_id(), 9.8); }
   void drop_contact() { loops_.drop_contact(graph_); }
+  /// In a map that has what was flown from the middle on so much farther along x.
+  void drop_those_off(double moved_m) {
+    KeyframePoses T_map_keyframe = graph_.T_map_keyframe();
+    for (Pose2& T : T_map_keyframe.values().subspan(T_map_keyframe.size() / 2))
+      T = Pose2(moved_m, 0.0, 0.0) * T;
+    loops_.drop_those_off(T_map_keyframe, graph_);
+  }
   [[nodiscard]] std::optional<LoopCloser::Contact> contact_that_moved() const {
     return loops_.contact_that_moved(graph_.graph());
   }
@@ -138,6 +146,19 @@ TEST_F(DriftedLoops, WithoutTheClosuresOfAContactTheGraphIsAsBefore) {
   EXPECT_FALSE(flown_.contact_that_moved());
   flown_.optimize();
   EXPECT_LT(flown_.correction_m(), 1e-3);
+}
+
+TEST_F(DriftedLoops, ThoseThatTheFinalMapDoesNotHoldAreDropped) {
+  while (!flown_.is_over()) flown_.feed_one();
+  const std::size_t closures = flown_.loops().closures().size();
+  flown_.drop_those_off(0.0);
+  EXPECT_EQ(flown_.loops().counters().closures_dropped, 0);
+  EXPECT_THAT(flown_.loops().closures().values(), Each(Not(kIsDropped)));
+  flown_.drop_those_off(5.0);
+  const std::uint64_t dropped = flown_.loops().counters().closures_dropped;
+  EXPECT_GT(dropped, closures / 2);
+  flown_.drop_those_off(5.0);
+  EXPECT_EQ(flown_.loops().counters().closures_dropped, dropped) << "each once";
 }
 
 TEST_F(DriftedLoops, TrueOnesAreFoundAgain) {
