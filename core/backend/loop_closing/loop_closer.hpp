@@ -65,7 +65,8 @@ class LoopCloser {
   void take_scales(const PoseGraph& graph);
   /// Drops the closure that DCS scales down most, if any lies below config.drop_scale. False: none does.
   bool drop_worst(KeyframeGraph& graph);
-  /// Drops all that DCS would scale down as far in a map that was found without them.
+  /// Drops all that lie off a map which was found without them: there DCS scales them below
+  /// config.drop_scale.
   void drop_those_off(const KeyframePoses& T_map_keyframe, KeyframeGraph& graph);
   /// Submaps go with the keyframe that is their frame, closures with either end; places that are weighed are
   /// forgotten.

@@ -16,24 +16,16 @@ constexpr double kNoVariance = 1e-12;  // of an error that is none
 
 using ErrorsMatrix = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
 
-/// A node where the path has it, in the frame in which dead reckoning predicts it.
-struct Motion {
-  Eigen::Vector3d error;
-  Eigen::Matrix<double, 3, kSystematicErrors> by_errors;
+struct Motion : NodeError {
   Eigen::Vector3d information;
   [[nodiscard]] double chi_square() const { return error.dot(information.cwiseProduct(error)); }
 };
 
 Motion motion_to(const RigidNodes& nodes, std::size_t node, std::span<const Pose2> T_map_body) {
-  const PoseInNode& predicted = nodes.next(node - 1);
-  const Pose2 T_predicted_from = predicted.T_node_body.inverse();
   const Pose2 moved = between(T_map_body[nodes.first_scan(node - 1)], T_map_body[nodes.first_scan(node)]);
   const StepVariance& variance = nodes.variance_to(node);
   const double by_xy = 1.0 / variance.xy_m2;
-  return {(T_predicted_from * moved).vector(),
-          jacobian_compose_first(T_predicted_from, moved) * jacobian_inverse(predicted.T_node_body) *
-              predicted.by_errors,
-          {by_xy, by_xy, 1.0 / variance.yaw_rad2}};
+  return {node_error(nodes.next(node - 1), moved), {by_xy, by_xy, 1.0 / variance.yaw_rad2}};
 }
 
 }  // namespace

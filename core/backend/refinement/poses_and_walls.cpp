@@ -191,11 +191,11 @@ PosesAndWalls::MotionRow PosesAndWalls::motion_row(std::size_t to) const {
   const Pose2 T_predicted_from = predicted.T_node_body.inverse();
   const Eigen::Matrix3d by_moved = jacobian_compose_second(T_predicted_from);
   MotionRow row;
-  row.error = (T_predicted_from * moved).vector();
+  const NodeError off = node_error(predicted, moved);
+  row.error = off.error;
   row.by_from = by_moved * jacobian_compose_first(T_from_map, T_map_to) * jacobian_inverse(T_map_from);
   row.by_to = by_moved * jacobian_compose_second(T_from_map);
-  row.by_errors = jacobian_compose_first(T_predicted_from, moved) * jacobian_inverse(predicted.T_node_body) *
-                  predicted.by_errors;
+  row.by_errors = off.by_errors;
   const StepVariance& variance = nodes_.variance_to(to);
   const double by_xy = 1.0 / (position_noise_scale_ * position_noise_scale_ * variance.xy_m2);
   row.weight << by_xy, by_xy, 1.0 / variance.yaw_rad2;

@@ -7,6 +7,13 @@
 
 namespace swiftlet {
 
+NodeError node_error(const PoseInNode& predicted, const Pose2& moved) {
+  const Pose2 T_predicted_from = predicted.T_node_body.inverse();
+  return {(T_predicted_from * moved).vector(), jacobian_compose_first(T_predicted_from, moved) *
+                                                   jacobian_inverse(predicted.T_node_body) *
+                                                   predicted.by_errors};
+}
+
 RigidNodes::RigidNodes(std::vector<TimedOdometry> scans, std::vector<StepVariance> variance_to,
                        const RigidNodesTuning& tuning)
     : motion_(scans),

@@ -26,6 +26,14 @@ struct PoseInNode {
   Eigen::Matrix<double, 3, kSystematicErrors> by_errors = Eigen::Matrix<double, 3, kSystematicErrors>::Zero();
 };
 
+/// Where a node lies, in the frame in which dead reckoning predicts it, and the derivative of that.
+struct NodeError {
+  Eigen::Vector3d error;
+  Eigen::Matrix<double, 3, kSystematicErrors> by_errors;
+};
+/// `predicted`: RigidNodes::next(). `moved`: the node in the frame of the one before.
+[[nodiscard]] NodeError node_error(const PoseInNode& predicted, const Pose2& moved);
+
 /// A run as a chain of nodes: consecutive scans, a few tenths of a metre, whose dead reckoning less its
 /// systematic errors is taken as it is. The frame of a node is the body frame of its first scan. A step that
 /// was not measured (SystematicMotion::is_known()) has no systematic errors, and a node begins after it.
