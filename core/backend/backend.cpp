@@ -32,6 +32,7 @@ struct Backend::State {
   bool doubt_motion_if_contradicted();
   bool end_doubt();
   [[nodiscard]] bool has_restarted_unplaced() const;
+  [[nodiscard]] std::optional<KeyframeId> unsure_since() const;
   [[nodiscard]] Tracking tracking() const;
   [[nodiscard]] PoseConfidence computed_confidence() const;
 
@@ -135,7 +136,7 @@ bool Backend::State::end_doubt() {
 /// from there.
 bool Backend::State::doubt_motion_if_contradicted() {
   if (!agreement.is_contradicted()) return end_doubt();
-  if (loops.unplaced_since()) return false;
+  if (loops.weighs_places()) return false;
   const ScanId agreed = scans.all().at_or_after(agreement.agreed_last());  // it may have been pruned
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
   if (first >= chain.all().end_id()) return false;
@@ -155,8 +156,14 @@ bool Backend::State::has_restarted_unplaced() const {
   return loops.unplaced_since() && loops.unplaced_by() == UnplacedBy::kRestart;
 }
 
+/// Where the travel begins that has no place behind a restart, or one that is not beyond doubt.
+std::optional<KeyframeId> Backend::State::unsure_since() const {
+  return has_restarted_unplaced() ? loops.unplaced_since() : loops.provisional_since();
+}
+
 Tracking Backend::State::tracking() const {
-  if (has_restarted_unplaced()) return loops.places_weighed() > 1 ? Tracking::kRelocalizing : Tracking::kLost;
+  if (has_restarted_unplaced() && loops.places_weighed() < 2) return Tracking::kLost;
+  if (unsure_since()) return Tracking::kRelocalizing;
   return agreement.is_contradicted() ? Tracking::kUncertain : Tracking::kTracking;
 }
 
@@ -237,7 +244,7 @@ bool Backend::can_be_mapped_again() const {
 Pruning Backend::next_pruning() {
   State& s = *state_;
   const KeyframeId first_in_use = s.loops.open_since().value_or(s.chain.all().end_id());
-  return s.pruner.next(s.T_map_keyframe(), first_in_use, s.loops.unplaced_since().has_value());
+  return s.pruner.next(s.T_map_keyframe(), first_in_use, s.loops.weighs_places());
 }
 
 void Backend::prune(const Pruning& pruning) {
@@ -272,12 +279,13 @@ TrackingFigures Backend::tracking() const {
   const auto holds = [](const LoopClosure& closure) { return !closure.dropped; };
   const auto newest = std::find_if(closures.rbegin(), closures.rend(), holds);
   const std::optional<KeyframeId> unplaced = s.loops.unplaced_since();
+  const std::size_t places_weighed = s.loops.weighs_places() ? s.loops.places_weighed() : 0;
   return {.tracking = s.tracking(),
           .contradiction = s.agreement.contradiction(),
           .contradicting_share = s.agreement.contradicting_share(),
           .returns_compared = s.agreement.returns_compared(),
           .times_uncertain = s.agreement.times_contradicted(),
-          .places_weighed = unplaced ? static_cast<std::uint32_t>(s.loops.places_weighed()) : 0,
+          .places_weighed = static_cast<std::uint32_t>(places_weighed),
           .way_since_closure_m = newest == closures.rend() ? here_m : since_m(newest->to),
           .way_unplaced_m = unplaced ? since_m(s.chain.all().at_or_after(*unplaced)) : 0.0};
 }
@@ -285,8 +293,8 @@ TrackingFigures Backend::tracking() const {
 std::optional<ScanId> Backend::doubted_since() const {
   const State& s = *state_;
   if (!s.config.close_loops) return std::nullopt;
-  if (s.has_restarted_unplaced())
-    return s.chain.scan_of(s.chain.all().at_or_after(*s.loops.unplaced_since()));
+  if (const std::optional<KeyframeId> unsure = s.unsure_since())
+    return s.chain.scan_of(s.chain.all().at_or_after(*unsure));
   if (!s.agreement.is_contradicted()) return std::nullopt;
   return s.scans.all().at_or_after(s.agreement.agreed_last() + 1);
 }

@@ -72,6 +72,14 @@ TEST(TrackingState, IsDoubtedOnWhereACorrectionInterruptedTheDoubt) {
       << "all of them, if places that were weighed before the correction do not count behind it";
 }
 
+TEST(RestartedVehicle, IsTakenBackFromTheTwinOfTheRoomItStoodIn) {
+  int wrong = 0;
+  for (const char* seed : {"3", "6", "8"})
+    if (error_m(corrected_run("sim://office?seed=" + std::string(seed) + "&fault=restart@80:60")) > 1.0)
+      ++wrong;
+  EXPECT_LE(wrong, 1) << "all of them, if a place that was accepted is not weighed on";
+}
+
 TEST(SlippedVehicle, IsDrawnWhereItWasUntilTheMapContradictedIt) {
   int wrong = 0;
   for (const char* seed : {"1", "4", "8"})

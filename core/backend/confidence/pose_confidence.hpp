@@ -18,7 +18,7 @@ enum class Tracking : std::uint8_t {
   kTracking,      ///< what is seen agrees with the older map, or is new ground
   kUncertain,     ///< what is seen contradicts the older map: the pose may be off by more than half a metre
   kLost,          ///< motion was not watched, and nothing that was seen since shows where the vehicle is
-  kRelocalizing,  ///< likewise, and places in the older map are weighed
+  kRelocalizing,  ///< likewise, and places in the older map are weighed until one is beyond doubt
 };
 [[nodiscard]] std::string_view name_of(Tracking tracking);
 

@@ -19,6 +19,12 @@ RelativePoseFactor<KeyframeId> factor_of(const LoopClosure& closure) {
           residual_information(closure.T_from_to, closure.covariance.matrix()), true};
 }
 
+std::vector<RelativePoseFactor<KeyframeId>> factors_of(std::span<const LoopClosure> closures) {
+  std::vector<RelativePoseFactor<KeyframeId>> factors;
+  for (const LoopClosure& closure : closures) factors.push_back(factor_of(closure));
+  return factors;
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
@@ -101,8 +107,7 @@ void LoopCloser::end_doubt() {
 void LoopCloser::suspend_doubt() {
   suspended_since_ = std::exchange(unplaced_since_, std::nullopt);
   suspended_at_m_ = chain_->path_m(chain_->all().last_id());
-  elsewhere_.stop();
-  proposed_.clear();
+  stop_searching();
 }
 
 /// Before ground flown since the doubt ended counts as older map itself.
@@ -135,14 +140,19 @@ std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, Key
   const FoundLoops found = detector_.find(chain_->all().last_id(), watched_since(), submaps_, graph.graph(),
                                           T_local_keyframe, counters_.candidates_matched);
   for (const LoopClosure& closure : found.confirmed) accept(closure, graph);
-  if (unplaced_since_) place_travel(found.tentative, T_local_keyframe, graph);
+  if (unplaced_since_) {
+    place_travel(found.tentative, T_local_keyframe, graph);
+  } else if (provisional_since_) {
+    weigh_on(T_local_keyframe, graph);
+  }
   return static_cast<std::uint32_t>(closures_.size() - before);
 }
 
 void LoopCloser::search_elsewhere(const KeyframePoses& T_local_keyframe, const PoseGraph& graph) {
   if (!unplaced_since_) return;
   if (!proposed_.empty()) {
-    places_.propose(proposed_.back(), submaps_before_break(), graph, path_of_travel(T_local_keyframe, graph));
+    places_.propose(proposed_.back(), submaps_before(*unplaced_since_), graph,
+                    path_of_travel(T_local_keyframe, graph));
     proposed_.pop_back();
   } else if (elsewhere_.is_busy()) {
     elsewhere_.step();
@@ -150,10 +160,18 @@ void LoopCloser::search_elsewhere(const KeyframePoses& T_local_keyframe, const P
   }
 }
 
-std::span<const std::shared_ptr<const Submap>> LoopCloser::submaps_before_break() const {
+std::span<const std::shared_ptr<const Submap>> LoopCloser::submaps_before(KeyframeId since) const {
   const auto end =
-      std::ranges::partition_point(submaps_, [&](const auto& s) { return s->reference < *unplaced_since_; });
+      std::ranges::partition_point(submaps_, [&](const auto& s) { return s->reference < since; });
   return std::span(submaps_).first(static_cast<std::size_t>(end - submaps_.begin()));
+}
+
+/// Up to the newest keyframe; nothing before there is a motion to it.
+std::optional<ScanRange> LoopCloser::recent_scans() const {
+  const KeyframeId newest = chain_->all().last_id();
+  const ScanRange recent = detector_.recent_scans(newest);
+  if (chain_->scan_of(chain_->all().previous(newest)) < recent.first) return std::nullopt;
+  return recent;
 }
 
 /// Behind a break no closure joins the travel to what lies before: the graph has what was learnt of the
@@ -167,26 +185,46 @@ const KeyframePoses& LoopCloser::path_of_travel(const KeyframePoses& T_local_key
 void LoopCloser::place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                               KeyframeGraph& graph) {
   const KeyframeId newest = chain_->all().last_id();
-  const ScanRange recent = detector_.recent_scans(newest);
-  if (chain_->scan_of(chain_->all().previous(newest)) < recent.first) return;
-  const auto earlier = submaps_before_break();
+  const std::optional<ScanRange> recent = recent_scans();
+  if (!recent) return;
+  const auto earlier = submaps_before(*unplaced_since_);
   const KeyframePoses& path = path_of_travel(T_local_keyframe, graph.graph());
-  const bool is_new = places_.add_query(newest, recent, earlier, graph.graph(), T_local_keyframe, path);
+  const bool is_new = places_.add_query(newest, *recent, earlier, graph.graph(), T_local_keyframe, path);
   for (const LoopClosure& match : matches)
     if (match.from < *unplaced_since_) proposed_.push_back(match);
   if (is_new)
     for (const LoopClosure& match : places_.turned(earlier, graph.graph(), path)) proposed_.push_back(match);
   if (!elsewhere_.is_busy()) {
     for (const LoopClosure& match : elsewhere_.take_found()) proposed_.push_back(match);
-    if (is_new) elsewhere_.begin(newest, recent, earlier, T_local_keyframe);
+    if (is_new) elsewhere_.begin(newest, *recent, earlier, T_local_keyframe);
   }
   if (is_new) place_is_refused_ = false;
   if (!place_is_refused_) place_is_refused_ = !accept_place(places_.decided(), graph);
 }
 
+/// The room where the vehicle stood may have a twin on the map, and the ground around it be new: then the
+/// twin gains all that is seen until beams meet its walls where the true ground is open.
+void LoopCloser::weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
+  const KeyframeId newest = chain_->all().last_id();
+  for (KeyframeId k = T_path_keyframe_.end_id(); k <= newest; ++k)
+    T_path_keyframe_.push_back(T_path_keyframe_[k - 1] *
+                               between(T_local_keyframe[k - 1], T_local_keyframe[k]));
+  const std::optional<ScanRange> recent = recent_scans();
+  if (!recent || !places_.add_query(newest, *recent, submaps_before(*provisional_since_), graph.graph(),
+                                    T_local_keyframe, T_path_keyframe_))
+    return;
+  if (places_.is_beyond_doubt()) return forget_places();
+  replace_place(places_.decided(), graph);
+}
+
 void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
   suspended_since_.reset();
+  provisional_since_.reset();
   places_.begin_again(pruned);
+  stop_searching();
+}
+
+void LoopCloser::stop_searching() {
   elsewhere_.stop();
   proposed_.clear();
 }
@@ -228,21 +266,38 @@ void LoopCloser::accept(LoopClosure closure, KeyframeGraph& graph) {
   closures_.push_back(closure);
 }
 
+/// All closures that joined the travel to the place before are dropped. Where the graph refuses, all stays.
+void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
+  if (decided.empty() || !graph.accommodate(factors_of(decided), watched_since_)) return;
+  for (LoopClosure& closure : closures_.values())
+    if (closure.from < *provisional_since_ && closure.to >= *provisional_since_ && !closure.dropped)
+      drop(closure, graph);
+  contact_.reset();
+  places_.accept_likeliest();
+  for (const LoopClosure& closure : decided) accept(closure, graph);
+}
+
 /// False: it does not fit into the graph, which is as it was. The contact is with the map before it moved.
 bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
   if (decided.empty()) return true;
-  std::vector<RelativePoseFactor<KeyframeId>> factors;
-  for (const LoopClosure& closure : decided) factors.push_back(factor_of(closure));
+  KeyframePoses T_map_before = graph.T_map_keyframe();
   const std::optional<Contact> contact_before = contact_;
   // Travel does not tell how long ago the old contact was: it does not grow across a break.
   if (unplaced_by_ != UnplacedBy::kContradiction) contact_.reset();
   note_contact(decided.front().to, graph.graph());
-  if (!graph.accommodate(factors, travel_since())) {
+  if (!graph.accommodate(factors_of(decided), travel_since())) {
     contact_ = contact_before;
     return false;
   }
+  if (unplaced_by_ == UnplacedBy::kRestart) {
+    provisional_since_ = unplaced_since_;
+    T_path_keyframe_ = std::move(T_map_before);
+    places_.accept_likeliest();
+    stop_searching();
+  } else {
+    forget_places();
+  }
   unplaced_since_.reset();
-  forget_places();
   for (const LoopClosure& closure : decided)
     if (!is_closed(closure)) accept(closure, graph);
   return true;

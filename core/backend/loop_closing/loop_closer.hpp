@@ -31,7 +31,8 @@ struct LoopCloserCounters {
 };
 
 /// Builds submaps, looks for loops, and adds closures to the graph: confirmed matches at once, those with
-/// what lies before a break once the place is decided. One thread at a time; allocates.
+/// what lies before a break once the place is decided. Behind a restart the place is weighed on until it is
+/// beyond doubt, and another may replace it. One thread at a time; allocates.
 class LoopCloser {
  public:
   /// The travel since older ground was met again, which closures tell.
@@ -82,11 +83,16 @@ class LoopCloser {
   [[nodiscard]] std::optional<KeyframeId> unplaced_since() const { return unplaced_since_; }
   /// With unplaced_since().
   [[nodiscard]] UnplacedBy unplaced_by() const { return unplaced_by_; }
-  /// Places that are weighed while the travel is unplaced, the one without any move included.
+  /// The travel from this restart on was placed, and may yet lie elsewhere.
+  [[nodiscard]] std::optional<KeyframeId> provisional_since() const { return provisional_since_; }
+  /// The travel is unplaced or provisional.
+  [[nodiscard]] bool weighs_places() const { return unplaced_since_ || provisional_since_; }
+  /// Places that are weighed then, the one without any move included.
   [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
 
  private:
-  [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before_break() const;
+  [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before(KeyframeId since) const;
+  [[nodiscard]] std::optional<ScanRange> recent_scans() const;
   [[nodiscard]] KeyframeId watched_since() const;
   [[nodiscard]] KeyframeId travel_since() const;
   [[nodiscard]] const KeyframePoses& path_of_travel(const KeyframePoses& T_local_keyframe,
@@ -96,12 +102,15 @@ class LoopCloser {
   void finish_open(KeyframeId end, const KeyframePoses& T_local_keyframe);
   void suspend_doubt();
   [[nodiscard]] bool resume_doubt();
+  void stop_searching();
   void forget_places(const IdRanges<KeyframeId>& pruned = {});
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
+  void weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
   void note_contact(KeyframeId query, const PoseGraph& graph);
   void drop(LoopClosure& closure, KeyframeGraph& graph);
   void accept(LoopClosure closure, KeyframeGraph& graph);
+  void replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph);
   bool accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph);
   [[nodiscard]] bool is_closed(const LoopClosure& match) const;
 
@@ -118,8 +127,10 @@ class LoopCloser {
   std::optional<Contact> contact_;            // the newest
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no place is decided
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
-  KeyframeId watched_since_{};                 // motion to there is not known or is a guess: the newest break
-  bool place_is_refused_ = false;              // by the graph, since the newest query
+  KeyframeId watched_since_{};     // motion to there is not known or is a guess: the newest break
+  bool place_is_refused_ = false;  // by the graph, since the newest query
+  std::optional<KeyframeId> provisional_since_;
+  KeyframePoses T_path_keyframe_;              // with it: as if the travel had not been placed
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...
   double suspended_at_m_ = 0.0;                // ... and the travel at its end
   LoopCloserCounters counters_;

@@ -157,7 +157,7 @@ void PlaceHypotheses::weigh(Query& query, std::span<const std::shared_ptr<const 
 PlaceHypotheses::Hypothesis PlaceHypotheses::weighed_over_all(
     const Pose2& T_map_path, double prior, std::span<const std::shared_ptr<const Submap>> submaps,
     const PoseGraph& graph, const KeyframePoses& T_path_keyframe) {
-  Hypothesis weighed{T_map_path, prior, {}, {}};
+  Hypothesis weighed{T_map_path, prior, {}, {}, false};
   for (std::size_t i = queries_.size(); i-- > 0;)
     weigh(queries_[i], submaps, graph, T_path_keyframe, weighed);
   weighed.T_map_path = T_map_path;
@@ -166,7 +166,8 @@ PlaceHypotheses::Hypothesis PlaceHypotheses::weighed_over_all(
   return weighed;
 }
 
-/// Of those that have come together the likeliest stays; in order of likelihood.
+/// Of those that have come together the likeliest stays, as accepted if one of them was; in order of
+/// likelihood.
 void PlaceHypotheses::merge(const Pose2& T_path_query) {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
   std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
@@ -174,10 +175,14 @@ void PlaceHypotheses::merge(const Pose2& T_path_query) {
   std::vector<Hypothesis> kept;
   for (Hypothesis& h : hypotheses_) {
     const Pose2 T_map_query = h.T_map_path * T_path_query;
-    const bool is_known = std::ranges::any_of(kept, [&](const Hypothesis& other) {
+    const auto alike = std::ranges::find_if(kept, [&](const Hypothesis& other) {
       return are_alike(other.T_map_path * T_path_query, T_map_query, config_->tuning.detector);
     });
-    if (!is_known && kept.size() < tuning.max_hypotheses) kept.push_back(std::move(h));
+    if (alike != kept.end()) {
+      alike->is_accepted |= h.is_accepted;
+    } else if (kept.size() < tuning.max_hypotheses) {
+      kept.push_back(std::move(h));
+    }
   }
   hypotheses_ = std::move(kept);
 }
@@ -203,7 +208,9 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
     taken.T_query_body.push_back(T_query_local * T_local_body);
   const Pose2 T_map_path = graph.T_map_keyframe[query] * T_path_keyframe[query].inverse();
   const double prior = std::log(tuning.not_moved_odds) - break_.log_odds_moved;
-  if (hypotheses_.empty()) hypotheses_.push_back({T_map_path, prior, {}, {}});
+  if (hypotheses_.empty()) hypotheses_.push_back({T_map_path, prior, {}, {}, false});
+  for (Hypothesis& h : hypotheses_)
+    if (h.is_accepted) h.T_map_path = T_map_path;
   if (queries_.size() == tuning.max_queries) forget_oldest();
   for (Hypothesis& h : hypotheses_) weigh(taken, submaps, graph, T_path_keyframe, h);
   queries_.push_back(std::move(taken));
@@ -311,14 +318,28 @@ double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
   return 1.0 / std::sqrt(std::max(solver.eigenvalues()(0), 1e-9));
 }
 
+/// Of the likeliest, over the next and over ground that the map does not show.
+double PlaceHypotheses::lead() const {
+  const double rival = hypotheses_.size() < 2 ? 0.0 : std::max(0.0, hypotheses_[1].log_odds);
+  return hypotheses_.front().log_odds - rival;
+}
+
 std::vector<LoopClosure> PlaceHypotheses::decided() const {
   const PlaceHypothesesTuning& tuning = config_->tuning.places;
-  if (hypotheses_.empty() || static_cast<double>(hypotheses_.front().matches.size()) < queries_alike())
-    return {};
-  const double rival = hypotheses_.size() < 2 ? 0.0 : std::max(0.0, hypotheses_[1].log_odds);
-  if (hypotheses_.front().log_odds < rival + tuning.sure_log_odds) return {};
-  if (sigma_m(hypotheses_.front()) > tuning.max_sigma_m) return {};
-  return hypotheses_.front().matches;
+  if (hypotheses_.empty()) return {};
+  const Hypothesis& likeliest = hypotheses_.front();
+  if (likeliest.is_accepted || static_cast<double>(likeliest.matches.size()) < queries_alike()) return {};
+  if (lead() < tuning.sure_log_odds || sigma_m(likeliest) > tuning.max_sigma_m) return {};
+  return likeliest.matches;
+}
+
+void PlaceHypotheses::accept_likeliest() {
+  for (Hypothesis& h : hypotheses_) h.is_accepted = false;
+  hypotheses_.front().is_accepted = true;
+}
+
+bool PlaceHypotheses::is_beyond_doubt() const {
+  return hypotheses_.front().is_accepted && lead() > 2.0 * config_->tuning.places.sure_log_odds;
 }
 
 }  // namespace swiftlet

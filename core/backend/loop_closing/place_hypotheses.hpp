@@ -31,8 +31,8 @@ struct MotionBreak {
 /// Where travel after a break may lie in the map. Each hypothesis is one place of the whole travel. The scans
 /// on the way are evidence for or against each: hits on walls of earlier submaps there, and hits in their
 /// free space. Unknown ground is no evidence. A hypothesis is accepted once it is so much likelier than every
-/// other, and than a place outside of the map, that one decision in a thousand would be wrong. Views its
-/// arguments, which must outlive it. One thread at a time; allocates.
+/// other, and than a place outside of the map, that one decision in a thousand would be wrong. What is seen
+/// next may still refute it. Views its arguments, which must outlive it. One thread at a time; allocates.
 class PlaceHypotheses {
  public:
   PlaceHypotheses(const BackendConfig& config, const ScanStore& scans, const KeyframeChain& chain)
@@ -56,8 +56,14 @@ class PlaceHypotheses {
   /// Matches of the newest query with the vehicle turned in place at the break, by any angle up to a quarter.
   [[nodiscard]] std::vector<LoopClosure> turned(std::span<const std::shared_ptr<const Submap>> submaps,
                                                 const PoseGraph& graph, const KeyframePoses& T_path_keyframe);
-  /// The matches of the accepted hypothesis, one for each query that shows known walls; empty before.
+  /// The matches of the likeliest hypothesis, one for each query that shows known walls; empty while it
+  /// cannot be accepted, or if it is the one that was.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
+  /// The likeliest was accepted: from now on it lies where the graph has the travel. `T_path_keyframe` of
+  /// later queries must not follow it there.
+  void accept_likeliest();
+  /// The accepted one leads by the evidence for two decisions.
+  [[nodiscard]] bool is_beyond_doubt() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
 
  private:
@@ -75,6 +81,7 @@ class PlaceHypotheses {
     double log_odds = 0.0;                // prior, and the sum of
     std::vector<double> log_likelihoods;  // by query
     std::vector<LoopClosure> matches;     // with the queries that show known walls
+    bool is_accepted = false;
   };
   struct Evidence {
     double log_likelihood = 0.0;
@@ -97,6 +104,7 @@ class PlaceHypotheses {
   [[nodiscard]] double against(const Query& query, const Pose2& T_map_query,
                                std::span<const std::shared_ptr<const Submap>> submaps,
                                const PoseGraph& graph) const;
+  [[nodiscard]] double lead() const;
   [[nodiscard]] double likelihood_per_excess() const;
   [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;

@@ -190,7 +190,7 @@ bool KeyframeGraph::accommodate(std::span<const RelativePoseFactor<KeyframeId>> 
 
 void KeyframeGraph::disable(FactorId factor) {
   graph_.factors[factor].information.setZero();
-  state_ = GraphState::kConverging;
+  if (state_ != GraphState::kMoved) state_ = GraphState::kConverging;
 }
 
 bool KeyframeGraph::settle() {

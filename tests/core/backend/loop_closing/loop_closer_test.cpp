@@ -223,6 +223,30 @@ TEST(LoopCloser, APlaceBehindABreakIsAContactOfItsOwn) {
   EXPECT_GE(flown.contact_that_moved()->since, restarted);
 }
 
+TEST(LoopCloser, APlaceBehindARestartIsProvisionalUntilItIsBeyondDoubt) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  const std::optional<KeyframeId> restarted = flown.loops().unplaced_since();
+  EXPECT_FALSE(flown.loops().provisional_since());
+  flown.feed_until_placed();
+  EXPECT_EQ(flown.loops().provisional_since(), restarted);
+  EXPECT_GT(flown.loops().places_weighed(), 1U);
+  flown.feed_metres(10.0);
+  EXPECT_FALSE(flown.loops().weighs_places());
+}
+
+TEST(LoopCloser, ASilenceEndsTheDoubtOfAPlaceThatWasFound) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  flown.feed_until_placed();
+  ASSERT_TRUE(flown.loops().provisional_since());
+  flown.feed_one_after_silence();
+  EXPECT_FALSE(flown.loops().provisional_since());
+  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kSilence);
+}
+
 TEST(LoopCloser, TheGroundBeforeABreakIsKnownUpToThere) {
   const TestVehicle vehicle = carried_behind_two_laps();
   FlownLoops flown(vehicle);

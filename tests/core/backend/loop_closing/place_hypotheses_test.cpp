@@ -128,7 +128,13 @@ class PlaceHypothesesTest : public testing::Test {
     while (run_.scans()[first].path_m < from_m) ++first;
     return {first, run_.chain().scan_of(query) + 1};
   }
-  [[nodiscard]] const KeyframePoses& path() const { return graph_.T_map_keyframe; }
+  /// The likeliest place is accepted, and the graph has the travel there: so far from the truth.
+  void accept(const Pose2& T_map_world) {
+    places_.accept_likeliest();
+    path_ = graph_.T_map_keyframe;
+    put_travel(T_map_world);
+  }
+  [[nodiscard]] const KeyframePoses& path() const { return path_ ? *path_ : graph_.T_map_keyframe; }
   bool add(KeyframeId query) {
     return places_.add_query(query, recent(query), submaps_, graph_, run_.T_local_keyframe(), path());
   }
@@ -176,6 +182,7 @@ class PlaceHypothesesTest : public testing::Test {
   StoredRun run_;
   KeyframeId since_{};  // the first keyframe since the break
   PoseGraph graph_;
+  std::optional<KeyframePoses> path_;  // as it was before a place was accepted
   std::vector<std::shared_ptr<const Submap>> submaps_;
   PlaceHypotheses places_{config_, run_.scans(), run_.chain()};
   KeyframeId newest_{};  // of the travel that was offered
@@ -482,6 +489,19 @@ TEST_F(PlaceHypothesesTest, SoIsItsEvidence) {
   EXPECT_EQ(queries_until_decided(), 0);
 }
 
+TEST_F(PlaceHypothesesTest, OneThatWasAcceptedIsBeyondDoubtOnceItLeadsByTwoDecisions) {
+  begin_nowhere(100.0);
+  ASSERT_GT(queries_until_decided(), 0);
+  EXPECT_FALSE(places_.is_beyond_doubt()) << "nothing was accepted";
+  accept(Pose2());
+  EXPECT_THAT(places_.decided(), IsEmpty());
+  EXPECT_FALSE(places_.is_beyond_doubt());
+  int more = 0;
+  for (; !places_.is_beyond_doubt() && more < 10; ++more) take_query();
+  EXPECT_GT(more, 0);
+  EXPECT_LT(more, 4) << "a query gives five of the seven nats of a decision";
+}
+
 /// The corridor stands on the map twice, 40 m apart, flown in two laps.
 class PlaceHypothesesOfTwoAlikeTest : public PlaceHypothesesTest {
  protected:
@@ -521,6 +541,24 @@ TEST_F(PlaceHypothesesOfTwoAlikeTest, ATurnIsLikelierThanToHaveMovedFar) {
 TEST_F(PlaceHypothesesOfTwoAlikeTest, AreDecidedWhereOneOfThemIsNotMapped) {
   map(KeyframeId{}, second_lap_);
   EXPECT_GT(queries_until_decided_between_both(), 0);
+  expect_true(places_.decided());
+}
+
+TEST_F(PlaceHypothesesOfTwoAlikeTest, TheTwinIsOvertakenWhereItsGroundIsOtherwise) {
+  const auto both = submaps_;
+  map(second_lap_, since_);
+  put_travel(Pose2());  // it has not moved, and nothing around is mapped
+  places_.begin(carried_for(kLong, 10.0));
+  newest_ = since_;
+  take_query();
+  propose(twin_);
+  ASSERT_GT(queries_until_decided(), 0);
+  for (const LoopClosure& match : places_.decided()) ASSERT_GE(match.from, second_lap_);
+  accept(twin_);
+  change_cells([](std::uint8_t occupied) { return static_cast<std::uint8_t>(255 - occupied); });
+  submaps_.insert(submaps_.begin(), both.begin(), both.begin() + 8);
+  ASSERT_LT(submaps_[7]->reference, second_lap_);
+  EXPECT_GT(queries_until_decided(), 0);
   expect_true(places_.decided());
 }
 

@@ -202,6 +202,15 @@ TEST_F(KeyframeGraphTest, AGroupThatFitsMovesTheGraphToItself) {
   EXPECT_EQ(graph_.state(), GraphState::kSettled);
 }
 
+TEST_F(KeyframeGraphTest, PosesThatWereMovedStayMovedWhereAClosureNoLongerCounts) {
+  fly(400);
+  const FactorId refuted = graph_.add_closure(closure_to(300, 0.0));
+  const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(396, 0.5), closure_to(399, 0.5)};
+  ASSERT_TRUE(graph_.accommodate(group, keyframe_id(200)));
+  graph_.disable(refuted);
+  EXPECT_EQ(graph_.state(), GraphState::kMoved);
+}
+
 TEST_F(KeyframeGraphTest, AGroupThatContradictsTheMotionIsRefused) {
   fly(20);
   const std::vector<RelativePoseFactor<KeyframeId>> group{closure_to(17, 3.0), closure_to(19, 3.0)};
