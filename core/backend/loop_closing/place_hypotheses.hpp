@@ -60,7 +60,7 @@ class PlaceHypotheses {
   /// cannot be accepted, or if it is the one that was.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
   /// The likeliest was accepted: from now on it lies where the graph has the travel. `T_path_keyframe` of
-  /// later queries must not follow it there.
+  /// later queries must not follow it there. Precondition of this and the next: there is one.
   void accept_likeliest();
   /// The accepted one leads by the evidence for two decisions.
   [[nodiscard]] bool is_beyond_doubt() const;
