@@ -502,6 +502,16 @@ TEST_F(PlaceHypothesesTest, OneThatWasAcceptedIsBeyondDoubtOnceItLeadsByTwoDecis
   EXPECT_LT(more, 4) << "a query gives five of the seven nats of a decision";
 }
 
+TEST_F(PlaceHypothesesTest, OneThatWasAcceptedLiesWhereTheGraphHasTheTravel) {
+  begin_nowhere(100.0);
+  ASSERT_GT(queries_until_decided(), 0);
+  accept(Pose2());
+  for (KeyframeId k = newest_ + 1; k <= run_.newest(); ++k)  // closures have corrected the graph since
+    (*path_)[k] = Pose2(1.0, 1.0, 0.0) * path()[k];
+  take_queries(3);
+  EXPECT_TRUE(places_.is_beyond_doubt());
+}
+
 /// The corridor stands on the map twice, 40 m apart, flown in two laps.
 class PlaceHypothesesOfTwoAlikeTest : public PlaceHypothesesTest {
  protected:
