@@ -29,7 +29,7 @@ struct TrackingFigures {
   double contradicting_share = 0.0;    ///< of about the last fifty returns on older ground
   std::uint64_t returns_compared = 0;  ///< with older ground, since the start
   std::uint64_t times_uncertain = 0;   ///< since the start
-  std::uint32_t places_weighed = 0;    ///< while the place is unknown
+  std::uint32_t places_weighed = 0;    ///< until the place is beyond doubt
   double way_since_closure_m = 0.0;    ///< travelled since the newest closure that holds, or since the start
   double way_unplaced_m = 0.0;         ///< travelled since motion was not watched, until placed
 };

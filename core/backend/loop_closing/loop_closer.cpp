@@ -142,7 +142,7 @@ std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, Key
   for (const LoopClosure& closure : found.confirmed) accept(closure, graph);
   if (unplaced_since_) {
     place_travel(found.tentative, T_local_keyframe, graph);
-  } else if (provisional_since_) {
+  } else if (provisional_) {
     weigh_on(T_local_keyframe, graph);
   }
   return static_cast<std::uint32_t>(closures_.size() - before);
@@ -206,12 +206,12 @@ void LoopCloser::place_travel(std::span<const LoopClosure> matches, const Keyfra
 /// twin gains all that is seen until beams meet its walls where the true ground is open.
 void LoopCloser::weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
   const KeyframeId newest = chain_->all().last_id();
-  for (KeyframeId k = T_path_keyframe_.end_id(); k <= newest; ++k)
-    T_path_keyframe_.push_back(T_path_keyframe_[k - 1] *
-                               between(T_local_keyframe[k - 1], T_local_keyframe[k]));
+  KeyframePoses& T_path = provisional_->T_path_keyframe;
+  for (KeyframeId k = T_path.end_id(); k <= newest; ++k)
+    T_path.push_back(T_path[k - 1] * between(T_local_keyframe[k - 1], T_local_keyframe[k]));
   const std::optional<ScanRange> recent = recent_scans();
-  if (!recent || !places_.add_query(newest, *recent, submaps_before(*provisional_since_), graph.graph(),
-                                    T_local_keyframe, T_path_keyframe_))
+  if (!recent || !places_.add_query(newest, *recent, submaps_before(provisional_->since), graph.graph(),
+                                    T_local_keyframe, T_path))
     return;
   if (places_.is_beyond_doubt()) return forget_places();
   replace_place(places_.decided(), graph);
@@ -219,7 +219,7 @@ void LoopCloser::weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& 
 
 void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
   suspended_since_.reset();
-  provisional_since_.reset();
+  provisional_.reset();
   places_.begin_again(pruned);
   stop_searching();
 }
@@ -270,7 +270,7 @@ void LoopCloser::accept(LoopClosure closure, KeyframeGraph& graph) {
 void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
   if (decided.empty() || !graph.accommodate(factors_of(decided), watched_since_)) return;
   for (LoopClosure& closure : closures_.values())
-    if (closure.from < *provisional_since_ && closure.to >= *provisional_since_ && !closure.dropped)
+    if (closure.from < provisional_->since && closure.to >= provisional_->since && !closure.dropped)
       drop(closure, graph);
   contact_.reset();
   places_.accept_likeliest();
@@ -280,7 +280,8 @@ void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGra
 /// False: it does not fit into the graph, which is as it was. The contact is with the map before it moved.
 bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
   if (decided.empty()) return true;
-  KeyframePoses T_map_before = graph.T_map_keyframe();
+  std::optional<Provisional> placed;
+  if (unplaced_by_ == UnplacedBy::kRestart) placed = {*unplaced_since_, graph.T_map_keyframe()};
   const std::optional<Contact> contact_before = contact_;
   // Travel does not tell how long ago the old contact was: it does not grow across a break.
   if (unplaced_by_ != UnplacedBy::kContradiction) contact_.reset();
@@ -289,14 +290,13 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
     contact_ = contact_before;
     return false;
   }
-  if (unplaced_by_ == UnplacedBy::kRestart) {
-    provisional_since_ = unplaced_since_;
-    T_path_keyframe_ = std::move(T_map_before);
+  if (placed) {
     places_.accept_likeliest();
     stop_searching();
   } else {
     forget_places();
   }
+  provisional_ = std::move(placed);
   unplaced_since_.reset();
   for (const LoopClosure& closure : decided)
     if (!is_closed(closure)) accept(closure, graph);
@@ -341,6 +341,11 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
   });
   if (contact_ && pruned.contains(contact_->since)) contact_.reset();
   forget_places(pruned);
+}
+
+std::optional<KeyframeId> LoopCloser::provisional_since() const {
+  if (!provisional_) return std::nullopt;
+  return provisional_->since;
 }
 
 std::optional<KeyframeId> LoopCloser::open_since() const {

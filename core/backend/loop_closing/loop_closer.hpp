@@ -84,13 +84,18 @@ class LoopCloser {
   /// With unplaced_since().
   [[nodiscard]] UnplacedBy unplaced_by() const { return unplaced_by_; }
   /// The travel from this restart on was placed, and may yet lie elsewhere.
-  [[nodiscard]] std::optional<KeyframeId> provisional_since() const { return provisional_since_; }
+  [[nodiscard]] std::optional<KeyframeId> provisional_since() const;
   /// The travel is unplaced or provisional.
-  [[nodiscard]] bool weighs_places() const { return unplaced_since_ || provisional_since_; }
+  [[nodiscard]] bool weighs_places() const { return unplaced_since_ || provisional_; }
   /// Places that are weighed then, the one without any move included.
   [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
 
  private:
+  /// Travel that was placed, and may yet lie elsewhere.
+  struct Provisional {
+    KeyframeId since{};
+    KeyframePoses T_path_keyframe;  ///< as if it had not been placed
+  };
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before(KeyframeId since) const;
   [[nodiscard]] std::optional<ScanRange> recent_scans() const;
   [[nodiscard]] KeyframeId watched_since() const;
@@ -129,8 +134,7 @@ class LoopCloser {
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
   KeyframeId watched_since_{};     // motion to there is not known or is a guess: the newest break
   bool place_is_refused_ = false;  // by the graph, since the newest query
-  std::optional<KeyframeId> provisional_since_;
-  KeyframePoses T_path_keyframe_;              // with it: as if the travel had not been placed
+  std::optional<Provisional> provisional_;
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...
   double suspended_at_m_ = 0.0;                // ... and the travel at its end
   LoopCloserCounters counters_;
