@@ -30,10 +30,11 @@ class SensorErrorsPage(unittest.TestCase):
 
     def test_what_the_truth_leads_to_stands_beside_the_map(self):
         rows = [(wanted.Run(seed, without), {"odometry_m": 2.0, "final_m": 0.5, "from_truth_m": 0.25,
-                                             "final_misfit": 10.0, "from_truth_misfit": misfit})
+                                             "on_true_walls_m": 0.2, "final_misfit": 10.0, "from_truth_misfit": misfit})
                 for without in ("", "floors") for seed, misfit in ((0, 9.0), (1, 11.0), (2, 10.0))]
-        self.assertEqual(page.table_from_truth(rows).splitlines()[-2:], [
-            "| `floors` | as mapped | 0.250 | 0.250 | 0 |", "| `floors` | from the truth | 0.125 | 0.125 | 0 |"])
+        self.assertEqual(page.table_from_truth(rows).splitlines()[-3:], [
+            "| `floors` | as mapped | 0.250 | 0.250 | 0 |", "| `floors` | from the truth | 0.125 | 0.125 | 0 |",
+            "| `floors` | from the truth, on true walls | 0.100 | 0.100 | 0 |"])
         self.assertEqual(page.preferred(rows), "1 of 3")
         self.assertEqual([run.without for run in wanted.runs_from_truth(range(1))], ["", "floors"])
 

@@ -43,8 +43,22 @@ PosesAndWalls::PosesAndWalls(RigidNodes nodes, std::vector<ScanHit> hits, PoseKn
 }
 
 void PosesAndWalls::associate() {
-  solver_.reset();  // before patches are found: both take much memory
+  forget_equations();  // before patches are found: both take much memory
+  const std::vector<DrawnReturn> returns = drawn();
+  take(find_patches(returns), returns);
+}
+
+void PosesAndWalls::associate_with(const WallPatches& found) {
+  forget_equations();
+  take(found, drawn());
+}
+
+void PosesAndWalls::forget_equations() {
+  solver_.reset();
   H_.reset();
+}
+
+std::vector<DrawnReturn> PosesAndWalls::drawn() const {
   std::vector<DrawnReturn> drawn;
   drawn.reserve(hits_.size());
   Pose2 T;  // of the hit's scan; the hits of one follow each other
@@ -55,7 +69,10 @@ void PosesAndWalls::associate() {
     const double range_m = std::hypot(hit.p_body.x_m, hit.p_body.y_m);
     drawn.push_back({p, {(p.x_m - T.x_m()) / range_m, (p.y_m - T.y_m()) / range_m}});
   }
-  const WallPatches found = find_patches(drawn);
+  return drawn;
+}
+
+void PosesAndWalls::take(const WallPatches& found, std::span<const DrawnReturn> drawn) {
   patches_.clear();
   for (const WallPatch& patch : found.patches) patches_.push_back({patch, 0.0, 0.0});
   find_sights(found, drawn);

@@ -61,6 +61,8 @@ class PosesAndWalls {
 
   /// Finds the patches anew, at the present poses.
   void associate();
+  /// The same with patches that were found otherwise, of the returns as drawn() has them.
+  void associate_with(const WallPatches& found);
   /// One Gauss-Newton step over all unknowns. Errors: kSolver; all is then as it was.
   Status step();
   /// From the next associate() on, what the floor does to dead reckoning is unknown, too.
@@ -69,6 +71,9 @@ class PosesAndWalls {
   void scale_position_noise(double scale) { position_noise_scale_ = scale; }
 
   [[nodiscard]] const RigidNodes& nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const ScanHit> hits() const { return hits_; }
+  /// The hits at the present poses. Allocates.
+  [[nodiscard]] std::vector<DrawnReturn> drawn() const;
   [[nodiscard]] std::span<const Pose2> T_map_node() const { return T_map_node_; }
   [[nodiscard]] const SystematicErrors& errors() const { return errors_; }
   [[nodiscard]] const std::optional<FloorField>& floor() const { return floor_; }
@@ -131,7 +136,9 @@ class PosesAndWalls {
   }
   [[nodiscard]] WallRow wall_row(const WallReturn& wall) const;
   [[nodiscard]] MotionRow motion_row(std::size_t to) const;
+  void forget_equations();
   [[nodiscard]] WallPatches find_patches(std::span<const DrawnReturn> drawn) const;
+  void take(const WallPatches& found, std::span<const DrawnReturn> drawn);
   void find_sights(const WallPatches& found, std::span<const DrawnReturn> drawn);
   void find_floor_sights();
   [[nodiscard]] NodePatchMatrix matrix() const;

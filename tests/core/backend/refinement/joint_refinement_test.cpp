@@ -218,6 +218,26 @@ TEST(JointRefinement, HeldOutReturnsHaveNoSay) {
   EXPECT_TRUE(same_bits(refined(0.0), refined(0.5)));
 }
 
+TEST(JointRefinement, ReturnsCanBeToldTheirPatches) {
+  Flight flight = fly({}, true_pose);
+  const auto solve = [&](bool is_told, std::size_t returns) {
+    const auto problem = joint_problem(flight.scans.all().values(), flight.sensor, flight.returns, {},
+                                       BackendTuning(), flight.factors, flight.T_map_body);
+    const std::vector<DrawnReturn> drawn = problem->drawn();
+    EXPECT_EQ(drawn.size(), problem->hits().size());
+    WallPatches found = find_wall_patches(drawn);
+    for (std::size_t k = returns; k < drawn.size(); ++k) found.patch_of[k] = WallPatches::kNone;
+    if (is_told)
+      problem->associate_with(found);
+    else
+      problem->associate();
+    EXPECT_TRUE(problem->step());
+    return path_of(*problem, flight.T_map_body.front());
+  };
+  EXPECT_TRUE(same_bits(solve(true, SIZE_MAX), solve(false, 0)));
+  EXPECT_FALSE(same_bits(solve(true, flight.returns.size() / 2), solve(false, 0)));
+}
+
 TEST(JointRefinement, ARunIsRepeatedBitForBit) {
   Flight once = fly({.age_s = 0.02, .forward_scale = 1.02}, true_pose);
   Flight again = once;
