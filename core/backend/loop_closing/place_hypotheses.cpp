@@ -220,11 +220,14 @@ bool PlaceHypotheses::add_query(KeyframeId query, const ScanRange& recent,
   return true;
 }
 
+/// What told hypotheses apart stays with them. One that comes later counts as if it had explained the query
+/// as well as the likeliest.
 void PlaceHypotheses::forget_oldest() {
   const KeyframeId oldest = queries_.front().id;
   queries_.pop_front();
+  const double of_likeliest = hypotheses_.front().log_likelihoods.front();
   for (Hypothesis& h : hypotheses_) {
-    h.log_odds -= h.log_likelihoods.front();
+    h.log_odds -= of_likeliest;
     h.log_likelihoods.erase(h.log_likelihoods.begin());
     std::erase_if(h.matches, [&](const LoopClosure& match) { return match.to == oldest; });
   }

@@ -78,7 +78,7 @@ class PlaceHypotheses {
   };
   struct Hypothesis {
     Pose2 T_map_path;
-    double log_odds = 0.0;                // prior, and the sum of
+    double log_odds = 0.0;                // prior and evidence; of forgotten queries less the likeliest's
     std::vector<double> log_likelihoods;  // by query
     std::vector<LoopClosure> matches;     // with the queries that show known walls
     bool is_accepted = false;

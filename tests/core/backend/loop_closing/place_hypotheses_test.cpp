@@ -32,6 +32,7 @@ using testing::Contains;
 using testing::Each;
 using testing::Field;
 using testing::Ge;
+using testing::Gt;
 using testing::IsEmpty;
 using testing::SizeIs;
 using testing::Truly;
@@ -551,6 +552,18 @@ TEST_F(PlaceHypothesesOfTwoAlikeTest, ATurnIsLikelierThanToHaveMovedFar) {
 TEST_F(PlaceHypothesesOfTwoAlikeTest, AreDecidedWhereOneOfThemIsNotMapped) {
   map(KeyframeId{}, second_lap_);
   EXPECT_GT(queries_until_decided_between_both(), 0);
+  expect_true(places_.decided());
+}
+
+TEST_F(PlaceHypothesesOfTwoAlikeTest, WhatToldThemApartIsNotForgotten) {
+  config_.tuning.places.max_queries = 4;
+  const auto both = submaps_;
+  map(KeyframeId{}, second_lap_);
+  ASSERT_GT(queries_until_decided_between_both(), 0);
+  const KeyframeId last_that_tells = newest_;
+  submaps_ = both;
+  take_queries(4);
+  EXPECT_THAT(places_.decided(), AllOf(SizeIs(4), Each(Field(&LoopClosure::to, Gt(last_that_tells)))));
   expect_true(places_.decided());
 }
 
