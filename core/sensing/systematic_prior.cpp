@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/sensing/systematic_prior.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace swiftlet {
@@ -31,6 +32,11 @@ SystematicCovariance covariance_of(const SystematicPrior& prior, bool has_wheels
   variance(SystematicError::kSidewaysScale, std::hypot(prior.scale, prior.scales_apart));
   set(SystematicError::kForwardScale, SystematicError::kSidewaysScale, prior.scale * prior.scale);
   return covariance;
+}
+
+SystematicCovariance information_of(const SystematicCovariance& prior) {
+  constexpr double kNoVariance = 1e-18;
+  return (prior + kNoVariance * SystematicCovariance::Identity()).inverse();
 }
 
 }  // namespace swiftlet

@@ -26,4 +26,7 @@ struct SystematicPrior {
 /// Zero where an error is none: wheels do not move sideways.
 [[nodiscard]] SystematicCovariance covariance_of(const SystematicPrior& prior, bool has_wheels);
 
+/// The inverse; an error that is none is held.
+[[nodiscard]] SystematicCovariance information_of(const SystematicCovariance& prior);
+
 }  // namespace swiftlet

@@ -3,7 +3,6 @@
 #include "core/backend/refinement/dead_reckoning_misfit.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cstddef>
 
 #include "core/backend/pose_graph/pose_graph.hpp"
@@ -11,10 +10,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr int kSteps = 3;              // of Gauss-Newton: nearly linear, but for the weights
-constexpr double kNoVariance = 1e-12;  // of an error that is none
-
-using ErrorsMatrix = Eigen::Matrix<double, kSystematicErrors, kSystematicErrors>;
+constexpr int kSteps = 3;  // of Gauss-Newton: nearly linear, but for the weights
 
 struct Motion : NodeError {
   Eigen::Vector3d information;
@@ -32,11 +28,11 @@ Motion motion_to(const RigidNodes& nodes, std::size_t node, std::span<const Pose
 
 double dead_reckoning_misfit(RigidNodes nodes, const SystematicCovariance& prior,
                              std::span<const Pose2> T_map_body, double dcs_phi) {
-  const ErrorsMatrix prior_information = (prior + kNoVariance * ErrorsMatrix::Identity()).inverse();
+  const SystematicCovariance prior_information = information_of(prior);
   SystematicErrors errors = SystematicErrors::Zero();
   for (int step = 0;; ++step) {
     nodes.reckon(errors);
-    ErrorsMatrix information = prior_information;
+    SystematicCovariance information = prior_information;
     SystematicErrors gradient = prior_information * errors;
     double misfit = 0.5 * errors.dot(gradient);
     for (std::size_t node = 1; node < nodes.size(); ++node) {

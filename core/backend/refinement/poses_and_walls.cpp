@@ -3,7 +3,6 @@
 #include "core/backend/refinement/poses_and_walls.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +16,6 @@ namespace swiftlet {
 namespace {
 
 constexpr double kHeldInformation = 1e12;  // of the first node
-constexpr double kNoVariance = 1e-18;      // of an error that is none
 
 std::vector<Pose2> poses_of_nodes(const RigidNodes& nodes, std::span<const Pose2> T_map_body) {
   std::vector<Pose2> T_map_node;
@@ -34,7 +32,7 @@ PosesAndWalls::PosesAndWalls(RigidNodes nodes, std::vector<ScanHit> hits, PoseKn
       nodes_(std::move(nodes)),
       hits_(std::move(hits)),
       known_(std::move(known)),
-      prior_information_((prior + kNoVariance * ErrorsMatrix::Identity()).inverse()),
+      prior_information_(information_of(prior)),
       min_wall_sigma_m_(min_wall_sigma_m),
       wall_sigma_m_(min_wall_sigma_m),
       T_map_node_(poses_of_nodes(nodes_, T_map_body)) {
