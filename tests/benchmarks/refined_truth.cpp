@@ -4,7 +4,7 @@
 // What the final refinement could give at best: a simulated flight is mapped as `swiftlet map` does, and the
 // refinement is begun again at the true path, with nothing else of the run. Where that ends is left to the
 // ranges and the dead reckoning; a better search for the path would hardly help there. Then once more with
-// the walls that each return is on known, too: no better way to find walls would lead beyond. JSON with the
+// the wall of each return known, too: a better way to find walls would hardly lead beyond. JSON with the
 // errors and how well the paths explain the ranges. For tools/benchmark-sensor-errors.
 #include <cstdio>
 #include <exception>
