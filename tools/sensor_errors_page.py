@@ -99,8 +99,9 @@ measured and to how the refinement weighs it. A better search for the path, for 
 lead beyond. Where the floors are spared, the path from the truth explains the ranges better than that of the map does
 in {preferred(report["from_truth"])} flights; half of them would mean that the ranges do not tell the two apart.
 
-"On true walls": beside the true path it is known which face of which wall each return is on, and that walls are
-straight; where they stand is not, and floors are unknowns. A better way to find walls would hardly lead beyond.
+"On true walls": beside the true path it is known which face of which wall each return is on, if on any, that walls are
+straight, and about where short ones point; where they stand is not known, and floors are unknowns. A better way to find
+walls would hardly lead beyond.
 
 {table_from_truth(report["from_truth"])}
 """
