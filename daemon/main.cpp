@@ -19,6 +19,7 @@
 #include "daemon/system/log_file.hpp"
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/system/terminal.hpp"
+#include "daemon/system/thread_setup.hpp"
 #include "daemon/version.hpp"
 
 namespace swiftlet {
@@ -52,6 +53,7 @@ int run(const Options& options) {
 int main_without_exceptions(int argc, char** argv) {
   outlive_readers();
   take_file_size_limit_as_error();
+  keep_freed_memory();
   Options options;
   CLI::App app("swiftletd: maps a building live from four range beams, and publishes over LCM");
   app.name("swiftletd");

@@ -20,6 +20,7 @@
 #include "daemon/manual/page_option.hpp"
 #include "daemon/outputs/output_directory.hpp"
 #include "daemon/system/named_file.hpp"
+#include "daemon/system/thread_setup.hpp"
 #include "daemon/version.hpp"
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/simulation/address.hpp"
@@ -422,6 +423,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   swiftlet::take_file_size_limit_as_error();
+  swiftlet::keep_freed_memory();
   try {
     const int exit_code = run(argc, argv);
     const std::optional<std::string> failure = swiftlet::output_failure();

@@ -3,6 +3,7 @@
 #include "daemon/system/thread_setup.hpp"
 
 #include <linux/capability.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -60,6 +61,14 @@ Status lock_memory() {
   // Whole stacks of threads to come would be read in without this.
   if (::mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) return refused("locked memory", errno);
   return {};
+}
+
+void keep_freed_memory() noexcept {
+  constexpr int kMiB = 1024 * 1024;
+  // Smaller blocks were mapped one by one (128 KiB are enough for that by default), larger ones still are, so
+  // that they leave no holes behind.
+  static_cast<void>(::mallopt(M_MMAP_THRESHOLD, 4 * kMiB));
+  static_cast<void>(::mallopt(M_TRIM_THRESHOLD, 32 * kMiB));
 }
 
 void yield_to_others() noexcept {

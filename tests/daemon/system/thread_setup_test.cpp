@@ -4,11 +4,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/resource.h>
 
 #include <atomic>
+#include <cstddef>
 #include <thread>
+#include <vector>
 
 namespace swiftlet {
 namespace {
@@ -85,6 +88,22 @@ TEST(ThreadSetup, ATouchedStackHasNoPageMissing) {
     prefault_stack();
     ASSERT_EQ(getrusage(RUSAGE_THREAD, &after), 0);
     EXPECT_LT(after.ru_minflt - before.ru_minflt, 16) << "of 64 pages";
+  });
+}
+
+TEST(ThreadSetup, FreedMemoryStaysWithTheProcess) {
+  if (mallopt(M_MXFAST, 64) == 0) GTEST_SKIP() << "a sanitizer's allocator";
+  keep_freed_memory();
+  std::jthread([] {
+    constexpr std::size_t kBytes = 3 * 1024 * 1024;
+    const auto touched = [] { return std::vector<std::byte>(kBytes).size(); };
+    ASSERT_EQ(touched(), kBytes);
+    rusage before{};
+    rusage after{};
+    ASSERT_EQ(getrusage(RUSAGE_THREAD, &before), 0);
+    ASSERT_EQ(touched(), kBytes);
+    ASSERT_EQ(getrusage(RUSAGE_THREAD, &after), 0);
+    EXPECT_LT(after.ru_minflt - before.ru_minflt, 16) << "of 768 pages";
   });
 }
 
