@@ -16,7 +16,7 @@ import whole_runs
 BUILDINGS = range(1000, 1100)  # seeds that nothing was set on
 HEALTHY_WORLDS = ["office", "maze", "corridors", "loop", "wings"]
 HEALTHY_SEEDS = 27  # of each world; with the buildings more than 20 hours
-FAULTS = [fault_runs.Fault("jump", 20), fault_runs.Fault("jump", 30), fault_runs.Fault("slip", 6),
+FAULTS = [fault_runs.Fault("turn", 20), fault_runs.Fault("turn", 30), fault_runs.Fault("slip", 6),
           fault_runs.Fault("teleport", 20)]
 FAULT_SEEDS = 10
 FLIGHTS = [f"vicon/{name}" for name in ("exp1_two_d0", "exp1_two_d1", "exp1_four_d0", "exp1_four_d1", "exp1_four_d2",

@@ -88,11 +88,13 @@ def document(report):
     return f"""{page.head("Breaks of motion", "benchmark-faults", report)}
 Simulated flights whose dead reckoning breaks {at_s} s after the first sample, or {early_s} s, when most of the world is
 unknown still, seeds 1 to {report['seeds']}:
-`swiftlet map 'sim://office?seed=1&fault=carried@{at_s}:60' -o out`. Amounts are in seconds, of a `jump` in degrees. In
-a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in flight, a `restart` the
-vehicle where it is; one that was `carried` restarts where it would have been by then. A `silence` behind that comes
-before the place can have been found. Nothing tells of a `jump` of the heading, of a `slip` (the estimate stays while the
-vehicle flies on) and of a `teleport` (it is carried and the estimate goes on). In `{fault_runs.STOREYS}` the vehicle
+`swiftlet map 'sim://office?seed=1&fault=carried@{at_s}:60' -o out`. Amounts are in seconds, of a `jump` and a
+`turn` in degrees. In a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in
+flight, a `restart` the vehicle where it is; one that was `carried` restarts where it would have been by then. A
+`silence` behind that comes before the place can have been found. In a `jump` the heading of the estimate is elsewhere
+from one sample to the next, which [no vehicle can fly](../algorithm.md#motion-and-its-error-13-14). Nothing tells of a
+`turn` (the same within two seconds), of a `slip` (the estimate stays while the vehicle flies on) and of a `teleport`
+(it is carried and the estimate goes on). In `{fault_runs.STOREYS}` the vehicle
 flies up the stairs of a house and back: the floors must not be mixed.
 {page.EASIER_SENSOR}
 
@@ -111,7 +113,7 @@ run that did not say so counts as longer than any ("never").
 {tables(report)}
 ## Known not to work
 
-Nothing tells of jumps of the heading, slips and teleports. They are noticed where what is seen contradicts the older map
+Nothing tells of turns of the estimate, slips and teleports. They are noticed where what is seen contradicts the older map
 ([how often](confidence.md)): not on new ground. A turn that is noticed is mostly found, a slip by the loops that are closed.
 A vehicle that was carried unseen over more than 6 m, or to new ground, is drawn where its estimate has it, bent or apart,
 as the final errors show; the error of a slip also holds the stretch over which the estimate stood still.

@@ -33,7 +33,7 @@ GAP_S = 1.0  # between moments: old ground was out of reach
 @dataclasses.dataclass(frozen=True)
 class Fault:
     kind: str  # of `sim://`; or none
-    amount: int | None = None  # s, or deg of a jump
+    amount: int | None = None  # s, or deg of a jump or turn
     silent_after_s: int | None = None  # after the end of the break, for SHORT_SILENCE_S
     at_s: int = BREAK_S
 
@@ -47,7 +47,7 @@ class Fault:
 
     def is_told(self):
         """Whether the input shows that motion broke. A flight without a break counts, for comparison."""
-        return self.kind in ("none", "silence", "reset", "restart", "carried")
+        return self.kind in ("none", "silence", "reset", "restart", "carried", "jump")
 
     def end_s(self):
         """After the first sample, by the stamps of the files: what a restart takes is not in them as flight."""
@@ -57,7 +57,7 @@ class Fault:
 FAULTS = [Fault("none"), Fault("silence", 20), Fault("silence", 31), Fault("silence", 60), Fault("reset"),
           Fault("restart", 60), Fault("restart", 60, at_s=EARLY_S), Fault("carried", 30), Fault("carried", 60),
           Fault("carried", 60, silent_after_s=4), Fault("jump", 10), Fault("jump", 20),
-          Fault("jump", 30), Fault("slip", 6), Fault("teleport", 20)]
+          Fault("jump", 30), Fault("turn", 20), Fault("turn", 30), Fault("slip", 6), Fault("teleport", 20)]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -64,6 +64,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.max_range_m = config.sensor.max_range_m;
   options.min_range_m = config.sensor.min_range_m;
   options.range_age = range_age_of(config);
+  options.mends_heading = !command.odometry_only;
   Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
   if (!source) return source;
   return with_signs(std::move(source).value(), signs);
@@ -91,7 +92,7 @@ Result<PreparedRun> read_first(const MapCommand& command, const Configuration& c
   if (!command.calibrate || command.odometry_only) return run;
   run.calibration = calibrate_first(*run.source, run.config, stop);
   if (stop.stop_requested()) return stopped_error(command.input);
-  if (signs == LostSigns::kMendedIfLikely && run.source->mended().empty())
+  if (signs == LostSigns::kMendedIfLikely && prior_cost(run.source->mended()) == 0.0)
     run.signs = LostSigns::kMendedIfSure;
   if (Status again = reopen(command, run); !again) return again.error();
   return run;
@@ -118,9 +119,9 @@ Result<PreparedRun> choose_signs(const MapCommand& command, PreparedRun mended, 
   if (!with_mended) return with_mended.error();
   const Result<std::optional<double>> as_reported = misfit_of(command, reported, stop);
   if (!as_reported) return as_reported.error();
-  const std::vector<MendedPositions> changes = mended.source->mended();
+  const double signs_cost = prior_cost(mended.source->mended());
   const bool is_better =
-      !changes.empty() && *with_mended && *as_reported && **as_reported - **with_mended > prior_cost(changes);
+      signs_cost > 0.0 && *with_mended && *as_reported && **as_reported - **with_mended > signs_cost;
   PreparedRun chosen = std::move(is_better ? mended : reported);
   if (!is_better)
     chosen.notes.emplace_back(

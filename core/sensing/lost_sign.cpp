@@ -34,18 +34,10 @@ Point2 forward_step(const Pose2& T_odom_from, const Pose2& motion) {
 
 }  // namespace
 
-Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp, const Pose2& T_mended) {
-  const auto after = std::upper_bound(mended.begin(), mended.end(), stamp,
-                                      [](HostTime at, const MendedPositions& m) { return at < m.since; });
-  if (after == mended.begin()) return T_mended;
-  const Point2 p = T_mended.position() - std::prev(after)->offset;
-  return {p.x_m, p.y_m, T_mended.yaw_rad()};
-}
-
-double prior_cost(std::span<const MendedPositions> mended, const LostSignTuning& tuning) {
+double prior_cost(std::span<const MendedOdometry> mended, const LostSignTuning& tuning) {
   double cost = 0.0;
   bool was_reversed = false;
-  for (const MendedPositions& m : mended)
+  for (const MendedOdometry& m : mended)
     if (std::exchange(was_reversed, m.reversed) != m.reversed)
       cost += m.reversed ? tuning.begin_cost : tuning.end_cost;
   return cost;
@@ -339,7 +331,7 @@ void LostSign::mend(RangeSample& sample, bool reversed) {
     reversed_m_ += length(motion.position());
   }
   if (reversed || (!mended_.empty() && mended_.back().reversed))
-    mended_.push_back({sample.stamp, offset_, reversed});
+    mended_.push_back({sample.stamp, Pose2(offset_.x_m, offset_.y_m, 0.0), reversed});
   T_odom_taken_ = T_odom_body;
   if (mended_.empty()) return;
   const Point2 p = offset_ + T_odom_body.position();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
+#include "core/sensing/mended_odometry.hpp"
 #include "core/sensing/range_sample.hpp"
 #include "core/sensing/sensor_model.hpp"
 
@@ -55,18 +56,9 @@ struct LostSignTuning {
   }
 };
 
-/// Positions of samples stamped `since` and later, up to the next record: mended less reported.
-struct MendedPositions {
-  HostTime since{};
-  Point2 offset;
-  bool reversed = false;  ///< the step to the first of them
-};
-/// The reverse: the pose as the odometry reported it. `mended` in order of time; empty where nothing was.
-[[nodiscard]] Pose2 as_reported(std::span<const MendedPositions> mended, HostTime stamp,
-                                const Pose2& T_mended);
 /// What these changes of sign cost beforehand, nats: a map made with them has to explain that much more than
 /// one without.
-[[nodiscard]] double prior_cost(std::span<const MendedPositions> mended, const LostSignTuning& tuning = {});
+[[nodiscard]] double prior_cost(std::span<const MendedOdometry> mended, const LostSignTuning& tuning = {});
 
 /// Mends odometry that reports every way as forward (wheel counters without a direction, firmware that takes
 /// the absolute value): decides from the ranges, with look-ahead, over which stretches the part of each step
@@ -89,7 +81,7 @@ class LostSign {
 
   /// The way that was taken as reversed, among the samples taken so far.
   [[nodiscard]] double reversed_m() const { return reversed_m_; }
-  [[nodiscard]] const std::vector<MendedPositions>& mended() const { return mended_; }
+  [[nodiscard]] const std::vector<MendedOdometry>& mended() const { return mended_; }
   /// For "signs are lost" against "as reported", so far, of all stretches together.
   [[nodiscard]] double evidence() const;
 
@@ -179,7 +171,7 @@ class LostSign {
   std::optional<Pose2> T_odom_taken_;
   double reversed_m_ = 0.0;
   Point2 offset_;  // mended less reported position
-  std::vector<MendedPositions> mended_;
+  std::vector<MendedOdometry> mended_;
 
   template <typename Visitor>
   void for_each_path(Visitor visit) {

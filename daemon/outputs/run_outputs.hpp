@@ -46,7 +46,7 @@ struct RunView {
   std::string input_uri;
   SensorModel sensor;                             ///< as used: with the configuration's overrides
   std::optional<InputCalibration> calibration{};  ///< by the input itself, where one was made
-  std::vector<MendedPositions> mended{};          ///< where the backend's dead reckoning is not as reported
+  std::vector<MendedOdometry> mended{};           ///< where the backend's dead reckoning is not as reported
   const PrunedScans* pruned = nullptr;            ///< where the backend may have pruned scans
   std::optional<KnownPlaceError> known_places{};  ///< of the poses published, where somebody kept them
   std::optional<RunConsistency> consistency{};    ///< likewise

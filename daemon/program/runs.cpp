@@ -69,6 +69,7 @@ Status write_outputs(const Outputs* outputs, const Options& options, const Confi
                                     .truth = source.ground_truth(),
                                     .input_uri = options.input_uri,
                                     .sensor = config.sensor.applied_to(source.sensor()),
+                                    .mended = source.mended(),
                                     .pruned = &outputs->pruned,
                                     .places = places,
                                     .peak_memory_mb = peak_memory_mb()});

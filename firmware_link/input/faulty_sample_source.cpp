@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/input/faulty_sample_source.hpp"
 
+#include <utility>
+
 #include "core/base/settings.hpp"
 #include "core/geometry/angle.hpp"
 
@@ -14,7 +16,11 @@ bool hides_samples(MotionFaultKind kind) {
          kind == MotionFaultKind::kTeleport;
 }
 
-bool lasts(MotionFaultKind kind) { return hides_samples(kind) || kind == MotionFaultKind::kSlip; }
+Duration lasts_for(const MotionFault& fault) {
+  if (fault.kind == MotionFaultKind::kYawTurn) return kYawTurnTime;
+  const bool lasts = hides_samples(fault.kind) || fault.kind == MotionFaultKind::kSlip;
+  return lasts ? from_seconds(fault.amount) : Duration::zero();
+}
 
 }  // namespace
 
@@ -39,10 +45,17 @@ void FaultySampleSource::begin(const MotionFault& fault, RangeSample& sample) {
     case MotionFaultKind::kSlip:
       break;
     case MotionFaultKind::kYawJump:
-      T_fault_odom_ = T_fault_odom_ * sample.T_odom_body * Pose2(0.0, 0.0, radians(fault.amount)) *
-                      sample.T_odom_body.inverse();
+    case MotionFaultKind::kYawTurn:
+      turn_to(radians(fault.amount), sample.T_odom_body);
+      turned_rad_ = 0.0;
       break;
   }
+}
+
+/// So far altogether, by the fault that turns the estimate now.
+void FaultySampleSource::turn_to(double turned_rad, const Pose2& T_odom_body) {
+  const Pose2 turn(0.0, 0.0, turned_rad - std::exchange(turned_rad_, turned_rad));
+  T_fault_odom_ = T_fault_odom_ * T_odom_body * turn * T_odom_body.inverse();
 }
 
 /// Into the estimate as the faults have left it.
@@ -51,6 +64,9 @@ void FaultySampleSource::place(RangeSample& sample) {
   if (lasting_ && lasting_->kind == MotionFaultKind::kSlip) {
     const Pose2 stays(T_odom_last_.x_m(), T_odom_last_.y_m(), T_odom_body.yaw_rad());
     T_fault_odom_ = T_fault_odom_ * stays * T_odom_body.inverse();
+  } else if (lasting_ && lasting_->kind == MotionFaultKind::kYawTurn) {
+    const Duration since = sample.measured_at - *first_at_ - lasting_->after;
+    turn_to(radians(lasting_->amount) * to_seconds(since) / to_seconds(kYawTurnTime), T_odom_body);
   }
   sample.T_odom_body = T_fault_odom_ * T_odom_body;
   sample.measured_at += added_;
@@ -83,12 +99,9 @@ Result<ReceivedSample> FaultySampleSource::next() {
     const std::size_t number = received_++;
     if (!first_at_) first_at_ = sample.measured_at;
     const Duration at = sample.measured_at - *first_at_;
-    const auto is_over = [&](const MotionFault& fault) {
-      return at >= fault.after + (lasts(fault.kind) ? from_seconds(fault.amount) : Duration::zero());
-    };
     if (!lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after)
       lasting_ = faults_[next_fault_++];
-    if (lasting_ && !is_over(*lasting_)) {
+    if (lasting_ && at < lasting_->after + lasts_for(*lasting_)) {
       if (hides_samples(lasting_->kind)) continue;
     } else if (lasting_) {
       begin(*lasting_, sample);

@@ -41,6 +41,7 @@ class FaultySampleSource final : public SampleSource {
   };
   void begin(const MotionFault& fault, RangeSample& sample);
   void place(RangeSample& sample);
+  void turn_to(double turned_rad, const Pose2& T_odom_body);
 
   std::unique_ptr<SampleSource> flight_;
   std::vector<MotionFault> faults_;
@@ -50,8 +51,9 @@ class FaultySampleSource final : public SampleSource {
   Duration added_{};                    // to all stamps
   std::size_t received_ = 0;            // of the flight's samples
   std::vector<Delivered> delivered_;
-  Pose2 T_fault_odom_;  // what faults have done to the estimate
-  Pose2 T_odom_last_;   // of the last sample, before faults
+  Pose2 T_fault_odom_;       // what faults have done to the estimate
+  double turned_rad_ = 0.0;  // by the fault that lasts
+  Pose2 T_odom_last_;        // of the last sample, before faults
   std::optional<InputReport> report_at_end_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/settings.hpp"
+#include "core/sensing/systematic_motion.hpp"
 #include "firmware_link/capture/followed_link.hpp"
 #include "firmware_link/capture/replay_link.hpp"
 #include "firmware_link/file/input_file.hpp"
@@ -14,6 +15,7 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
+#include "firmware_link/sample/heading_mending_source.hpp"
 #include "firmware_link/sample_table/client_table_link.hpp"
 #include "firmware_link/sample_table/flight_table_source.hpp"
 #include "firmware_link/sample_table/sample_table_source.hpp"
@@ -186,10 +188,8 @@ Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const I
       std::make_unique<FaultySampleSource>(std::move(source), simulation->faults));
 }
 
-}  // namespace
-
-Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
-                                                         const SampleSourceOptions& options) {
+Result<std::unique_ptr<SampleSource>> open_as_reported(const std::string& uri,
+                                                       const SampleSourceOptions& options) {
   const Status checked = check_options(options);
   if (!checked) return checked.error();
   const Result<InputUri> parsed = parse_input_uri(uri);
@@ -199,6 +199,15 @@ Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
   if (parsed->is(InputNature::kFollowed)) return open_followed(parsed->as<InputFile>()->path, options);
   if (const auto* file = parsed->as<InputFile>()) return open_file(file->path, options);
   return open_link(uri, *parsed, options);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
+                                                         const SampleSourceOptions& options) {
+  Result<std::unique_ptr<SampleSource>> source = open_as_reported(uri, options);
+  if (!source || !options.mends_heading || yaw_goes_with_travel((*source)->sensor().odometry)) return source;
+  return std::unique_ptr<SampleSource>(std::make_unique<HeadingMendingSource>(std::move(source).value()));
 }
 
 }  // namespace swiftlet

@@ -10,7 +10,7 @@
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
 #include "core/geometry/stamped_pose.hpp"
-#include "core/sensing/lost_sign.hpp"
+#include "core/sensing/mended_odometry.hpp"
 #include "core/sensing/sensor_model.hpp"
 #include "firmware_link/link/frame_sink.hpp"
 #include "firmware_link/link/udp_address.hpp"
@@ -67,7 +67,7 @@ class SampleSource {
   /// T_world_body at every sample delivered so far, stamped like the sample; empty if the truth is unknown.
   [[nodiscard]] virtual std::vector<StampedPose> ground_truth() const { return {}; }
   /// Where the dead reckoning of the samples delivered so far is not as reported.
-  [[nodiscard]] virtual std::vector<MendedPositions> mended() const { return {}; }
+  [[nodiscard]] virtual std::vector<MendedOdometry> mended() const { return {}; }
 };
 
 /// The note of an input whose beams are as they are, where beam_count is asked for.
@@ -80,6 +80,7 @@ struct SampleSourceOptions {
   std::optional<double> max_range_m;  ///< overrides the sensor model's
   std::optional<double> min_range_m;  ///< overrides the sensor model's
   FrameSink* recording = nullptr;     ///< links only: receives every frame; must outlive the source
+  bool mends_heading = true;          ///< leaps are taken out (HeadingLeaps); false: as reported
   bool may_follow = false;            ///< whether a recording that is still written may be followed
   std::optional<UdpAddress> share;    ///< vehicles only: where a client that shares the link connects
 };

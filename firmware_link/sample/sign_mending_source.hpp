@@ -35,7 +35,9 @@ class SignMendingSource final : public SampleSource {
   }
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override { return recording_->ground_truth(); }
-  [[nodiscard]] std::vector<MendedPositions> mended() const override { return signs_.mended(); }
+  [[nodiscard]] std::vector<MendedOdometry> mended() const override {
+    return mended_in_turn(recording_->mended(), signs_.mended());
+  }
 
  private:
   /// What the recording said when a sample had been read.

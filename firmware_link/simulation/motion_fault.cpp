@@ -19,11 +19,15 @@ struct Kind {
 };
 
 constexpr double kMaxS = 3600.0;
-constexpr std::array kFaultKinds{
-    Kind{"silence", MotionFaultKind::kSilence, kMaxS},   Kind{"reset", MotionFaultKind::kReset, 0.0},
-    Kind{"restart", MotionFaultKind::kRestart, kMaxS},   Kind{"carried", MotionFaultKind::kCarried, kMaxS},
-    Kind{"teleport", MotionFaultKind::kTeleport, kMaxS}, Kind{"slip", MotionFaultKind::kSlip, kMaxS},
-    Kind{"jump", MotionFaultKind::kYawJump, 180.0}};
+constexpr double kMaxDegrees = 180.0;
+constexpr std::array kFaultKinds{Kind{"silence", MotionFaultKind::kSilence, kMaxS},
+                                 Kind{"reset", MotionFaultKind::kReset, 0.0},
+                                 Kind{"restart", MotionFaultKind::kRestart, kMaxS},
+                                 Kind{"carried", MotionFaultKind::kCarried, kMaxS},
+                                 Kind{"teleport", MotionFaultKind::kTeleport, kMaxS},
+                                 Kind{"slip", MotionFaultKind::kSlip, kMaxS},
+                                 Kind{"jump", MotionFaultKind::kYawJump, kMaxDegrees},
+                                 Kind{"turn", MotionFaultKind::kYawTurn, kMaxDegrees}};
 
 std::optional<double> number(std::string_view text, double lowest, double highest) {
   double value = 0.0;
@@ -39,14 +43,16 @@ Result<MotionFault> parse_fault(std::string_view text) {
   const std::string_view seconds = cut_off(text, ':');
   const auto kind = std::ranges::find(kFaultKinds, name, &Kind::name);
   if (kind == kFaultKinds.end())
-    return bad_address("the fault " + whole +
-                       " must be silence, reset, restart, carried, teleport, slip or jump, as in reset@60");
+    return bad_address(
+        "the fault " + whole +
+        " must be silence, reset, restart, carried, teleport, slip, jump or turn, as in reset@60");
   const std::optional<double> after_s = number(seconds, 0.0, kMaxS);
   if (!after_s)
     return bad_address("the fault " + whole + " needs the seconds after which it begins, as in reset@60");
   MotionFault fault{kind->kind, from_seconds(*after_s), 0.0};
   if (kind->max == 0.0 && text.empty()) return fault;
-  const double min = kind->kind == MotionFaultKind::kYawJump ? -kind->max : 0.0;
+  const bool turns = kind->kind == MotionFaultKind::kYawJump || kind->kind == MotionFaultKind::kYawTurn;
+  const double min = turns ? -kind->max : 0.0;
   const std::optional<double> amount = number(text, min, kind->max);
   if (kind->max == 0.0 || !amount)
     return bad_address("the fault " + whole +

@@ -18,8 +18,11 @@ enum class MotionFaultKind : std::uint8_t {
   kCarried,   ///< the same, but it restarts where it would have flown to in that many seconds
   kTeleport,  ///< likewise, unseen: the estimate goes on as if it had not been moved
   kSlip,      ///< the position stays for that many seconds while the vehicle flies on, unseen
-  kYawJump,   ///< the heading jumps by that many degrees, unseen
+  kYawJump,   ///< the heading jumps by that many degrees from one sample to the next, unseen
+  kYawTurn,   ///< likewise over kYawTurnTime, as a vehicle might turn
 };
+
+inline constexpr Duration kYawTurnTime = std::chrono::seconds(2);
 
 /// A break of the simulated dead reckoning.
 struct MotionFault {
@@ -29,7 +32,7 @@ struct MotionFault {
 };
 
 /// `KIND@SECONDS:AMOUNT`, several with commas between them, in the order of time. Kinds: silence, reset,
-/// restart, carried, teleport, slip, jump; a reset has no amount. Error: kInvalidInput: what is wrong.
+/// restart, carried, teleport, slip, jump, turn; a reset has no amount. Error: kInvalidInput: what is wrong.
 [[nodiscard]] Result<std::vector<MotionFault>> parse_motion_faults(std::string_view text);
 
 }  // namespace swiftlet

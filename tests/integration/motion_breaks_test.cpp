@@ -52,8 +52,8 @@ TEST(TrackingState, IsLostBehindARestartAndGoodAgainOnceThePlaceIsKnown) {
   EXPECT_EQ(run.tracking.back(), Tracking::kTracking);
 }
 
-TEST(TrackingState, IsUncertainBehindAJumpThatNobodyTellsWhichIsMended) {
-  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=jump@150:30");
+TEST(TrackingState, IsUncertainBehindATurnThatNobodyTellsWhichIsMended) {
+  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=turn@150:30");
   EXPECT_LT(error_m(run), 0.3);
   EXPECT_EQ(run.tracking.back(), Tracking::kTracking);
   const auto doubted = std::ranges::find(run.tracking, Tracking::kUncertain);
@@ -63,10 +63,16 @@ TEST(TrackingState, IsUncertainBehindAJumpThatNobodyTellsWhichIsMended) {
       std::chrono::seconds(150));
 }
 
+TEST(TrackingState, StaysGoodWhereAHeadingLeapsAsNoVehicleTurns) {
+  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=jump@150:30");
+  EXPECT_LT(error_m(run), 0.15);
+  EXPECT_EQ(samples_in(run, Tracking::kTracking), run.samples.size());
+}
+
 TEST(TrackingState, IsDoubtedOnWhereACorrectionInterruptedTheDoubt) {
   int wrong = 0;
   for (const char* seed : {"1", "5", "6"})
-    if (error_m(corrected_run("sim://office?seed=" + std::string(seed) + "&fault=jump@150:20")) > 0.3)
+    if (error_m(corrected_run("sim://office?seed=" + std::string(seed) + "&fault=turn@150:20")) > 0.3)
       ++wrong;
   EXPECT_LE(wrong, 1)
       << "all of them, if places that were weighed before the correction do not count behind it";

@@ -51,7 +51,7 @@ class Moments(unittest.TestCase):
 
 
 class WrongPlace(unittest.TestCase):
-    def wrong_way_m(self, off_m, fault=runs.Fault("jump", 20)):
+    def wrong_way_m(self, off_m, fault=runs.Fault("turn", 20)):
         """Of a flight of 300 s at 0.5 m/s whose final path is turned by 90 degrees. `off_m`: of stamp."""
         truth = {500 * i: (0.25 * i, 0.0, 0.0) for i in range(601)}
         final = {stamp: (-off_m(stamp / 1000) - 7.0, x_m, 0.0) for stamp, (x_m, _, _) in truth.items() if stamp != 7000}
@@ -163,9 +163,9 @@ class FaultRuns(unittest.TestCase):
                     self.assertNotEqual(results.file(run), before, (maker.__name__, module.__name__))
 
     def test_figures_that_mean_nothing_in_a_run_are_absent(self):
-        self.assertEqual(runs.figures(runs.Fault("jump", 20), [], []), {})
-        self.assertEqual(runs.figures(runs.Fault("jump", 20), after(0.1, 0.1, step_m=0.9), []), {}, "hardly a way")
-        self.assertNotIn("noticed_s", runs.figures(runs.Fault("jump", 20), after(0.1, 0.2), []))
+        self.assertEqual(runs.figures(runs.Fault("turn", 20), [], []), {})
+        self.assertEqual(runs.figures(runs.Fault("turn", 20), after(0.1, 0.1, step_m=0.9), []), {}, "hardly a way")
+        self.assertNotIn("noticed_s", runs.figures(runs.Fault("turn", 20), after(0.1, 0.2), []))
         self.assertNotIn("noticed_s", runs.figures(runs.Fault("reset"), after(2, 2), []))
 
 

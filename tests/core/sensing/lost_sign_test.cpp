@@ -131,7 +131,7 @@ class Drive {
 
 struct Mending {
   std::vector<RangeSample> samples;
-  std::vector<MendedPositions> mended;
+  std::vector<MendedOdometry> mended;
   double reversed_m = 0.0;
 };
 
@@ -251,7 +251,7 @@ TEST(LostSign, StretchesThatGainNoMoreThanTheDoubtStayAsReported) {
 
 TEST(LostSign, EachChangeHasItsPrice) {
   const LostSignTuning tuning{.begin_cost = 5.0, .end_cost = 2.0};
-  std::vector<MendedPositions> mended;
+  std::vector<MendedOdometry> mended;
   EXPECT_EQ(prior_cost(mended, tuning), 0.0);
   mended.push_back({HostTime(milliseconds(1)), {}, true});
   mended.push_back({HostTime(milliseconds(2)), {}, true});

@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <vector>
 
+#include "core/geometry/angle.hpp"
 #include "tests/support/pose_near.hpp"
 
 namespace swiftlet {
@@ -115,6 +117,20 @@ TEST(FaultySampleSource, ASlipHidesTheWayAndAJumpTurnsIt) {
   const Pose2 moved = between(flown.samples[50].T_odom_body, flown.samples[60].T_odom_body);
   EXPECT_TRUE(poses_near(moved, Pose2(1.0, 0.0, 0.0), 1e-9, 1e-9));
   EXPECT_NEAR(flown.samples[60].T_odom_body.yaw_rad(), std::numbers::pi / 2.0, 1e-9);
+}
+
+TEST(FaultySampleSource, ATurnIsAsSlowAsAVehicles) {
+  const Broken flown = flown_with("turn@2:90,turn@6:-40");
+  ASSERT_EQ(flown.samples.size(), 100U);
+  for (std::size_t i = 1; i < flown.samples.size(); ++i) {
+    const Pose2 step = between(flown.samples[i - 1].T_odom_body, flown.samples[i].T_odom_body);
+    ASSERT_LT(std::abs(step.yaw_rad()), radians(4.6)) << i;
+    ASSERT_NEAR(step.x_m(), 0.1, 1e-9) << i << ": along the heading that the estimate has";
+  }
+  EXPECT_NEAR(flown.samples[20].T_odom_body.yaw_rad(), 0.0, 1e-9);
+  EXPECT_NEAR(flown.samples[30].T_odom_body.yaw_rad(), radians(45.0), 1e-9);
+  EXPECT_NEAR(flown.samples[50].T_odom_body.yaw_rad(), radians(90.0), 1e-9);
+  EXPECT_NEAR(flown.samples[99].T_odom_body.yaw_rad(), radians(50.0), 1e-9);
 }
 
 }  // namespace

@@ -11,14 +11,16 @@ namespace swiftlet {
 namespace {
 
 TEST(MotionFault, ReadsSeveralInTheOrderOfTime) {
-  const auto faults = parse_motion_faults("silence@12.5:3,reset@60,jump@60:-20");
+  const auto faults = parse_motion_faults("silence@12.5:3,reset@60,jump@60:-20,turn@70:-30");
   ASSERT_TRUE(faults.ok());
-  ASSERT_EQ(faults->size(), 3U);
+  ASSERT_EQ(faults->size(), 4U);
   EXPECT_EQ((*faults)[0].kind, MotionFaultKind::kSilence);
   EXPECT_EQ((*faults)[0].after, std::chrono::milliseconds(12500));
   EXPECT_EQ((*faults)[0].amount, 3.0);
   EXPECT_EQ((*faults)[1].kind, MotionFaultKind::kReset);
   EXPECT_EQ((*faults)[2].amount, -20.0);
+  EXPECT_EQ((*faults)[3].kind, MotionFaultKind::kYawTurn);
+  EXPECT_EQ((*faults)[3].amount, -30.0);
 }
 
 TEST(MotionFault, RefusesEachMistakeByName) {

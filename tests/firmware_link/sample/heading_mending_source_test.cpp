@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The swiftlet authors
+#include "firmware_link/sample/heading_mending_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/angle.hpp"
+#include "firmware_link/input/open_sample_source.hpp"
+#include "tests/support/pose_near.hpp"
+#include "tests/support/scripted_sample_source.hpp"
+
+namespace swiftlet {
+namespace {
+
+std::vector<RangeSample> flight_with_a_leap() {
+  std::vector<RangeSample> samples = flight_in_square_room(20, 2.0, 1.0);
+  const Pose2 T_about = samples[10].T_odom_body;
+  const Pose2 T_leap = T_about * Pose2(0.0, 0.0, radians(25.0)) * T_about.inverse();
+  for (std::size_t i = 10; i < samples.size(); ++i) samples[i].T_odom_body = T_leap * samples[i].T_odom_body;
+  return samples;
+}
+
+TEST(HeadingMendingSource, DeliversWhatWasFlownAndSaysSoAtTheEnd) {
+  HeadingMendingSource source(std::make_unique<ScriptedSampleSource>(flight_with_a_leap()));
+  const std::vector<RangeSample> flown = flight_in_square_room(20, 2.0, 1.0);
+  for (const RangeSample& sample : flown) {
+    const Result<ReceivedSample> received = source.next();
+    ASSERT_TRUE(received);
+    EXPECT_TRUE(poses_near(received->sample.T_odom_body, sample.T_odom_body, 0.01, 0.01));
+  }
+  EXPECT_EQ(source.next().error().code, ErrorCode::kEndOfRecording);
+  EXPECT_TRUE(source.report().notes.empty()) << "it has not ended";
+  source.end();
+  EXPECT_EQ(source.report().counters.samples, 20U);
+  EXPECT_THAT(source.report().notes, testing::ElementsAre(testing::HasSubstr("leaps 1 times")));
+  EXPECT_EQ(source.mended().size(), 1U);
+}
+
+TEST(HeadingMendingSource, IsOfFlyingVehiclesAndOnlyWhereItIsWanted) {
+  const auto mended_of = [](bool mends_heading) {
+    SampleSourceOptions options;
+    options.mends_heading = mends_heading;
+    Result<std::unique_ptr<SampleSource>> source =
+        open_sample_source("sim://office?seed=1&fault=jump@5:20", options);
+    int delivered = 0;  // between them the source waits for its vehicle
+    for (int i = 0; i < 10000 && delivered < 100; ++i) delivered += (*source)->next() ? 1 : 0;
+    EXPECT_EQ(delivered, 100);
+    return (*source)->mended().size();
+  };
+  EXPECT_EQ(mended_of(true), 1U);
+  EXPECT_EQ(mended_of(false), 0U);
+}
+
+}  // namespace
+}  // namespace swiftlet
