@@ -3,6 +3,7 @@
 #include "core/sensing/heading_leaps.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/time.hpp"
 #include "core/geometry/squared.hpp"
@@ -30,30 +31,48 @@ void HeadingLeaps::mend(RangeSample& sample) {
 /// Of the dead reckoning that begins with this sample nothing is known yet.
 void HeadingLeaps::begin_anew(const RangeSample& sample) {
   rate_rad_per_s_.reset();
-  held_back_rad_ = 0.0;
-  steps_held_back_ = 0;
+  turn_ = {};
   if (mended_.empty() || !has_room()) return;
   T_mended_reported_ = Pose2();
   mended_.push_back({sample.stamp, T_mended_reported_});
 }
 
+/// From one rate to itself.
+double HeadingLeaps::most_within_rad(double time_s) const {
+  const double a = tuning_.acceleration_rad_per_s2;
+  const double b = tuning_.braking_rad_per_s2;
+  return tuning_.slack_rad + squared(time_s) / 2.0 * a * b / (a + b);
+}
+
 /// As it is passed on.
 double HeadingLeaps::turn_of_step(double reported_rad, double elapsed_s) {
   if (elapsed_s <= 0.0) return reported_rad;
-  const double expected_rad = rate_rad_per_s_.value_or(reported_rad / elapsed_s) * elapsed_s;
-  const double limit_rad = kSlackRad + kAccelerationRadPerS2 * squared(elapsed_s) / 2.0;
-  const bool is_too_much = std::abs(reported_rad) - std::abs(expected_rad) > limit_rad;
-  if (is_too_much && steps_held_back_ < kMostSteps && has_room()) {
-    held_back_rad_ += reported_rad - expected_rad;
-    ++steps_held_back_;
-    return expected_rad;
+  if (!rate_rad_per_s_ || elapsed_s > tuning_.longest_step_s) return end_turn(reported_rad, elapsed_s, false);
+  if (turn_.steps == 0) rate_before_rad_per_s_ = *rate_rad_per_s_;
+  const double excess_rad = reported_rad - rate_before_rad_per_s_ * elapsed_s;
+  const bool as_before = std::abs(excess_rad) <= tuning_.slack_rad;
+  if (as_before || turn_.steps == kMostSteps || !has_room())
+    return end_turn(reported_rad, elapsed_s, as_before);
+  ++turn_.steps;
+  turn_.time_s += elapsed_s;
+  turn_.excess_rad += excess_rad;
+  const double most_rad = std::abs(*rate_rad_per_s_) * elapsed_s + tuning_.slack_rad +
+                          tuning_.acceleration_rad_per_s2 * squared(elapsed_s) / 2.0;
+  if (std::abs(reported_rad) > most_rad) {
+    turn_.held_back_rad += excess_rad;
+    return reported_rad - excess_rad;
   }
-  if (!is_too_much && steps_held_back_ > 0) ++count_;
-  const double flown_after_all_rad = is_too_much ? held_back_rad_ : 0.0;
-  held_back_rad_ = 0.0;
-  steps_held_back_ = 0;
   rate_rad_per_s_ = reported_rad / elapsed_s;
-  return reported_rad + flown_after_all_rad;
+  return reported_rad;
+}
+
+/// With the step behind it, which is passed on with what is to be made good.
+double HeadingLeaps::end_turn(double reported_rad, double elapsed_s, bool as_before) {
+  const Turn turn = std::exchange(turn_, {});
+  rate_rad_per_s_ = reported_rad / elapsed_s;
+  const bool is_leap = as_before && std::abs(turn.excess_rad) > most_within_rad(turn.time_s);
+  if (is_leap) ++count_;
+  return reported_rad + turn.held_back_rad - (is_leap ? turn.excess_rad : 0.0);
 }
 
 }  // namespace swiftlet

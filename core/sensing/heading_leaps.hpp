@@ -12,20 +12,27 @@
 
 namespace swiftlet {
 
-/// Takes turns that no vehicle can fly out of a flying vehicle's dead reckoning: its heading is elsewhere
-/// from one sample to the next, or over two, and then it turns as fast as before. Such a turn is an error of
-/// the estimate, and the vehicle is taken to have turned on at the rate it had. A turn that goes on for
-/// longer is flown: what was held back of it is given with its third sample.
+struct HeadingLeapTuning {
+  double slack_rad = 0.035;  ///< within which two steps turn as fast: stamps that err by 10 ms, at 200 deg/s
+  double acceleration_rad_per_s2 = 20.0;  ///< no step of 12 real flights begins a turn with more than 16
+  double braking_rad_per_s2 = 40.0;       ///< ... and none ends one with more than 38
+  double longest_step_s = 0.3;            ///< over which a vehicle can turn by a quarter turn and stop
+};
+
+/// Takes turns that a flying vehicle does not make out of its dead reckoning: over one step, or over two, its
+/// heading goes elsewhere, and then it turns as fast as before. Such a turn is an error of the estimate where
+/// a vehicle could not have begun and ended it within that time, T: the most is T² / 2 a b / (a + b), of
+/// acceleration a and braking b. (Interpolation between readings spreads a leap of the estimate over two
+/// steps.) A step that begins to turn faster than a vehicle can is held back at once, others are passed on
+/// until the next steps have shown what they were; then what is too little or too much is made good.
 ///
-/// A turn is too much for one step of time t if it exceeds what the rate before makes expected by more than
-/// slack + acceleration t² / 2. On 12 flights of real Crazyflies, at 10 Hz, none exceeds it by more than 2.9
-/// degrees in flight and 4.7 at a take-off (16 rad/s²); two rotors at full thrust and two at none give
-/// 60 rad/s² (0.15 N, torque over thrust 6 mm, 2.9e-5 kg m²). Braking may be harder, and is no leap. So steps
-/// of a third of a second and more show nothing; wheels, whose stamps come in bunches, are left out.
+/// A vehicle that is twisted within two samples, by a blow, and turns on as before, is taken for a leap.
 /// @note Allocates in the constructor only. One thread at a time.
 class HeadingLeaps {
  public:
-  HeadingLeaps() { mended_.reserve(kMostRecords + 1); }
+  explicit HeadingLeaps(const HeadingLeapTuning& tuning = {}) : tuning_(tuning) {
+    mended_.reserve(kMostRecords + 1);
+  }
 
   /// Makes the dead reckoning of the next sample one without those turns.
   void mend(RangeSample& sample);
@@ -38,20 +45,29 @@ class HeadingLeaps {
     DeviceTime measured_at{};
     Pose2 T_reported_body;
   };
+  /// Steps that turn otherwise than the one before them.
+  struct Turn {
+    int steps = 0;
+    double time_s = 0.0;
+    double excess_rad = 0.0;  // beyond the rate before
+    double held_back_rad = 0.0;
+  };
 
-  static constexpr double kSlackRad = 0.035;             // stamps: 10 ms at 200 degrees a second
-  static constexpr double kAccelerationRadPerS2 = 20.0;  // above
-  static constexpr int kMostSteps = 2;  // interpolation between readings spreads a leap over two samples
-  static constexpr std::size_t kMostRecords = 300;  // an estimate with a hundred leaps is passed on as it is
+  static constexpr int kMostSteps = 2;
+  static constexpr std::size_t kMostRecords =
+      300;  // an estimate that leaps all the time is passed on as it is
 
   [[nodiscard]] bool has_room() const { return mended_.size() < kMostRecords; }
+  [[nodiscard]] double most_within_rad(double time_s) const;
   double turn_of_step(double reported_rad, double elapsed_s);
+  double end_turn(double reported_rad, double elapsed_s, bool as_before);
   void begin_anew(const RangeSample& sample);
 
+  HeadingLeapTuning tuning_;
   std::optional<Step> last_;
-  std::optional<double> rate_rad_per_s_;  // as reported, before what is held back
-  double held_back_rad_ = 0.0;
-  int steps_held_back_ = 0;
+  std::optional<double> rate_rad_per_s_;  // of the last step that was not held back, as reported
+  double rate_before_rad_per_s_ = 0.0;    // the turn
+  Turn turn_;
   Pose2 T_mended_reported_;
   std::size_t count_ = 0;
   std::vector<MendedOdometry> mended_;

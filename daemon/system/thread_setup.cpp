@@ -65,8 +65,8 @@ Status lock_memory() {
 
 void keep_freed_memory() noexcept {
   constexpr int kMiB = 1024 * 1024;
-  // Smaller blocks were mapped one by one (128 KiB are enough for that by default), larger ones still are, so
-  // that they leave no holes behind.
+  // By default both limits follow the largest block that was freed, and go up to 32 and 64 MiB, from 128 KiB.
+  // Larger blocks than this are mapped one by one, so that they leave no holes behind.
   static_cast<void>(::mallopt(M_MMAP_THRESHOLD, 4 * kMiB));
   static_cast<void>(::mallopt(M_TRIM_THRESHOLD, 32 * kMiB));
 }

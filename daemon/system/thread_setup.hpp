@@ -23,9 +23,9 @@ struct ThreadSetup {
 /// above; also where a limit (RLIMIT_MEMLOCK) holds for this process.
 [[nodiscard]] Status lock_memory();
 
-/// Memory that is freed stays with the process, in place of going back to the system with each larger block
-/// and coming again page by page, zeroed: up to 32 MiB for each thread, of blocks below 4 MiB. For the start
-/// of a program, before its threads.
+/// Memory that is freed stays with the process, in place of going back to the system and coming again page by
+/// page, zeroed: of blocks below 4 MiB, and up to 32 MiB at the end of each heap. (On machines of 32 bits the
+/// heaps of threads are too small for that.) For the start of a program, before its threads.
 void keep_freed_memory() noexcept;
 
 /// The calling thread, scheduled like any other program, runs after those of the same kind: its share of a

@@ -16,7 +16,12 @@ bool hides_samples(MotionFaultKind kind) {
          kind == MotionFaultKind::kTeleport;
 }
 
+bool turns(MotionFaultKind kind) {
+  return kind == MotionFaultKind::kYawJump || kind == MotionFaultKind::kYawTurn;
+}
+
 Duration lasts_for(const MotionFault& fault) {
+  if (fault.kind == MotionFaultKind::kYawJump) return kYawJumpTime;
   if (fault.kind == MotionFaultKind::kYawTurn) return kYawTurnTime;
   const bool lasts = hides_samples(fault.kind) || fault.kind == MotionFaultKind::kSlip;
   return lasts ? from_seconds(fault.amount) : Duration::zero();
@@ -64,9 +69,9 @@ void FaultySampleSource::place(RangeSample& sample) {
   if (lasting_ && lasting_->kind == MotionFaultKind::kSlip) {
     const Pose2 stays(T_odom_last_.x_m(), T_odom_last_.y_m(), T_odom_body.yaw_rad());
     T_fault_odom_ = T_fault_odom_ * stays * T_odom_body.inverse();
-  } else if (lasting_ && lasting_->kind == MotionFaultKind::kYawTurn) {
+  } else if (lasting_ && turns(lasting_->kind)) {
     const Duration since = sample.measured_at - *first_at_ - lasting_->after;
-    turn_to(radians(lasting_->amount) * to_seconds(since) / to_seconds(kYawTurnTime), T_odom_body);
+    turn_to(radians(lasting_->amount) * to_seconds(since) / to_seconds(lasts_for(*lasting_)), T_odom_body);
   }
   sample.T_odom_body = T_fault_odom_ * T_odom_body;
   sample.measured_at += added_;
@@ -75,7 +80,7 @@ void FaultySampleSource::place(RangeSample& sample) {
 }
 
 std::vector<StampedPose> FaultySampleSource::ground_truth() const {
-  const std::vector<StampedPose> flown = flight_->ground_truth();
+  const std::vector<StampedPose> flown = inner().ground_truth();
   std::vector<StampedPose> truth;
   for (const Delivered& sample : delivered_)
     if (sample.number < flown.size())
@@ -84,16 +89,15 @@ std::vector<StampedPose> FaultySampleSource::ground_truth() const {
 }
 
 void FaultySampleSource::end() {
-  flight_->end();
-  report_at_end_ = flight_->report();
+  ForwardingSource::end();
   for (std::size_t i = next_fault_; i < faults_.size(); ++i)
-    report_at_end_->notes.push_back("the fault after " + shortest_text(to_seconds(faults_[i].after)) +
-                                    " s never began: the flight ended before");
+    add_note("the fault after " + shortest_text(to_seconds(faults_[i].after)) +
+             " s never began: the flight ended before");
 }
 
 Result<ReceivedSample> FaultySampleSource::next() {
   for (;;) {
-    Result<ReceivedSample> received = flight_->next();
+    Result<ReceivedSample> received = inner().next();
     if (!received) return received;
     RangeSample& sample = received->sample;
     const std::size_t number = received_++;

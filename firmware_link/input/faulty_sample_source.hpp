@@ -8,29 +8,20 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_link/sample/sample_source.hpp"
+#include "firmware_link/sample/forwarding_source.hpp"
 #include "firmware_link/simulation/motion_fault.hpp"
 
 namespace swiftlet {
 
 /// A simulated flight whose dead reckoning breaks by its faults. The truth stays that of the flight. A fault
 /// that it did not come to is a note of its report once it has ended.
-class FaultySampleSource final : public SampleSource {
+class FaultySampleSource final : public ForwardingSource {
  public:
   /// `faults`: in the order of time.
   FaultySampleSource(std::unique_ptr<SampleSource> flight, std::vector<MotionFault> faults)
-      : flight_(std::move(flight)), faults_(std::move(faults)) {}
+      : ForwardingSource(std::move(flight)), faults_(std::move(faults)) {}
 
   [[nodiscard]] Result<ReceivedSample> next() override;
-  [[nodiscard]] const BeamLayout& beams() const override { return flight_->beams(); }
-  [[nodiscard]] const SensorModel& sensor() const override { return flight_->sensor(); }
-  [[nodiscard]] const InputReport& report() const override {
-    return report_at_end_ ? *report_at_end_ : flight_->report();
-  }
-  [[nodiscard]] std::optional<double> progress() const override { return flight_->progress(); }
-  [[nodiscard]] bool is_live() const override { return flight_->is_live(); }
-  [[nodiscard]] std::optional<LiveStatus> live_status() const override { return flight_->live_status(); }
-  [[nodiscard]] std::optional<VehicleEvent> take_event() override { return flight_->take_event(); }
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
@@ -43,7 +34,6 @@ class FaultySampleSource final : public SampleSource {
   void place(RangeSample& sample);
   void turn_to(double turned_rad, const Pose2& T_odom_body);
 
-  std::unique_ptr<SampleSource> flight_;
   std::vector<MotionFault> faults_;
   std::size_t next_fault_ = 0;
   std::optional<DeviceTime> first_at_;
@@ -54,7 +44,6 @@ class FaultySampleSource final : public SampleSource {
   Pose2 T_fault_odom_;       // what faults have done to the estimate
   double turned_rad_ = 0.0;  // by the fault that lasts
   Pose2 T_odom_last_;        // of the last sample, before faults
-  std::optional<InputReport> report_at_end_;
 };
 
 }  // namespace swiftlet

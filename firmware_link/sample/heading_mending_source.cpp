@@ -2,30 +2,28 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample/heading_mending_source.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace swiftlet {
 
 Result<ReceivedSample> HeadingMendingSource::next() {
-  Result<ReceivedSample> received = flight_->next();
+  Result<ReceivedSample> received = inner().next();
   if (received) leaps_.mend(received->sample);
   return received;
 }
 
-std::unique_ptr<SampleSource> HeadingMendingSource::again(std::optional<Duration> range_age) const {
-  std::unique_ptr<SampleSource> flight = flight_->again(range_age);
-  if (!flight) return nullptr;
-  return std::make_unique<HeadingMendingSource>(std::move(flight));
+std::optional<VehicleEvent> HeadingMendingSource::take_event() {
+  if (leaps_told_ == leaps_.count()) return inner().take_event();
+  leaps_told_ = leaps_.count();
+  return VehicleEvent{VehicleEvent::Kind::kHeadingLeapt, static_cast<std::int32_t>(leaps_told_)};
 }
 
 void HeadingMendingSource::end() {
-  flight_->end();
-  report_at_end_ = flight_->report();
+  ForwardingSource::end();
   if (leaps_.count() == 0) return;
-  report_at_end_->notes.push_back(
-      "the heading of the dead reckoning leaps " + std::to_string(leaps_.count()) +
-      " times as no vehicle can turn (an error of its estimate): these turns were "
-      "left out");
+  add_note("the heading of the dead reckoning leaps " + std::to_string(leaps_.count()) +
+           " times as no vehicle can turn (an error of its estimate): these turns were left out");
 }
 
 }  // namespace swiftlet

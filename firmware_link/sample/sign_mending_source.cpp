@@ -8,15 +8,15 @@
 namespace swiftlet {
 
 void SignMendingSource::keep_reading() {
-  const InputReport& now = recording_->report();
-  readings_.push_back({now.counters, now.problems.size(), recording_->progress()});
+  const InputReport& now = inner().report();
+  readings_.push_back({now.counters, now.problems.size(), inner().progress()});
 }
 
 void SignMendingSource::report_next_reading() {
   const Reading& reading = readings_.front();
   report_.counters = reading.counters;
   while (report_.problems.size() < reading.problems)
-    report_.problems.push_back(recording_->report().problems[report_.problems.size()]);
+    report_.problems.push_back(inner().report().problems[report_.problems.size()]);
   progress_ = reading.progress;
   readings_.pop_front();
 }
@@ -28,11 +28,11 @@ Result<ReceivedSample> SignMendingSource::next() {
       return ReceivedSample{.sample = *sample};
     }
     if (outcome_) {
-      report_ = recording_->report();
-      progress_ = recording_->progress();
+      report_ = inner().report();
+      progress_ = inner().progress();
       return *outcome_;
     }
-    const Result<ReceivedSample> received = recording_->next();
+    const Result<ReceivedSample> received = inner().next();
     if (received) {
       signs_.add(received->sample);
       keep_reading();
@@ -46,8 +46,8 @@ Result<ReceivedSample> SignMendingSource::next() {
 }
 
 void SignMendingSource::end() {
-  recording_->end();
-  report_ = recording_->report();
+  inner().end();
+  report_ = inner().report();
   report_.reversed_m = signs_.reversed_m();
   if (signs_.mended().empty()) return;
   char way[32];

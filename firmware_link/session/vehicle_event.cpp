@@ -60,6 +60,9 @@ std::string describe(const VehicleEvent& event) {
              "within seconds, and the map will be wrong; fly, or do not turn";
     case Kind::kBatteryLow:
       return "the vehicle's battery is low (" + value + " mV): land";
+    case Kind::kHeadingLeapt:
+      return "the heading of the dead reckoning leapt as no vehicle can turn, " + value +
+             " times so far; these turns are left out";
     case Kind::kRangesFrozen:
       return "none of the ranges has changed for two seconds: a range sensor hangs, and what is mapped now "
              "is "

@@ -22,6 +22,7 @@ struct VehicleEvent {
     kNoFlowDeck,
     kYawTrap,           ///< it is carried or pushed with its motors off
     kBatteryLow,        ///< value: millivolts
+    kHeadingLeapt,      ///< its dead reckoning turned as it cannot; value: how often so far
     kRangesFrozen,      ///< in flight none of them has changed for seconds
     kOtherProgram,      ///< the vehicle answers questions that were not asked here, or its log is stopped
     kDoubledData,       ///< log data arrives twice

@@ -18,10 +18,12 @@ enum class MotionFaultKind : std::uint8_t {
   kCarried,   ///< the same, but it restarts where it would have flown to in that many seconds
   kTeleport,  ///< likewise, unseen: the estimate goes on as if it had not been moved
   kSlip,      ///< the position stays for that many seconds while the vehicle flies on, unseen
-  kYawJump,   ///< the heading jumps by that many degrees from one sample to the next, unseen
-  kYawTurn,   ///< likewise over kYawTurnTime, as a vehicle might turn
+  kYawJump,   ///< the heading jumps by that many degrees from one reading to the next, unseen
+  kYawTurn,   ///< likewise over two seconds, as a vehicle might turn
 };
 
+/// What the estimate takes for it, interpolated between readings.
+inline constexpr Duration kYawJumpTime = std::chrono::milliseconds(100);
 inline constexpr Duration kYawTurnTime = std::chrono::seconds(2);
 
 /// A break of the simulated dead reckoning.

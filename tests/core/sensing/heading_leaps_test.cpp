@@ -53,10 +53,19 @@ TEST(HeadingLeaps, TakesOutALeapFromOneSampleToTheNext) {
   expect_same_path(mending.samples, flown({0, 1, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(HeadingLeaps, TakesOutALeapThatLiesBetweenTwoSamples) {
-  const MendedFlight mending = flown_without_leaps(flown({0, 0, 12, 18, 0, 0}));
-  EXPECT_EQ(mending.leaps, 1U);
-  expect_same_path(mending.samples, flown({0, 0, 0, 0, 0, 0}));
+TEST(HeadingLeaps, TakesOutALeapThatLiesAnywhereBetweenTwoSamples) {
+  for (const double leap_deg : {20.0, -30.0, 90.0})
+    for (const double rate_deg : {0.0, 5.0, -10.0})
+      for (double share = 0.0; share <= 1.0; share += 0.05) {
+        std::vector<double> turns_deg(8, rate_deg);
+        turns_deg[3] += share * leap_deg;
+        turns_deg[4] += (1.0 - share) * leap_deg;
+        const MendedFlight mending = flown_without_leaps(flown(turns_deg));
+        EXPECT_EQ(mending.leaps, 1U) << leap_deg << ' ' << rate_deg << ' ' << share;
+        const double last_rad = mending.samples.back().T_odom_body.yaw_rad();
+        EXPECT_NEAR(wrap_angle(last_rad - radians(8.0 * rate_deg)), 0.0, radians(4.1))
+            << leap_deg << ' ' << rate_deg << ' ' << share;
+      }
 }
 
 TEST(HeadingLeaps, TheVehicleTurnsOnAtItsRate) {
@@ -74,9 +83,10 @@ TEST(HeadingLeaps, WhatAVehicleCanTurnStays) {
     EXPECT_EQ(mending.samples[i].T_odom_body.vector(), reported[i].T_odom_body.vector()) << "to the bit";
 }
 
-TEST(HeadingLeaps, BrakingIsNoLeap) {
-  const MendedFlight mending = flown_without_leaps(flown({0, 7, 12, 0, 0, 0}));
-  EXPECT_TRUE(mending.mended.empty()) << "as at a real take-off: 12 degrees less from one step to the next";
+TEST(HeadingLeaps, ATwistAtATakeOffIsNoLeap) {
+  const std::vector<double> turns_deg{0,   -2.5, -6.9, -11.3, 1.2,
+                                      3.5, 3.7,  1.6,  1.7,   1.4};  // of a real flight
+  EXPECT_TRUE(flown_without_leaps(flown(turns_deg)).mended.empty());
 }
 
 TEST(HeadingLeaps, ATurnThatGoesOnIsGivenBack) {
@@ -86,6 +96,26 @@ TEST(HeadingLeaps, ATurnThatGoesOnIsGivenBack) {
   EXPECT_NEAR(mending.samples[4].T_odom_body.yaw_rad(), 0.0, 1e-9) << "held back";
   for (const std::size_t i : {5U, 8U})
     EXPECT_NEAR(mending.samples[i].T_odom_body.yaw_rad(), reported[i].T_odom_body.yaw_rad(), 1e-9) << i;
+}
+
+TEST(HeadingLeaps, AShortTurnThatAVehicleCanFlyStays) {
+  for (const std::vector<double>& turns_deg : std::vector<std::vector<double>>{{0, 5, 0, 0}, {0, 7, 8, 0, 0}})
+    EXPECT_TRUE(flown_without_leaps(flown(turns_deg)).mended.empty());
+}
+
+TEST(HeadingLeaps, WhereNothingCanBeToldWhatIsHeldBackIsGivenBack) {
+  std::vector<RangeSample> reported = flown({0, 0, 12, 0, 0, 0});
+  for (std::size_t i = 4; i < reported.size(); ++i) reported[i].measured_at += std::chrono::milliseconds(400);
+  const MendedFlight mending = flown_without_leaps(reported);
+  EXPECT_EQ(mending.leaps, 0U);
+  EXPECT_NEAR(mending.samples[3].T_odom_body.yaw_rad(), 0.0, 1e-9) << "held back";
+  EXPECT_NEAR(mending.samples[4].T_odom_body.yaw_rad(), radians(12.0), 1e-9);
+}
+
+TEST(HeadingLeaps, AcrossHalfATurnToo) {
+  const MendedFlight mending = flown_without_leaps(flown({10, 10, 160, 10, 25, 10, 10}));
+  EXPECT_EQ(mending.leaps, 2U);
+  EXPECT_NEAR(mending.samples.back().T_odom_body.yaw_rad(), radians(70.0), 1e-9);
 }
 
 TEST(HeadingLeaps, StepsOfHalfASecondShowNothing) {
@@ -101,8 +131,8 @@ TEST(HeadingLeaps, NothingIsKnownOfDeadReckoningThatBeginsAnew) {
 }
 
 TEST(HeadingLeaps, GivesBackWhatWasReported) {
-  std::vector<RangeSample> reported = flown({0, 20, 0, 0, 15, 15, 15, 0, 40, 0, 0, 0, -25, 0});
-  reported[11].starts_segment = true;
+  std::vector<RangeSample> reported = flown({0, 20, 0, 0, 15, 15, 15, 0, 0, 0, 40, 0, 0, 0, -25, 0});
+  reported[13].starts_segment = true;
   const MendedFlight mending = flown_without_leaps(reported);
   EXPECT_EQ(mending.leaps, 3U);
   for (std::size_t i = 0; i < reported.size(); ++i)

@@ -110,11 +110,14 @@ TEST(FaultySampleSource, AFaultThatTheFlightDoesNotComeToIsANote) {
 }
 
 TEST(FaultySampleSource, ASlipHidesTheWayAndAJumpTurnsIt) {
-  const Broken flown = flown_with("slip@2:1,jump@5:90");
+  const Broken flown = flown_with("slip@2:1,jump@4.93:90");
   ASSERT_EQ(flown.samples.size(), 100U);
   EXPECT_NEAR(flown.samples[29].T_odom_body.x_m(), 1.9, 1e-9);
   EXPECT_NEAR(flown.samples[49].T_odom_body.x_m(), 3.9, 0.11);
-  const Pose2 moved = between(flown.samples[50].T_odom_body, flown.samples[60].T_odom_body);
+  EXPECT_NEAR(flown.samples[49].T_odom_body.yaw_rad(), 0.0, 1e-9);
+  EXPECT_NEAR(flown.samples[50].T_odom_body.yaw_rad(), 0.7 * std::numbers::pi / 2.0, 1e-9)
+      << "between readings";
+  const Pose2 moved = between(flown.samples[51].T_odom_body, flown.samples[61].T_odom_body);
   EXPECT_TRUE(poses_near(moved, Pose2(1.0, 0.0, 0.0), 1e-9, 1e-9));
   EXPECT_NEAR(flown.samples[60].T_odom_body.yaw_rad(), std::numbers::pi / 2.0, 1e-9);
 }

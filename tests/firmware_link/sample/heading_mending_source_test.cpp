@@ -5,12 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/geometry/angle.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/sample/sign_mending_source.hpp"
 #include "tests/support/pose_near.hpp"
 #include "tests/support/scripted_sample_source.hpp"
 
@@ -25,34 +28,52 @@ std::vector<RangeSample> flight_with_a_leap() {
   return samples;
 }
 
-TEST(HeadingMendingSource, DeliversWhatWasFlownAndSaysSoAtTheEnd) {
+TEST(HeadingMendingSource, DeliversWhatWasFlownAndSaysSo) {
   HeadingMendingSource source(std::make_unique<ScriptedSampleSource>(flight_with_a_leap()));
   const std::vector<RangeSample> flown = flight_in_square_room(20, 2.0, 1.0);
+  std::vector<std::string> events;
   for (const RangeSample& sample : flown) {
     const Result<ReceivedSample> received = source.next();
     ASSERT_TRUE(received);
     EXPECT_TRUE(poses_near(received->sample.T_odom_body, sample.T_odom_body, 0.01, 0.01));
+    while (const auto event = source.take_event()) events.push_back(describe(*event));
   }
+  EXPECT_THAT(events, testing::ElementsAre(testing::HasSubstr("leapt as no vehicle can turn, 1 times")));
   EXPECT_EQ(source.next().error().code, ErrorCode::kEndOfRecording);
   EXPECT_TRUE(source.report().notes.empty()) << "it has not ended";
   source.end();
   EXPECT_EQ(source.report().counters.samples, 20U);
   EXPECT_THAT(source.report().notes, testing::ElementsAre(testing::HasSubstr("leaps 1 times")));
-  EXPECT_EQ(source.mended().size(), 1U);
 }
 
-TEST(HeadingMendingSource, IsOfFlyingVehiclesAndOnlyWhereItIsWanted) {
+TEST(HeadingMendingSource, SignsMayBeMendedUponIt) {
+  const std::vector<RangeSample> reported = flight_with_a_leap();
+  SignMendingSource source(
+      std::make_unique<HeadingMendingSource>(std::make_unique<ScriptedSampleSource>(reported)));
+  std::vector<RangeSample> delivered;
+  while (const Result<ReceivedSample> received = source.next()) delivered.push_back(received->sample);
+  source.end();
+  EXPECT_THAT(source.report().notes, testing::ElementsAre(testing::HasSubstr("leaps 1 times")));
+  ASSERT_EQ(delivered.size(), reported.size());
+  for (std::size_t i = 0; i < reported.size(); ++i)
+    EXPECT_TRUE(poses_near(as_reported(source.mended(), reported[i].stamp, delivered[i].T_odom_body),
+                           reported[i].T_odom_body, 1e-9, 1e-9))
+        << i;
+}
+
+TEST(HeadingMendingSource, IsOnlyWhereItIsWanted) {
   const auto mended_of = [](bool mends_heading) {
     SampleSourceOptions options;
     options.mends_heading = mends_heading;
     Result<std::unique_ptr<SampleSource>> source =
         open_sample_source("sim://office?seed=1&fault=jump@5:20", options);
+    if (!source) return std::size_t{0};
     int delivered = 0;  // between them the source waits for its vehicle
     for (int i = 0; i < 10000 && delivered < 100; ++i) delivered += (*source)->next() ? 1 : 0;
     EXPECT_EQ(delivered, 100);
     return (*source)->mended().size();
   };
-  EXPECT_EQ(mended_of(true), 1U);
+  EXPECT_GE(mended_of(true), 1U);
   EXPECT_EQ(mended_of(false), 0U);
 }
 
