@@ -56,7 +56,8 @@ TEST(HeadingLeaps, TakesOutALeapFromOneSampleToTheNext) {
 TEST(HeadingLeaps, TakesOutALeapThatLiesAnywhereBetweenTwoSamples) {
   for (const double leap_deg : {20.0, -30.0, 90.0})
     for (const double rate_deg : {0.0, 5.0, -10.0})
-      for (double share = 0.0; share <= 1.0; share += 0.05) {
+      for (int twentieths = 0; twentieths <= 20; ++twentieths) {
+        const double share = twentieths / 20.0;
         std::vector<double> turns_deg(8, rate_deg);
         turns_deg[3] += share * leap_deg;
         turns_deg[4] += (1.0 - share) * leap_deg;
