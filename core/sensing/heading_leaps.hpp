@@ -16,7 +16,7 @@ struct HeadingLeapTuning {
   double slack_rad = 0.035;  ///< within which two steps turn as fast: stamps that err by 10 ms, at 200 deg/s
   double acceleration_rad_per_s2 = 20.0;  ///< no step of 12 real flights begins a turn with more than 16
   double braking_rad_per_s2 = 40.0;       ///< ... and none ends one with more than 38
-  double longest_step_s = 0.3;            ///< over which a vehicle can turn by a quarter turn and stop
+  double longest_step_s = 0.3;  ///< beyond it a vehicle can turn by 34 degrees and stop: nothing is told
 };
 
 /// Takes turns that a flying vehicle does not make out of its dead reckoning: over one step, or over two, its
@@ -66,7 +66,7 @@ class HeadingLeaps {
   HeadingLeapTuning tuning_;
   std::optional<Step> last_;
   std::optional<double> rate_rad_per_s_;  // of the last step that was not held back, as reported
-  double rate_before_rad_per_s_ = 0.0;    // the turn
+  double rate_before_rad_per_s_ = 0.0;    // of the last step before turn_
   Turn turn_;
   Pose2 T_mended_reported_;
   std::size_t count_ = 0;

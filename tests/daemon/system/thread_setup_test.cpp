@@ -98,8 +98,8 @@ bool is_the_systems_allocator() {
 }
 
 TEST(ThreadSetup, FreedMemoryStaysWithTheProcess) {
-  if (!is_the_systems_allocator()) GTEST_SKIP() << "a sanitizer's";
-  if (sizeof(void*) < 8) GTEST_SKIP() << "threads' heaps have 1 MiB";
+  if (!is_the_systems_allocator()) GTEST_SKIP() << "a sanitizer's allocator heeds no limits";
+  if (sizeof(void*) < 8) GTEST_SKIP() << "on 32 bits the heap of a thread is 1 MiB at most";
   keep_freed_memory();
   std::jthread([] {
     constexpr std::size_t kBytes = 3 * 1024 * 1024;
