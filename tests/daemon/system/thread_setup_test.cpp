@@ -102,7 +102,7 @@ TEST(ThreadSetup, FreedMemoryStaysWithTheProcess) {
   if (sizeof(void*) < 8) GTEST_SKIP() << "on 32 bits the heap of a thread is 1 MiB at most";
   keep_freed_memory();
   std::jthread([] {
-    constexpr std::size_t kBytes = 3 * 1024 * 1024;
+    constexpr std::size_t kBytes = std::size_t{3} * 1024 * 1024;
     const auto touched = [] { return std::vector<std::byte>(kBytes).size(); };
     ASSERT_EQ(touched(), kBytes);
     rusage before{};
