@@ -83,6 +83,24 @@ PLACED_ODOM = """const done = arguments[0];
   done([model.poses.map((pose) => pose.raw.map((part) => Math.round(part * 1e6) / 1e6 + 0)),
         model.poses.map((pose) => pose.travel_m)]);
 })();"""
+# Of a vehicle that restarts after one pose, is in doubt for two, and then is not: the returns that wait at each pose, in
+# frame local, and where that frame lies in the map.
+WAITING = """const done = arguments[0];
+(async () => {
+  const [{RunModel}, {WaitingReturns}] = await Promise.all([import('./run_model.js'), import('./waiting_returns.js')]);
+  globalThis.Path2D = class { points = []; moveTo(...point) { this.points.push(point); } lineTo() {} };
+  const pose = (segment, tracking, map, local, ranges) =>
+    ({segment, tracking, map, local, ranges, odom: [0, 0, 0], storey: 0, utime_us: 0});
+  const [model, rounded] = [new RunModel(), (point) => point.map((part) => Math.round(part * 1e6) / 1e6 + 0)];
+  model.addPoses([pose(0, 3, [0, 0, 0], [0, 0, 0], [1, 1]), pose(1, 3, [0, 0, 0], [0, 0, 0], [1, 2]),
+                  pose(1, 1, [5, 5, Math.PI], [1, 0, Math.PI / 2], [1, 0]),
+                  pose(1, 0, [5, 6, 0], [1, 1, 0], [1, 1])], [0, Math.PI]);
+  const returns = new WaitingReturns(model);
+  done([2, 1, 2, 3, -1].map((index) => {
+    const waiting = returns.at(index);
+    return waiting && [waiting.path.points.map(rounded), rounded(waiting.T_map_local)];
+  }));
+})();"""
 NO_STORAGE = """Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('of the test', 'SecurityError'); }});"""
 BOXES = """return ['#stage', '#notice', '#tools button'].flatMap((what) => [...document.querySelectorAll(what)])
   .map((element) => element.getBoundingClientRect().toJSON());"""
@@ -427,6 +445,25 @@ class PageTest(unittest.TestCase):
         placed, travel = self.browser.execute_async_script(PLACED_ODOM)
         self.assertEqual(placed, [[0, 0], [2, 0], [2, 1], [2, 2]])
         self.assertEqual(travel, [0, 2, 2, 3])
+
+    def test_what_waits_for_its_place_is_drawn_from_where_the_drone_is_now(self):
+        self.browser.get(self.view("--lcm-url", LCM_URL).url)
+        both, first, again, good, none = self.browser.execute_async_script(WAITING)
+        self.assertEqual(both, [[[1, 0], [-2, 0], [1, 1]], [5, 4, 1.570796]])
+        self.assertEqual(first, [[[1, 0], [-2, 0]], [0, 0, 0]])
+        self.assertEqual(again, both)
+        self.assertIsNone(good)
+        self.assertIsNone(none)
+
+    def test_a_flight_in_doubt_shows_what_its_map_does_not(self):
+        view = self.view("sim://loop?seed=1&fault=reset@30", "--rate", "100")
+        self.browser.get(view.url)
+        self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.model.poses.some((pose) => pose.tracking > 0)")
+        self.press(" ")
+        waiting = "swiftletPage.scene.waiting.at(swiftletPage.model.indexAt(swiftletPage.player.at_us))"
+        self.js("swiftletPage.player.seek(swiftletPage.model.poses.find((pose) => pose.tracking > 0).utime_us)")
+        self.wait_until("!swiftletPage.isStale && swiftletPage.scene.waiting.path !== null")
+        self.assertFalse(self.js(f"{waiting} === null"))
 
     def test_a_screen_of_another_pixel_ratio_gets_a_canvas_of_its_own(self):
         self.set_screen(1200, 800)

@@ -7,7 +7,7 @@ const STORED = "swiftlet-layers";
 const LAYERS = [
   ["map", "Map", true], ["grid", "Grid and axes", true], ["trail", "Trail, corrected", true],
   ["raw", "Trail, dead reckoning", false], ["walls", "Walls", true], ["closures", "Loop closures", true],
-  ["drone", "Drone", true], ["beams", "Beams", true],
+  ["drone", "Drone", true], ["beams", "Beams", true], ["waiting", "Not in the map yet", true],
 ];
 
 /// Which layers are shown, as the user left them: names to booleans.
@@ -20,7 +20,7 @@ export function storedLayers() {
   return Object.fromEntries(LAYERS.map(([name, , isOn]) => [name, typeof stored[name] === "boolean" ? stored[name] : isOn]));
 }
 
-/// A box to tick for each layer; keys 1 to 8 tick them, too.
+/// A box to tick for each layer; keys 1 to 9 tick them, too.
 export class LayerBoxes {
   constructor(root, layers, onChange) {
     Object.assign(this, {layers, onChange});

@@ -67,9 +67,9 @@ export class RunModel {
     return this.poses[this.indexAt(at_us)] ?? null;
   }
 
-  /// Where the beams of a pose ended, in frame map.
-  hitsOf(pose) {
-    const [x, y, yaw] = pose.map;
+  /// Where the beams of a pose ended. `frame`: "map" or "local".
+  hitsOf(pose, frame = "map") {
+    const [x, y, yaw] = pose[frame];
     return pose.ranges.map((range, i) => [range, yaw + this.bearings[i]])
       .filter(([range]) => range > 0)
       .map(([range, angle]) => [x + range * Math.cos(angle), y + range * Math.sin(angle)]);

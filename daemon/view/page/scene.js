@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
+import {FINISHED} from "./messages.js";
 import {TrailPaths} from "./trail_paths.js";
 import {gridStep_m, lengthText} from "./units.js";
+import {WaitingReturns} from "./waiting_returns.js";
 
 const GRID_MIN_px = 56;
 const SCALE_BAR_px = 130;
 const FLASH_us = 3e6;
+const WAITING_px = 3;
 const FULL_SCALE_px = 40;  // a metre; where it is less, lines are thinner, down to half
 const ELLIPSE_SIGMAS = 2.4477;  // holds 95 % in two dimensions
 const FONT = "12px system-ui, sans-serif";
@@ -19,6 +22,7 @@ export class Scene {
     this.layers = layers;
     this.corrected = new TrailPaths(model, "map");
     this.raw = new TrailPaths(model, "raw");
+    this.waiting = new WaitingReturns(model);
   }
 
   /// frame: {context, transform, colours, pixelRatio, at_us, measure}
@@ -29,6 +33,7 @@ export class Scene {
     context.fillRect(0, 0, ...transform.size);
     transform.apply(context, pixelRatio);
     if (this.layers.map) this.drawMap(frame);
+    if (this.layers.waiting) this.drawWaiting(frame);
     if (this.layers.grid) this.drawGrid(frame);
     if (this.layers.raw) this.drawRaw(frame);
     if (this.layers.trail) this.drawTrail(frame);
@@ -49,6 +54,21 @@ export class Scene {
     const [x, y] = transform.center;
     this.tileMap.draw(context, this.model.resolution_m, (left, bottom, side) =>
       left < x + reach_m && left + side > x - reach_m && bottom < y + reach_m && bottom + side > y - reach_m);
+  }
+
+  drawWaiting({context, transform, colours, at_us}) {
+    const isFinal = this.model.status?.state === FINISHED && (at_us ?? Infinity) >= this.model.newest_us;
+    const waiting = isFinal ? null : this.waiting.at(this.model.indexAt(at_us));
+    if (waiting === null) return;
+    const [x, y, yaw] = waiting.T_map_local;
+    context.save();
+    context.translate(x, y);
+    context.rotate(yaw);
+    context.strokeStyle = colours.waiting;
+    context.lineCap = "round";
+    context.lineWidth = Math.max(this.model.resolution_m, WAITING_px / transform.scale_px);
+    context.stroke(waiting.path);
+    context.restore();
   }
 
   drawGrid({context, transform, colours}) {
