@@ -36,9 +36,18 @@ class Outcome:
     failed: str = ""
     figures: dict = dataclasses.field(default_factory=dict)
     live_ratio: float | None = None  # of the poses as published
+    each_m: list | None = None  # errors of all relations; of those that the run does not hold None
 
     def is_worse_than_odometry(self):
         return self.ratio is not None and self.ratio > OVER_ODOMETRY
+
+    def error_over(self, held):
+        """The error over the relations that another run holds; None where this one does not hold them all. All errors
+        that are not of relations are comparable."""
+        if self.each_m is None or held.each_m is None:
+            return self.error
+        errors = [own for own, other in zip(self.each_m, held.each_m) if other is not None]
+        return None if None in errors else statistics.fmean(errors)
 
     def exceeds(self, quarter):
         factor = OVER_QUARTER_CELLS if self.is_in_cells else OVER_QUARTER
@@ -60,7 +69,8 @@ def outcome(run, result):
     live_ratio = None if live is None else over(odometry, live)
     in_cells = runs.is_in_cells(result["final"])
     figures = {**result["report"], "at_once": result["at_once"]}
-    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures, live_ratio=live_ratio)
+    return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures, live_ratio=live_ratio,
+                   each_m=result["final"].get("each_translation_m"))
 
 
 def outcomes(wanted, get):
@@ -83,22 +93,36 @@ def attainable_m(log, group):
     return limit_m
 
 
-def quarters(all_outcomes):
-    """{group: error below which its best quarter lies}. With many beams none is higher than with few. Groups without
-    a true reference have none."""
-    found = {}
-    judged = [one for one in all_outcomes if one.run.log.name not in runs.WITHOUT_TRUTH]
-    for name, group in grouped(judged, runs.Run.group).items():
-        errors = sorted(one.error for one in group if one.error is not None)
-        if errors:
-            found[name] = min(errors[(len(errors) - 1) // 4], attainable_m(group[0].run.log.name, name))
-    return {name: min(quarter, found.get(name.replace(runs.MANY, runs.FEW), quarter))
-            for name, quarter in found.items()}
+class Quarters:
+    """The errors below which the best quarters of groups lie: what a run is held against. `sets`: of outcomes; of
+    several the lowest counts."""
+
+    def __init__(self, *sets):
+        self.sets = [grouped(several, runs.Run.group) for several in sets]
+        self.found = {}
+
+    def of(self, one):
+        """For this run: among those of its group that hold all its relations, over these. With many beams none is
+        higher than with few. None without a true reference, or where no run has an error."""
+        if one.run not in self.found:
+            self.found[one.run] = None if one.run.log.name in runs.WITHOUT_TRUTH else self.lowest(one)
+        return self.found[one.run]
+
+    def lowest(self, one):
+        names = {one.run.group(), one.run.group().replace(runs.MANY, runs.FEW)}
+        return min((quarter for groups in self.sets for name in names
+                    if (quarter := self.quarter(groups.get(name, []), name, one)) is not None), default=None)
+
+    @staticmethod
+    def quarter(group, name, one):
+        errors = sorted(error for other in group
+                        if other.error is not None and (error := other.error_over(one)) is not None)
+        return min(errors[(len(errors) - 1) // 4], attainable_m(one.run.log.name, name)) if errors else None
 
 
 def breaks_out(one, limits):
-    """`limits`: quarters()."""
-    return bool(one.failed) or one.is_worse_than_odometry() or one.exceeds(limits.get(one.run.group()))
+    """`limits`: Quarters."""
+    return bool(one.failed) or one.is_worse_than_odometry() or one.exceeds(limits.of(one))
 
 
 def interval(count, of):
@@ -145,7 +169,7 @@ def counts(group, limits):
 def rates_row(name, group, limits, bounds):
     ratios = [one.ratio for one in group if one.ratio is not None]
     return [name, *rate_cells(*counts(group, limits), bounds),
-            str(sum(one.exceeds(limits.get(one.run.group())) for one in group)),
+            str(sum(one.exceeds(limits.of(one)) for one in group)),
             str(sum(one.is_worse_than_odometry() for one in group)), str(sum(bool(one.failed) for one in group)),
             f"{statistics.median(ratios):.3f}" if ratios else NONE, f"{max(ratios):.2f}" if ratios else NONE]
 
@@ -184,10 +208,12 @@ def groups_table(all_outcomes, limits):
     def cells(name, group):
         errors = sorted(one.error for one in group if one.error is not None)
         unit = "" if group[0].is_in_cells else " m"
-        known = [limits.get(name), *((statistics.median(errors), errors[-1]) if errors else (None, None))]
+        quarters = [quarter for one in group if (quarter := limits.of(one)) is not None]
+        low, high = (min(quarters), max(quarters)) if quarters else (None, None)
+        known = [low, high, *((statistics.median(errors), errors[-1]) if errors else (None, None))]
         return [name, str(len(group)), *(NONE if value is None else f"{value:.4f}{unit}" for value in known)]
 
-    return page.table(["log, beams", "runs:", "best quarter:", "median:", "worst:"],
+    return page.table(["log, beams", "runs:", "best quarter, lowest:", "highest:", "median:", "worst:"],
                       [cells(name, group) for name, group in grouped(all_outcomes, runs.Run.group).items()])
 
 
@@ -195,8 +221,7 @@ def worst_first(broken, limits):
     def by_how_much(one):
         if one.failed:
             return math.inf
-        quarter = limits.get(one.run.group(), math.inf)
-        return max(one.ratio / OVER_ODOMETRY, one.error / quarter / OVER_QUARTER)
+        return max(one.ratio / OVER_ODOMETRY, one.error / (limits.of(one) or math.inf) / OVER_QUARTER)
 
     return sorted(broken, key=by_how_much, reverse=True)
 
@@ -206,7 +231,7 @@ def broken_lines(all_outcomes, limits):
     def cells(one):
         if one.failed:
             return [one.run.title(), one.failed, "", ""]
-        quarter = limits.get(one.run.group())
+        quarter = limits.of(one)
         over = f"{one.error / quarter:.2f}" if quarter else NONE
         return [one.run.title(), f"{one.error:.3f}", over, f"{one.ratio:.2f}"]
 
@@ -242,7 +267,7 @@ def pictured_buildings(all_outcomes):
 
 
 def tables(all_outcomes):
-    limits = quarters(all_outcomes)
+    limits = Quarters(all_outcomes)
     return "\n\n".join(table(all_outcomes, limits)
                        for table in (rates_table, kinds_table, groups_table, broken_lines))
 
@@ -284,17 +309,11 @@ def pieces_table(all_outcomes):
     return page.table(["log", "pieces:", "failed:", "mean ratio:", f"over {OVER_ODOMETRY:g}:", "worst:"], rows)
 
 
-def both_limits(before, after):
-    """The lower quarter of two sets of outcomes, so that both are held against the same."""
-    first, second = quarters(before), quarters(after)
-    return {name: min(found[name] for found in (first, second) if name in found) for name in {**first, **second}}
-
-
 def comparison(before, after):
     """Which runs break out in one set and not in the other."""
     earlier = {unset(one.run): one for one in before}
     pairs = [(earlier[unset(one.run)], one) for one in after if unset(one.run) in earlier]
-    limits = both_limits([one for one, _ in pairs], [one for _, one in pairs])
+    limits = Quarters(*zip(*pairs))  # both are held against the same
     rows = []
     for name, group in grouped_pairs(pairs).items():
         out = [(breaks_out(a, limits), breaks_out(b, limits)) for a, b in group]
@@ -427,7 +446,7 @@ def captured_text(all_outcomes):
 
 def document(real, plain, pieces, buildings, shown, report):
     """`shown`: [(file name, outcome)] of the pictures. `report`: circumstances and what is missing."""
-    limits = quarters(real)
+    limits = Quarters(real)
     of_logs = [(name, one) for name, one in shown if one.run.log.files()]
     of_buildings = [(name, one) for name, one in shown if not one.run.log.files()]
     missing = f"\nLeft out, for lack of data: {'; '.join(report['missing'])}.\n" if report["missing"] else ""
@@ -444,8 +463,9 @@ relations, the RMSE against a true path; where there is no truth, the number of 
 dead reckoning (limit: {OVER_QUARTER_CELLS:g} times the best quarter). The reference of
 {" and ".join(sorted(runs.WITHOUT_TRUTH))} is another program's estimate: there a run breaks out only where dead
 reckoning is nearer to it by as much. "Ratio" is the error over that of dead reckoning in the same run.
-Errors are those over what a cut start leaves of the log. Where that is easier, whole runs break out against cut ones
-(FR clinic, whose map is mostly dead reckoning).
+A cut start leaves a part of the log, which may be easier. So a run is held against those that have all of its
+relations, over these: each has a best quarter of its own. Where the reference is a path, or there is none, errors are
+those over what the cut leaves.
 
 A map that lays two corridors on each other covers fewer cells, so logs without truth
 ({", ".join(sorted(runs.IN_CELLS))}) do not show it.

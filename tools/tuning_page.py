@@ -36,7 +36,7 @@ class Yardstick:
     """The default settings on the ensemble: their results, outcomes, and the errors of their best quarters."""
     results: list
     outcomes: list
-    limits: dict
+    limits: robustness_page.Quarters
 
     def out(self):
         """Of each run, whether it breaks out."""
@@ -50,7 +50,7 @@ def yardstick(runs, get):
     if None in results:
         raise LookupError("not all runs with the default settings exist")
     outcomes = [robustness_page.outcome(run, result) for run, result in zip(runs, results)]
-    limits = robustness_page.quarters([one for one in outcomes if one.run.log.files()])
+    limits = robustness_page.Quarters([one for one in outcomes if one.run.log.files()])
     return Yardstick(results, outcomes, limits)
 
 

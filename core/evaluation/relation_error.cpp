@@ -26,9 +26,9 @@ Spread spread_of(std::span<const double> values) {
 
 class MotionErrors {
  public:
-  void add(const Pose2& off) {
-    translation_m_.push_back(std::hypot(off.x_m(), off.y_m()));
-    rotation_deg_.push_back(degrees(std::abs(off.yaw_rad())));
+  void add(double translation_m, double rotation_deg) {
+    translation_m_.push_back(translation_m);
+    rotation_deg_.push_back(rotation_deg);
   }
   [[nodiscard]] MotionError summary() const {
     return {translation_m_.size(), spread_of(translation_m_), spread_of(rotation_deg_)};
@@ -54,13 +54,17 @@ RelationError relation_error(std::span<const Relation> relations, const StampedP
     const StampedPose* second = path.nearest(relation.second);
     if (first == nullptr || second == nullptr) {
       ++error.missed;
+      error.each_translation_m.emplace_back();
       continue;
     }
     const Pose2 off = between(relation.T_first_second, between(first->pose, second->pose));
     const Duration span = std::chrono::abs(relation.second - relation.first);
     const bool is_short = span < std::chrono::seconds(3);
-    all.add(off);
-    (is_short ? short_ones : span < std::chrono::seconds(100) ? middling : long_ones).add(off);
+    const double translation_m = std::hypot(off.x_m(), off.y_m());
+    error.each_translation_m.emplace_back(translation_m);
+    MotionErrors& by_span = is_short ? short_ones : span < std::chrono::seconds(100) ? middling : long_ones;
+    for (MotionErrors* errors : {&all, &by_span})
+      errors->add(translation_m, degrees(std::abs(off.yaw_rad())));
   }
   error.all = all.summary();
   error.under_3_s = short_ones.summary();

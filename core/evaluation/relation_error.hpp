@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "core/base/time.hpp"
 #include "core/evaluation/stamped_path.hpp"
@@ -40,6 +42,8 @@ struct RelationError {
   MotionError over_100_s;       ///< 100 s included
   std::size_t missed = 0;       ///< relations of which a stamp has no pose: in none of the above
   StampMatching stamps;         ///< of all relations, in the path
+  /// Of each relation, in order; of a missed one none.
+  std::vector<std::optional<double>> each_translation_m;
 };
 
 /// R. Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots 2009, eq. 4: the

@@ -65,6 +65,9 @@ TEST(Eval, AgreesWithRelationsComputedByHand) {
   expect_motions(figures["under_3_s"], 1, {0.5, 0.0, 0.5}, {0.0, 0.0, 0.0});
   expect_motions(figures["from_3_to_100_s"], 1, {0.0, 0.0, 0.0}, {2.0, 0.0, 2.0});
   expect_motions(figures["over_100_s"], 2, {0.15, 0.05, 0.2}, {1.5, 1.5, 3.0});
+  ASSERT_EQ(figures["each_translation_m"].size(), 5U);
+  EXPECT_NEAR(figures["each_translation_m"][3].get<double>(), 0.2, 1e-4);
+  EXPECT_TRUE(figures["each_translation_m"][4].is_null());
   EXPECT_EQ(figures["stamps"]["exact"], 5);
   EXPECT_EQ(figures["stamps"]["within_2_ms"], 1);
   EXPECT_EQ(figures["stamps"]["unmatched_s"], json({99.0}));

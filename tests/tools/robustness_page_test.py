@@ -3,6 +3,7 @@
 # SPDX-FileCopyrightText: 2026 The swiftlet authors
 """tools/robustness_page.py counts break-outs, with their interval, and compares two sets of runs."""
 
+import statistics
 import sys
 import unittest
 from pathlib import Path
@@ -45,41 +46,49 @@ def buildings(others):
 class RobustnessPage(unittest.TestCase):
     def test_a_run_far_over_the_best_quarter_breaks_out(self):
         group = made([0.1, 0.1, 0.1, 0.14, 0.16])
-        limits = rates.quarters(group)
+        limits = rates.Quarters(group)
         self.assertEqual([rates.breaks_out(one, limits) for one in group], [False, False, False, False, True])
 
     def test_many_beams_are_held_against_few_where_those_are_better(self):
         few, many = made([0.1] * 4), made([0.3] * 4, beams=11)
-        limits = rates.quarters(few + many)
+        limits = rates.Quarters(few + many)
         self.assertTrue(rates.breaks_out(many[0], limits))
         self.assertFalse(rates.breaks_out(few[0], limits))
-        self.assertFalse(rates.breaks_out(many[0], rates.quarters(many)))
+        self.assertFalse(rates.breaks_out(many[0], rates.Quarters(many)))
+
+    def test_a_whole_run_is_not_held_against_a_cut_one_whose_relations_are_easier(self):
+        each = [[0.75, 0.25], [0.75, 0.25], [None, 0.125], [None, 0.125], [None, 0.25], [0.75, 0.5]]
+        group = [rates.outcome(run(number), {**result(0.0, 1.0), "final": {
+            "all": {"translation_m": {"mean": statistics.fmean(filter(None, errors))}}, "each_translation_m": errors}})
+            for number, errors in enumerate(each)]
+        limits = rates.Quarters(group)
+        self.assertEqual([limits.of(one) for one in group], [0.5, 0.5, 0.125, 0.125, 0.125, 0.5])
+        self.assertEqual([rates.breaks_out(one, limits) for one in group], [False, False, False, False, True, False])
 
     def test_a_log_on_which_every_run_is_bad_has_break_outs(self):
         group = made([5.0, 5.0], log=FR079)
-        self.assertTrue(all(rates.breaks_out(one, rates.quarters(group)) for one in group))
+        self.assertTrue(all(rates.breaks_out(one, rates.Quarters(group)) for one in group))
 
     def test_fr079_is_held_against_the_relations_and_what_is_attainable_by_them(self):
         self.assertEqual(FR079.reference, "radish/fr079.relations")
         few, many = made([0.119, 0.121], log=FR079), made([0.082, 0.083], beams=11, log=FR079)
-        limits = rates.quarters(few + many)
+        limits = rates.Quarters(few + many)
         self.assertEqual([rates.breaks_out(one, limits) for one in few + many], [False, True, False, True])
 
     def test_where_the_reference_is_an_estimate_only_dead_reckoning_counts(self):
         group = made([0.1, 0.1, 0.5, 0.6], odometry=0.55, log=FHW)
-        limits = rates.quarters(group)
+        limits = rates.Quarters(group)
         self.assertEqual([rates.breaks_out(one, limits) for one in group], [False, False, False, True])
         self.assertIn("seed 3, +0 ms | 0.600 | – | 1.09 |", rates.tables(group))
 
     def test_a_run_worse_than_dead_reckoning_breaks_out(self):
-        limits = {run(0).group(): 1.0}
         for odometry, expected in ((1.0, False), (0.99, False), (0.97, True)):
             [one] = made([1.0], odometry=odometry)
-            self.assertEqual(rates.breaks_out(one, limits), expected)
+            self.assertEqual(rates.breaks_out(one, rates.Quarters([one])), expected)
 
     def test_a_run_that_failed_breaks_out(self):
         one = rates.outcome(run(0), {"failed": "exit code 2: no sample"})
-        self.assertTrue(rates.breaks_out(one, {}))
+        self.assertTrue(rates.breaks_out(one, rates.Quarters()))
         self.assertIn("exit code 2: no sample", rates.tables([one]))
 
     def test_a_run_without_a_trajectory_failed(self):
@@ -89,7 +98,7 @@ class RobustnessPage(unittest.TestCase):
 
     def test_a_group_of_runs_that_all_failed_has_a_whole_row(self):
         one = rates.outcome(run(0), {"failed": "exit code 2: no sample"})
-        self.assertIn(f"| Robot 4{runs.FEW} | 1 | – | – | – |", rates.groups_table([one], {}))
+        self.assertIn(f"| Robot 4{runs.FEW} | 1 | – | – | – | – |", rates.groups_table([one], rates.Quarters()))
 
     def test_cells_are_held_against_those_of_dead_reckoning(self):
         one = rates.outcome(run(0), {**result(1.0, 1.0), "final": {"cells_10_cm": 80}, "odometry": {"cells_10_cm": 100}})
@@ -117,10 +126,10 @@ class RobustnessPage(unittest.TestCase):
 
     def test_runs_without_truth_stand_apart(self):
         group = made([0.1, 0.1, 0.1, 0.9]) + made([0.1] * 4, beams=None, log=RICE) + made([0.1] * 4, log=FHW)
-        text = rates.rates_table(group, rates.quarters(group))
+        text = rates.rates_table(group, rates.Quarters(group))
         self.assertIn("| **with truth** | 4 | 1 | 25.0 | – | 1 |", text)
         self.assertIn("| **all** | 12 | 1 | 8.3 | 0.0 to 25.0 | 1 |", text)
-        self.assertNotIn("with truth", rates.rates_table(made([0.1], log=FHW), {}))
+        self.assertNotIn("with truth", rates.rates_table(made([0.1], log=FHW), rates.Quarters()))
 
     def test_a_comparison_lists_what_was_mended_and_what_broke(self):
         before, after = made([0.1, 0.1, 0.1, 0.5]), made([0.1, 0.1, 0.4, 0.1])
@@ -193,7 +202,7 @@ class RobustnessPage(unittest.TestCase):
 
     def test_the_page_has_all_parts_and_the_worst_picture_of_a_log(self):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
-        shown = [("robot_4.png", one) for one in rates.pictured(group, rates.quarters(group))]
+        shown = [("robot_4.png", one) for one in rates.pictured(group, rates.Quarters(group))]
         self.assertEqual([one.error for _, one in shown], [0.9])
         text = rates.document(group, [], [], [], shown, PAGE)
         self.assertIn("commit abc", text)

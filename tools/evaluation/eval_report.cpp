@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 namespace swiftlet {
 namespace {
@@ -134,6 +136,12 @@ Json json_of(const MotionError& error) {
   return json;
 }
 
+Json json_of(const std::vector<std::optional<double>>& values) {
+  Json json = Json::array();
+  for (const std::optional<double>& value : values) json.push_back(value ? Json(*value) : Json(nullptr));
+  return json;
+}
+
 Json json_of(const RelationError& error) {
   return {{"kind", "relations"},
           {"relations", relations_in(error)},
@@ -142,6 +150,7 @@ Json json_of(const RelationError& error) {
           {"under_3_s", json_of(error.under_3_s)},
           {"from_3_to_100_s", json_of(error.from_3_to_100_s)},
           {"over_100_s", json_of(error.over_100_s)},
+          {"each_translation_m", json_of(error.each_translation_m)},
           {"stamps", json_of(error.stamps)}};
 }
 

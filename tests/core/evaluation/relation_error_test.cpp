@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace swiftlet {
@@ -14,7 +15,9 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::DoubleNear;
 using testing::ElementsAre;
+using testing::Optional;
 
 /// One pose a second, one metre further along x each.
 StampedPath straight_path(int last_second) {
@@ -43,6 +46,9 @@ TEST(RelationError, IsMeanDeviationAndMaximumWhateverTheMapsFrame) {
     const RelationError error = relation_error(relations, path);
     EXPECT_EQ(error.all.count, 3U);
     EXPECT_EQ(error.missed, 0U);
+    EXPECT_THAT(error.each_translation_m,
+                ElementsAre(Optional(DoubleNear(0.5, 1e-9)), Optional(DoubleNear(0.0, 1e-9)),
+                            Optional(DoubleNear(0.0, 1e-9))));
     EXPECT_NEAR(error.all.translation_m.mean, 0.5 / 3.0, 1e-9);
     EXPECT_NEAR(error.all.translation_m.deviation, 0.5 * std::sqrt(2.0) / 3.0, 1e-9);
     EXPECT_NEAR(error.all.translation_m.max, 0.5, 1e-9);
@@ -76,6 +82,8 @@ TEST(RelationError, NamesEachStampWithoutPoseOnceAndLeavesItsRelationsOut) {
   EXPECT_EQ(error.all.count, 1U);
   EXPECT_NEAR(error.all.translation_m.max, 0.1, 1e-9);
   EXPECT_EQ(error.missed, 3U);
+  EXPECT_THAT(error.each_translation_m,
+              ElementsAre(Optional(DoubleNear(0.1, 1e-9)), std::nullopt, std::nullopt, std::nullopt));
   EXPECT_EQ(error.stamps.exact, 3U);
   EXPECT_THAT(error.stamps.unmatched, ElementsAre(HostTime(seconds(7)), HostTime(seconds(9))));
 }

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace swiftlet {
 namespace {
@@ -29,6 +30,7 @@ Evaluation of_relations() {
   error.all = {4, {0.2, 0.18708, 0.5}, {1.25, 1.299, 3.0}};
   error.under_3_s = {4, {0.2, 0.18708, 0.5}, {1.25, 1.299, 3.0}};
   error.missed = 2;
+  error.each_translation_m = {0.5, std::nullopt, 0.25, 0.0, std::nullopt, 0.05};
   error.stamps = {
       6, 1, {at_us(1'000'000), at_us(2'500'000), at_us(3'000'000), at_us(1'629'657'168'376'475), at_us(5)}};
   return evaluation_of({"intel.relations", error});
@@ -116,6 +118,7 @@ TEST(EvaluationJson, HoldsAllFiguresOfRelations) {
                                     {"rotation_deg", {{"mean", 1.25}, {"std", 1.299}, {"max", 3.0}}}}));
   EXPECT_EQ(reference["over_100_s"],
             (json{{"count", 0}, {"translation_m", nullptr}, {"rotation_deg", nullptr}}));
+  EXPECT_EQ(reference["each_translation_m"], json({0.5, nullptr, 0.25, 0.0, nullptr, 0.05}));
   EXPECT_EQ(reference["stamps"]["unmatched"], 5);
   EXPECT_EQ(reference["stamps"]["unmatched_s"], json({1.0, 2.5, 3.0, 1629657168.376475, 5e-6}));
 }
