@@ -35,8 +35,9 @@ std::optional<OtherPath> path_over_known_floor(std::span<const RangeSample> samp
 
 std::optional<OtherPath> path_backwards(std::span<const RangeSample> samples, const MappingSettings& settings,
                                         const BeamLayout& beams) {
-  std::optional<OtherPath> found =
-      path(MapSource::kBackwards, 1.0, played_backwards(samples), settings, beams);
+  MappingSettings others = settings;
+  others.sensor.odometry_calibration = calibration_backwards(settings.sensor.odometry_calibration);
+  std::optional<OtherPath> found = path(MapSource::kBackwards, 1.0, played_backwards(samples), others, beams);
   if (found) std::ranges::reverse(found->T_map_body);
   return found;
 }
@@ -53,6 +54,11 @@ std::vector<RangeSample> played_backwards(std::span<const RangeSample> samples) 
     sample.odometry_ran_on = before.odometry_ran_on;
   }
   return played;
+}
+
+OdometryCalibration calibration_backwards(OdometryCalibration calibration) {
+  calibration.yaw_per_second_rad = -calibration.yaw_per_second_rad;
+  return calibration;
 }
 
 void stretch_steps(std::vector<RangeSample>& samples, std::span<const double> step_scale) {

@@ -9,6 +9,7 @@
 
 #include "core/backend/refinement/other_path.hpp"
 #include "core/run/mapping_run.hpp"
+#include "core/sensing/odometry_calibration.hpp"
 
 namespace swiftlet {
 
@@ -42,6 +43,10 @@ inline constexpr std::array kOtherYawNoise{0.5, 0.7};
 /// As if the vehicle had flown its path from the end to the start, in the same times. A break of motion lies
 /// between the same two samples.
 [[nodiscard]] std::vector<RangeSample> played_backwards(std::span<const RangeSample> samples);
+
+/// What corrects the steps of a run corrects them so when it is played backwards. Metres and turns change
+/// their sign by themselves, seconds do not.
+[[nodiscard]] OdometryCalibration calibration_backwards(OdometryCalibration calibration);
 
 /// Makes the step to each sample so many times as long.
 void stretch_steps(std::vector<RangeSample>& samples, std::span<const double> step_scale);

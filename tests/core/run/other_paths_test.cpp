@@ -117,6 +117,49 @@ TEST(PlayedBackwards, TwiceIsTheRunItself) {
   EXPECT_TRUE(played_backwards({}).empty());
 }
 
+TEST(PlayedBackwards, ACalibrationCorrectsEachStepToTheInverseOfTheTrueOne) {
+  OdometryCalibration calibration;
+  calibration.forward_scale = calibration.sideways_scale = 1.02;
+  calibration.yaw_per_metre_rad = 0.01;
+  calibration.yaw_per_radian = 0.03;
+  calibration.yaw_per_second_rad = 0.002;
+  for (const Pose2& step : {Pose2(0.05, 0.0, 0.0), Pose2(0.0, 0.0, 0.1), Pose2(-0.05, 0.0, 0.0)}) {
+    const Duration elapsed = std::chrono::milliseconds(100);
+    EXPECT_TRUE(poses_near(calibration_backwards(calibration).corrected(step.inverse(), elapsed),
+                           calibration.corrected(step, elapsed).inverse(), 1e-3, 1e-9));
+  }
+}
+
+/// As a gyro reports them whose heading is short by so much each second.
+std::vector<RangeSample> with_missed_yaw(std::vector<RangeSample> samples, double missed_rad_per_s) {
+  Pose2 T_odom_before = samples.front().T_odom_body;  // true
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Pose2 T_odom_body = samples[i].T_odom_body;
+    const Pose2 step = between(T_odom_before, T_odom_body);
+    const double missed_rad =
+        missed_rad_per_s * to_seconds(samples[i].measured_at - samples[i - 1].measured_at);
+    samples[i].T_odom_body =
+        samples[i - 1].T_odom_body * Pose2(step.x_m(), step.y_m(), step.yaw_rad() - missed_rad);
+    T_odom_before = T_odom_body;
+  }
+  return samples;
+}
+
+TEST(PathBackwards, IsCorrectedByTheCalibration) {
+  TestVehicle vehicle = vehicle_at_start({}, 81);
+  fly_along(vehicle, loop_corridor(), "bcdabcda");
+  MappingSettings calibrated = kSettings;
+  calibrated.sensor.odometry_calibration.yaw_per_second_rad = 0.01;
+  const std::optional<OtherPath> backwards =
+      path_backwards(with_missed_yaw(vehicle.samples(), 0.01), calibrated, BeamLayout::multiranger());
+  ASSERT_TRUE(backwards);
+  const std::vector<Pose2> truth = true_poses(vehicle);
+  for (const std::size_t i : {truth.size() / 3, truth.size() - 1})
+    EXPECT_TRUE(poses_near(between(backwards->T_map_body.front(), backwards->T_map_body[i]),
+                           between(truth.front(), truth[i]), 0.1, 0.05))
+        << i;
+}
+
 TEST(PathBackwards, IsAnotherThatFindsTheSameBuildingInTheOrderOfTheSamples) {
   const std::vector<RangeSample> samples = two_laps();
   const std::optional<OtherPath> forwards =
