@@ -209,9 +209,11 @@ void RunRefinement::add_ties(const PoseGraph& graph, const ScanRange& stretch, K
   }
 }
 
-/// Nothing, unless it is the graph's path.
+/// Closures and headings are the graph's own path's. A motion that the run has refuted is none for a run that
+/// was mapped again either.
 RunRefinement::Known RunRefinement::known_of(const Hypothesis& hypothesis, const PoseGraph& graph) const {
-  if (hypothesis.source != MapSource::kPoseGraph) return {};
+  if (hypothesis.source == MapSource::kDeadReckoning || hypothesis.source == MapSource::kFrontend) return {};
+  if (hypothesis.source != MapSource::kPoseGraph) return {{}, {}, doubted_motions(graph, *chain_)};
   return known_of(graph, {scans_->all().first_id(), scans_->all().end_id()});
 }
 

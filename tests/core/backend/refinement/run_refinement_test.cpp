@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -189,25 +190,50 @@ std::vector<RangeSample> slipped(std::vector<RangeSample> samples, std::size_t f
   return samples;
 }
 
+/// Two laps whose odometry stands still over 2 m, which the graph doubts.
+struct SlippedRun {
+  SlippedRun() : vehicle(vehicle_at_start({}, 72)) {
+    fly_along(vehicle, loop_corridor(), "bcdabcda");
+    const std::size_t from = vehicle.samples().size() / 3;
+    std::size_t to = from;
+    while (distance_m(vehicle.samples()[to].T_odom_body.position(),
+                      vehicle.samples()[from].T_odom_body.position()) < 2.0)
+      ++to;
+    run.emplace(slipped(vehicle.samples(), from, to));
+    const KeyframeId before = run->scans().all().values()[from].keyframe;
+    motion = {before, before + 1,
+              between(run->T_local_keyframe()[before], run->T_local_keyframe()[before + 1])};
+    motion.information = Eigen::Vector3d(1600.0, 1600.0, 1e4).asDiagonal();
+    motion.is_closure = true;
+    motion.dcs_scale = 1e-3;
+    EXPECT_LT(to, index_of(run->chain().scan_of(before + 1)) + 1);
+  }
+  TestVehicle vehicle;
+  std::optional<StoredRun> run;
+  RelativePoseFactor<KeyframeId> motion;
+};
+
 TEST(RunRefinement, AMotionInDoubtIsAsLongAsTheGraphHasIt) {
-  TestVehicle vehicle = vehicle_at_start({}, 72);
-  fly_along(vehicle, loop_corridor(), "bcdabcda");
-  const std::size_t from = vehicle.samples().size() / 3;
-  std::size_t to = from;
-  while (distance_m(vehicle.samples()[to].T_odom_body.position(),
-                    vehicle.samples()[from].T_odom_body.position()) < 2.0)
-    ++to;
-  const StoredRun run(slipped(vehicle.samples(), from, to));
-  const std::vector<Pose2> truth = true_poses(vehicle);
-  const KeyframeId before = run.scans().all().values()[from].keyframe;
-  RelativePoseFactor<KeyframeId> motion{
-      before, before + 1, between(run.T_local_keyframe()[before], run.T_local_keyframe()[before + 1])};
-  motion.information = Eigen::Vector3d(1600.0, 1600.0, 1e4).asDiagonal();
-  motion.is_closure = true;
-  motion.dcs_scale = 1e-3;
-  ASSERT_LT(to, index_of(run.chain().scan_of(before + 1)) + 1);
-  const FinalMap map = final_map(run, truth, {}, {}, SensorModel::crazyflie(), {}, std::vector{motion});
+  const SlippedRun slip;
+  const std::vector<Pose2> truth = true_poses(slip.vehicle);
+  const FinalMap map =
+      final_map(*slip.run, truth, {}, {}, SensorModel::crazyflie(), {}, std::vector{slip.motion});
   ASSERT_EQ(map.counters.map_source, MapSource::kPoseGraph);
+  EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.06);
+}
+
+TEST(RunRefinement, AMotionInDoubtIsNoneForARunMappedAgainEither) {
+  const SlippedRun slip;
+  const std::vector<Pose2> truth = true_poses(slip.vehicle);
+  BackendConfig config;
+  config.tuning.refinement.correction_odds = 1e9;  // dead reckoning is not the map
+  const auto again = [&](std::span<const double> step_scale) {
+    if (!step_scale.empty()) return std::vector<OtherPath>{};
+    return std::vector{OtherPath{MapSource::kBackwards, 1.0, truth}};
+  };
+  const FinalMap map = final_map(*slip.run, bent(slip.vehicle, 0.01), {}, config, SensorModel::crazyflie(),
+                                 again, std::vector{slip.motion});
+  ASSERT_EQ(map.counters.map_source, MapSource::kBackwards);
   EXPECT_LT(aligned_rms_error_m(map.T_map_body, truth), 0.06);
 }
 
