@@ -26,8 +26,6 @@ void SensorOverrides::take_calibration(const SensorModel& calibrated) {
 }
 
 SensorModel SensorOverrides::applied_to(SensorModel model) const {
-  model.min_range_m = min_range_m.value_or(model.min_range_m);
-  model.max_range_m = max_range_m.value_or(model.max_range_m);
   model.range_sigma_m = range_sigma_m.value_or(model.range_sigma_m);
   if (range_age_s) model.range_age = from_seconds(*range_age_s);
   model.odometry.xy_m.after_metre = odometry_xy_after_metre_m.value_or(model.odometry.xy_m.after_metre);

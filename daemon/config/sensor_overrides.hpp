@@ -82,7 +82,8 @@ struct SensorOverrides {
   /// where none is set.
   void take_calibration(const SensorModel& calibrated);
 
-  /// The input's model with what is set here put in its place.
+  /// The input's model with what is set here put in its place; the limits of the ranges stay as they are: the
+  /// input has taken those that are set here, or has narrower ones of its own.
   [[nodiscard]] SensorModel applied_to(SensorModel model) const;
 };
 

@@ -45,9 +45,11 @@ class Numbers {
 };
 
 bool read_odometry_pose(Numbers& numbers, CarmenOdometry& odometry) {
-  return numbers.read(odometry.position.x_m) && numbers.read(odometry.position.y_m) &&
-         numbers.read(odometry.yaw_rad) && std::isfinite(odometry.position.x_m) &&
-         std::isfinite(odometry.position.y_m) && std::isfinite(odometry.yaw_rad);
+  const bool is_pose = numbers.read(odometry.position.x_m) && numbers.read(odometry.position.y_m) &&
+                       numbers.read(odometry.yaw_rad);
+  odometry.is_zero = odometry.position.x_m == 0.0 && odometry.position.y_m == 0.0 && odometry.yaw_rad == 0.0;
+  return is_pose && std::isfinite(odometry.position.x_m) && std::isfinite(odometry.position.y_m) &&
+         std::isfinite(odometry.yaw_rad);
 }
 
 /// Stamps are logged in microseconds: the nearest one undoes the rounding of the binary number.
@@ -196,6 +198,7 @@ class CarmenParser {
                        read_odometry_pose(numbers, laser) && read_odometry_pose(numbers, robot);
     for (int i = 0; i < 5; ++i) is_complete = is_complete && numbers.read(ignored);
     if (!is_complete || !read_stamp(numbers, laser.stamp)) return "ROBOTLASER1 line cut off or garbled";
+    laser.is_zero = robot.is_zero;
     add_scan(ScanLine::kRobotLaser, *geometry, laser);
     log_.max_range_m = max_range_m;
     mounting_.add(laser, robot);

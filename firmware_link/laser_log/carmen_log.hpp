@@ -22,6 +22,7 @@ struct CarmenOdometry {
   HostTime stamp{};  ///< ipc_timestamp
   Point2 position;
   double yaw_rad = 0.0;
+  bool is_zero = false;  ///< as logged, all three numbers of the robot's pose
 };
 
 /// A laser log of the CARMEN toolkit, thinned to a few beams: the ODOM lines and those of one kind of scan,

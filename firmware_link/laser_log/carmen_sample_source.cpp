@@ -101,9 +101,8 @@ AssemblyConfig assembly_config(const CarmenLog& log, const SensorModel& sensor) 
 DeviceTime device_time(HostTime stamp) { return DeviceTime(stamp.time_since_epoch()); }
 
 bool is_reset(const CarmenOdometry& before, const CarmenOdometry& now) {
-  const bool is_zero = now.position.x_m == 0.0 && now.position.y_m == 0.0 && now.yaw_rad == 0.0;
-  return is_zero && (distance_m(before.position, now.position) > kMovedM ||
-                     std::abs(wrap_angle(before.yaw_rad)) > kTurnedRad);
+  return now.is_zero && (distance_m(before.position, now.position) > kMovedM ||
+                         std::abs(wrap_angle(before.yaw_rad)) > kTurnedRad);
 }
 
 std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Duration range_age) {

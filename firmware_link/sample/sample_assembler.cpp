@@ -34,6 +34,7 @@ RangeStatus classify_distance(double distance_m, const SensorModel& sensor) {
 SampleAssembler::SampleAssembler(const AssemblyConfig& config, InputCounters& counters)
     : config_(config),
       counters_(counters),
+      attitude_(config.continuity),
       positions_(config.continuity),
       yaws_(config.continuity),
       tilts_(config.continuity),
@@ -52,8 +53,11 @@ void SampleAssembler::interpolate_across(Duration odometry_period) {
   config_.continuity.longest_interpolation = scaled(odometry_period, kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
-  tilts_.set_limits(config_.continuity);
-  heights_.set_limits(config_.continuity);
+  const Duration range_period = learns_range_period_ ? kUsualPeriod : config_.range_period;
+  attitude_.longest_interpolation =
+      scaled(std::max(odometry_period, range_period), kMaxInterpolationInPeriods);
+  tilts_.set_limits(attitude_);
+  heights_.set_limits(attitude_);
 }
 
 void SampleAssembler::learn_periods(const Reading& reading) {
@@ -154,6 +158,7 @@ void SampleAssembler::restart() {
   heights_.restart();
   last_height_.reset();
   low_at_odom_.reset();
+  travelled_low_ = false;
   storeys_.restart();
 }
 
@@ -211,9 +216,13 @@ std::optional<RangeSample> SampleAssembler::take() {
     if ((too_early || in_hole) && !never && learns_odometry_period_) return std::nullopt;
     // A reading later than one interpolation span could not be used; another span for packets that overtake
     // each other.
-    const bool may_come = !ended_ && latest_ - at <= 2 * config_.continuity.longest_interpolation;
-    const bool is_incomplete = too_early || is_coming(tilts_, at) || is_coming(heights_, at);
-    if (is_incomplete && !never && !in_hole && may_come) return std::nullopt;
+    const auto may_come = [&](const ContinuityLimits& limits) {
+      return !ended_ && latest_ - at <= 2 * limits.longest_interpolation;
+    };
+    const bool is_incomplete =
+        (too_early && may_come(config_.continuity)) ||
+        (!too_early && (is_coming(tilts_, at) || is_coming(heights_, at)) && may_come(attitude_));
+    if (is_incomplete && !never && !in_hole) return std::nullopt;
     if (too_early || never || in_hole) {
       drop_oldest();
       continue;
@@ -271,10 +280,12 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
 bool SampleAssembler::stands_at(double height_m, const Point2& position_odom) {
   if (height_m > kStandingM) {
     low_at_odom_.reset();
+    travelled_low_ = false;
     return false;
   }
   if (!low_at_odom_) low_at_odom_ = position_odom;
-  return distance_m(*low_at_odom_, position_odom) <= kCarriedM;
+  travelled_low_ = travelled_low_ || distance_m(*low_at_odom_, position_odom) > kCarriedM;
+  return !travelled_low_;
 }
 
 void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sample) {

@@ -64,7 +64,8 @@ class SampleAssembler {
 
   /// The periods of ranges and dead reckoning; 0: not known, it is learnt from the next readings, and ranges
   /// in holes of the dead reckoning wait meanwhile. Dead reckoning is interpolated across at most 2.5 periods
-  /// (one lost packet), where its period is learnt from 250 ms to 2.5 s.
+  /// (one lost packet), where its period is learnt from 250 ms to 2.5 s; tilt and height across 2.5 periods
+  /// of the slower of dead reckoning and ranges.
   void set_periods(Duration range_period, Duration odometry_period);
   /// A duplicate or late reading is dropped and counted; a step back of more than a second is a reboot of the
   /// vehicle.
@@ -120,6 +121,7 @@ class SampleAssembler {
   LearntPeriod position_times_;
   LearntPeriod yaw_times_;
   InputCounters& counters_;
+  ContinuityLimits attitude_;  ///< of tilt and height
   OdometryTimeline<Point2> positions_;
   OdometryTimeline<YawReading> yaws_;
   OdometryTimeline<BodyTilt> tilts_;
@@ -143,6 +145,7 @@ class SampleAssembler {
   DeviceTime latest_{};  ///< of all readings since the last restart
   std::optional<Motion> last_motion_;
   std::optional<Point2> low_at_odom_;  ///< where it came down to kStandingM, if it is not above
+  bool travelled_low_ = false;         ///< since then, farther than kCarriedM: nothing measures the height
   Point2 began_at_odom_;               ///< the dead reckoning, with the run of last_motion_
   std::uint32_t next_sequence_ = 0;
   bool ended_ = false;

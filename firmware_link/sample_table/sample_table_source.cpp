@@ -118,7 +118,8 @@ Result<ReceivedSample> SampleTableSource::next() {
   Result<RangeSample> sample = parse_sample_row(*row, head_);
   if (!sample) return end_at_line(sample.error().message);
   if (!last_) sample->starts_segment = true;
-  if (!sample->starts_segment && sample->measured_at <= last_->measured_at)
+  const bool goes_on = !sample->starts_segment || sample->odometry_ran_on;
+  if (last_ && goes_on && sample->measured_at <= last_->measured_at)
     return end_at_line("measured_at_ns does not increase");
   if (leaps(*sample)) {
     sample->starts_segment = true;

@@ -25,6 +25,7 @@ TEST(SensorOverrides, TakeACalibrationWhereNothingIsSet) {
 TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
   SensorOverrides overrides;
   overrides.range_sigma_m = 0.07;
+  overrides.max_range_m = 10.0;
   overrides.range_age_s = 0.02;
   overrides.odometry_forward_scale = 0.95;
   overrides.odometry_sideways_scale = 1.05;
@@ -40,7 +41,7 @@ TEST(SensorOverrides, ReplaceOnlyWhatIsSet) {
   EXPECT_EQ(model.odometry_calibration.yaw_per_radian, 0.02);
   EXPECT_EQ(model.odometry_calibration.yaw_per_second_rad, 0.03);
   EXPECT_EQ(model.calibration_as_reported().forward_scale, 0.95);
-  EXPECT_EQ(model.max_range_m, SensorModel::crazyflie().max_range_m);
+  EXPECT_EQ(model.max_range_m, SensorModel::crazyflie().max_range_m) << "the input's own";
 }
 
 TEST(SensorOverrides, DeadReckoningAsAMapMayHaveAScaleOfItsOwn) {

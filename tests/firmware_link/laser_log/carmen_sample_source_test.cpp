@@ -153,6 +153,24 @@ TEST(CarmenSampleSource, BeginsASegmentWhereTheWheelsAreReset) {
   EXPECT_EQ((*source)->report().counters.segments, 2U);
 }
 
+TEST(CarmenSampleSource, BeginsASegmentWhereTheWheelsAreResetAndTheLaserIsNotOnTheirAxle) {
+  const auto line = [](const std::string& poses, const std::string& stamp) {
+    return scan_line("ROBOTLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0 " + poses + " 0 0 0 0 0", stamp);
+  };
+  const TemporaryFile file("a.clf", line("1.2 1.0 1.5708 1.2 0.8 1.5708", "10.0") +
+                                        line("1.2 1.1 1.5708 1.2 0.9 1.5708", "10.2") +
+                                        line("0.2 0 0 0 0 0", "70.0") + line("0.3 0 0 0.1 0 0", "70.2"));
+  SampleSourceOptions options;
+  options.beam_count = 2;
+  auto source = CarmenSampleSource::open(file.path(), options);
+  ASSERT_TRUE(source.ok());
+  const std::vector<RangeSample> samples = read_all(**source);
+  ASSERT_EQ(samples.size(), 4U);
+  EXPECT_TRUE(samples[2].starts_segment);
+  EXPECT_FALSE(samples[2].odometry_ran_on);
+  EXPECT_EQ((*source)->report().counters.segments, 2U);
+}
+
 TEST(CarmenSampleSource, TellsOfAClockThatStepsFarBack) {
   const TemporaryFile file("a.clf", flaser_line(180, 0, "100") + flaser_line(180, 0.1, "101") +
                                         flaser_line(180, 0.2, "40") + flaser_line(180, 0.3, "41"));

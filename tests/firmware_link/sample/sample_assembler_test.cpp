@@ -235,6 +235,30 @@ TEST(SampleAssembler, TheLastSamplesDoNotNeedTheirTilt) {
   EXPECT_FALSE(flight.is_level.back());
 }
 
+TEST(SampleAssembler, LevelsRangesWhoseTiltComesAsOftenThoughDeadReckoningComesMoreOften) {
+  AssemblyConfig aged = config();
+  aged.sensor.range_age = milliseconds(60);
+  InputCounters counters;
+  SampleAssembler assembler(aged, counters);
+  assembler.set_periods(milliseconds(100), milliseconds(20));
+  std::vector<RangeSample> samples;
+  for (std::int64_t ms = 0; ms <= 1000; ms += 20) {
+    assembler.add(whole_reading(ms, {}));
+    if (ms % 100 == 0) {
+      Reading ranges;
+      ranges.stream = 2;
+      ranges.at = device_ms(ms);
+      ranges.tilt = BodyTilt{.x_up = 0.2, .y_up = 0.0};
+      for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(ranges.distance_m.try_push_back(1.F));
+      assembler.add(ranges);
+    }
+    while (const auto sample = assembler.take()) samples.push_back(*sample);
+  }
+  ASSERT_EQ(samples.size(), 10U);  // the first is older than all dead reckoning
+  for (const RangeSample& sample : samples)
+    EXPECT_NEAR(sample.distance_m[0], std::sqrt(1.0 - 0.2 * 0.2), 1e-6);
+}
+
 TEST_F(SampleAssemblerTest, TakesNoTiltThatIsNoneAndNoRangeOfABodyOnItsSide) {
   const auto attitude = [this](std::int64_t ms, const BodyTilt& tilt) {
     Reading reading;
@@ -313,6 +337,22 @@ TEST_F(SampleAssemblerTest, WhatTravelsOnTheFloorHasAHeightThatNothingMeasures) 
   ASSERT_EQ(samples_.size(), 10U);
   EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
   for (std::size_t i = 4; i < samples_.size(); ++i) EXPECT_EQ(samples_[i].status[0], RangeStatus::kHit) << i;
+}
+
+TEST_F(SampleAssemblerTest, WhatHasTravelledOnTheFloorDoesNotStandWhereItComesBack) {
+  for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
+    position(ms, 0.002 * static_cast<double>(std::min(ms, 1000 - ms)));
+    Reading height;
+    height.stream = 3;
+    height.at = device_ms(ms);
+    height.height_m = 0.0;
+    feed(height);
+    ranges(ms);
+  }
+  end();
+  ASSERT_EQ(samples_.size(), 10U);
+  EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
+  EXPECT_EQ(samples_[9].status[0], RangeStatus::kHit);
 }
 
 TEST_F(SampleAssemblerTest, TellsTheStoreyByAltitudeLessHeight) {

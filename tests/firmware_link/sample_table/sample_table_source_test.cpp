@@ -183,6 +183,7 @@ TEST(SampleTable, EndsAtARowThatCannotBeUsedAndNamesIt) {
            {"# storeys\n", "line 6: stamp_ns cannot be '# storeys'"},
            {"20,6,1,2,0.5,3,2.5,inf\n", "line 6: segment cannot be '3'"},
            {"20,5,1,2,0.5,0,2.5,inf\n", "line 6: measured_at_ns does not increase"},
+           {"20,4,1,2,0.5,2,2.5,inf\n", "line 6: measured_at_ns does not increase"},
            {"99999999999999999999,6,1,2,0.5,0,2.5,inf\n", "line 6: stamp_ns cannot be"},
            {"20,6,1,2,0.5,0,-1,inf\n", "line 6: range_0_m cannot be '-1'"},
            {"20,6,1,2,0.5,0,\x1b[2J\xff,inf\n", "line 6: range_0_m cannot be '?[2J?'"}}) {
