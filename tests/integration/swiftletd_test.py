@@ -7,6 +7,7 @@ CASE is the name of one of the functions below. Exit code 77: skipped, the last 
 """
 
 import json
+import math
 import os
 import pty
 import resource
@@ -111,6 +112,23 @@ def threads_come_to_the_same_trajectory_every_time(bench):
         expect(code == 0, lines)
         runs.append(((out / "trajectory.tum").read_bytes(), (out / "map.pgm").read_bytes()))
     expect(runs[0] == runs[1], "the pace of the replay changed the result")
+
+
+def turns_deg(tum_file):
+    """From each of its poses to the next, none over half a turn."""
+    yaws = [2 * math.atan2(z, w) for z, w in ((float(t) for t in line.split()[6:8])
+                                              for line in tum_file.read_text(encoding="utf-8").splitlines())]
+    return [abs(math.degrees(math.remainder(after - before, math.tau))) for before, after in zip(yaws, yaws[1:])]
+
+
+def a_heading_that_leaps_stays_in_the_dead_reckoning_alone(bench):
+    out = bench.folder / "out"
+    code, lines = bench.daemon("sim://loop?seed=2&fault=jump@60:30", "--rate", 1000, "-o", out)
+    expect(code == 0, f"exit code {code}: {lines}")
+    expect(any("heading" in line for line in lines), f"no word of the leap: {lines}")
+    for name, least_deg, most_deg in (("odometry", 20, 40), ("trajectory", 0, 20)):
+        turn_deg = max(turns_deg(out / f"{name}.tum"))
+        expect(least_deg <= turn_deg <= most_deg, f"{name}.tum turns by {turn_deg:.1f} deg between two samples")
 
 
 def stop_with(bench, number):

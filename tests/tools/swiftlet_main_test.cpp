@@ -397,6 +397,15 @@ TEST_F(SwiftletCommand, OdometryOnlyCorrectsNothing) {
   EXPECT_EQ(text_of(file("out/trajectory.tum")), text_of(file("out/odometry.tum")));
 }
 
+TEST_F(SwiftletCommand, OdometryStaysAsReportedWhereTheHeadingLeaps) {
+  const std::string flight = "map 'sim://loop?seed=2&fault=jump@60:30' --no-calibrate -o {}/";
+  const Outcome mapped = run(flight + "out");
+  EXPECT_EQ(mapped.exit_code, 0);
+  EXPECT_THAT(mapped.err, HasSubstr("heading"));
+  ASSERT_EQ(run(flight + "reported --odometry-only").exit_code, 0);
+  EXPECT_EQ(text_of(file("out/odometry.tum")), text_of(file("reported/odometry.tum")));
+}
+
 TEST_F(SwiftletCommand, GivesTheSameBytesTwice) {
   write("run.clf", small_log());
   for (const char* name : {"a", "b"})
