@@ -75,7 +75,7 @@ TEST(TrackingState, IsDoubtedOnWhereACorrectionInterruptedTheDoubt) {
     if (error_m(corrected_run("sim://office?seed=" + std::string(seed) + "&fault=turn@150:20")) > 0.3)
       ++wrong;
   EXPECT_LE(wrong, 1)
-      << "all of them, if places that were weighed before the correction do not count behind it";
+      << "two of them, if places that were weighed before the correction do not count behind it";
 }
 
 TEST(RestartedVehicle, IsTakenBackFromTheTwinOfTheRoomItStoodIn) {
@@ -84,6 +84,14 @@ TEST(RestartedVehicle, IsTakenBackFromTheTwinOfTheRoomItStoodIn) {
     if (error_m(corrected_run("sim://office?seed=" + std::string(seed) + "&fault=restart@80:60")) > 1.0)
       ++wrong;
   EXPECT_LE(wrong, 1) << "all of them, if a place that was accepted is not weighed on";
+}
+
+TEST(CarriedVehicle, IsLookedForAnewWhereItsPlaceIsRefuted) {
+  int wrong = 0;
+  for (const char* seed : {"10", "12", "23"})
+    if (error_m(corrected_run("sim://maze?seed=" + std::string(seed) + "&fault=carried@80:60")) > 1.0)
+      ++wrong;
+  EXPECT_LE(wrong, 1) << "all of them, if a place that was accepted stays until another is";
 }
 
 TEST(SlippedVehicle, IsDrawnWhereItWasUntilTheMapContradictedIt) {

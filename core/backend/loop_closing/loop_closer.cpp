@@ -60,6 +60,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
 /// what was flown in between is no older map, and says nothing of where in that the vehicle is.
 void LoopCloser::begin_break(const Keyframe& made) {
   watched_since_ = made.id;
+  if (provisional_ && !made.odometry_ran_on) unplaced_since_ = provisional_->since;
   forget_places();
   const bool is_open = unplaced_since_ && unplaced_by_ != UnplacedBy::kSilence;
   if (is_open && made.odometry_ran_on) return;
@@ -215,6 +216,7 @@ void LoopCloser::weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& 
     return;
   if (places_.is_beyond_doubt()) return forget_places();
   replace_place(places_.decided(), graph);
+  if (places_.is_refuted()) withdraw_place(graph);
 }
 
 void LoopCloser::forget_places(const IdRanges<KeyframeId>& pruned) {
@@ -266,13 +268,24 @@ void LoopCloser::accept(LoopClosure closure, KeyframeGraph& graph) {
   closures_.push_back(closure);
 }
 
-/// All closures that joined the travel to the place before are dropped. Where the graph refuses, all stays.
-void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
-  if (decided.empty() || !graph.accommodate(factors_of(decided), watched_since_)) return;
+void LoopCloser::drop_closures_to_place(KeyframeGraph& graph) {
   for (LoopClosure& closure : closures_.values())
     if (closure.from < provisional_->since && closure.to >= provisional_->since && !closure.dropped)
       drop(closure, graph);
   contact_.reset();
+}
+
+/// The travel lies elsewhere, and none of the others is likely enough: the search begins anew.
+void LoopCloser::withdraw_place(KeyframeGraph& graph) {
+  drop_closures_to_place(graph);
+  unplaced_since_ = provisional_->since;
+  forget_places();
+}
+
+/// All closures that joined the travel to the place before are dropped. Where the graph refuses, all stays.
+void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
+  if (decided.empty() || !graph.accommodate(factors_of(decided), watched_since_)) return;
+  drop_closures_to_place(graph);
   places_.accept_likeliest();
   for (const LoopClosure& closure : decided) accept(closure, graph);
 }

@@ -111,6 +111,8 @@ class LoopCloser {
   void forget_places(const IdRanges<KeyframeId>& pruned = {});
   void place_travel(std::span<const LoopClosure> matches, const KeyframePoses& T_local_keyframe,
                     KeyframeGraph& graph);
+  void drop_closures_to_place(KeyframeGraph& graph);
+  void withdraw_place(KeyframeGraph& graph);
   void weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
   void note_contact(KeyframeId query, const PoseGraph& graph);
   void drop(LoopClosure& closure, KeyframeGraph& graph);

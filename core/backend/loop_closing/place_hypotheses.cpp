@@ -341,6 +341,11 @@ void PlaceHypotheses::accept_likeliest() {
   hypotheses_.front().is_accepted = true;
 }
 
+bool PlaceHypotheses::is_refuted() const {
+  const auto accepted = std::ranges::find_if(hypotheses_, &Hypothesis::is_accepted);
+  return accepted == hypotheses_.end() || accepted->log_odds < -config_->tuning.places.sure_log_odds;
+}
+
 bool PlaceHypotheses::is_beyond_doubt() const {
   return hypotheses_.front().is_accepted && lead() > 2.0 * config_->tuning.places.sure_log_odds;
 }

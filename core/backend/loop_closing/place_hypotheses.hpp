@@ -62,6 +62,8 @@ class PlaceHypotheses {
   /// The likeliest was accepted: from now on it lies where the graph has the travel. `T_path_keyframe` of
   /// later queries must not follow it there. Precondition of this and the next: there is one.
   void accept_likeliest();
+  /// The evidence against the accepted one is that for a decision, or another has taken its place.
+  [[nodiscard]] bool is_refuted() const;
   /// The accepted one leads by the evidence for two decisions.
   [[nodiscard]] bool is_beyond_doubt() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }

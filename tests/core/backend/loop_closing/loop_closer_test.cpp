@@ -247,6 +247,18 @@ TEST(LoopCloser, ASilenceEndsTheDoubtOfAPlaceThatWasFound) {
   EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kSilence);
 }
 
+TEST(LoopCloser, ASecondRestartLeavesTravelUnplacedWhosePlaceWasNotBeyondDoubt) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  const std::optional<KeyframeId> restarted = flown.loops().unplaced_since();
+  flown.feed_until_placed();
+  ASSERT_TRUE(flown.loops().provisional_since());
+  flown.feed_one_after_reset();
+  EXPECT_EQ(flown.loops().unplaced_since(), restarted);
+  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kRestart);
+}
+
 TEST(LoopCloser, TheGroundBeforeABreakIsKnownUpToThere) {
   const TestVehicle vehicle = carried_behind_two_laps();
   FlownLoops flown(vehicle);

@@ -503,6 +503,19 @@ TEST_F(PlaceHypothesesTest, OneThatWasAcceptedIsBeyondDoubtOnceItLeadsByTwoDecis
   EXPECT_LT(more, 4) << "a query gives five of the seven nats of a decision";
 }
 
+TEST_F(PlaceHypothesesTest, OneThatWasAcceptedIsRefutedByAsMuchAsItTakesToAcceptIt) {
+  begin_nowhere(100.0);
+  ASSERT_GT(queries_until_decided(), 0);
+  accept(Pose2());
+  EXPECT_FALSE(places_.is_refuted());
+  change_cells(
+      [](std::uint8_t occupied) { return static_cast<std::uint8_t>(occupied == 0 ? 0 : 255 - occupied); });
+  int queries = 0;
+  for (; !places_.is_refuted() && queries < 20; ++queries) take_query();
+  EXPECT_GE(queries, 2);
+  EXPECT_LT(queries, 20);
+}
+
 TEST_F(PlaceHypothesesTest, OneThatWasAcceptedLiesWhereTheGraphHasTheTravel) {
   begin_nowhere(100.0);
   ASSERT_GT(queries_until_decided(), 0);
