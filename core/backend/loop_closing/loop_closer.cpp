@@ -56,8 +56,9 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
   }
 }
 
-/// A restart or a doubt that no place has ended goes on across a silence, and a restart across the next one:
-/// what was flown in between is no older map, and says nothing of where in that the vehicle is.
+/// A restart or a doubt that no place has ended goes on across a silence, and a restart across the next one,
+/// also if its place was not beyond doubt: what was flown in between is no older map, and says nothing of
+/// where in that the vehicle is.
 void LoopCloser::begin_break(const Keyframe& made) {
   watched_since_ = made.id;
   if (provisional_ && !made.odometry_ran_on) unplaced_since_ = provisional_->since;

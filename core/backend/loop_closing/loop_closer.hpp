@@ -32,7 +32,7 @@ struct LoopCloserCounters {
 
 /// Builds submaps, looks for loops, and adds closures to the graph: confirmed matches at once, those with
 /// what lies before a break once the place is decided. Behind a restart the place is weighed on until it is
-/// beyond doubt, and another may replace it. One thread at a time; allocates.
+/// beyond doubt: another may replace it, or what is seen refute it. One thread at a time; allocates.
 class LoopCloser {
  public:
   /// The travel since older ground was met again, which closures tell.

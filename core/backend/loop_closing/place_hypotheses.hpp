@@ -60,9 +60,9 @@ class PlaceHypotheses {
   /// cannot be accepted, or if it is the one that was.
   [[nodiscard]] std::vector<LoopClosure> decided() const;
   /// The likeliest was accepted: from now on it lies where the graph has the travel. `T_path_keyframe` of
-  /// later queries must not follow it there. Precondition of this and the next: there is one.
+  /// later queries must not follow it there. Precondition of this and is_beyond_doubt(): there is one.
   void accept_likeliest();
-  /// The evidence against the accepted one is that for a decision, or another has taken its place.
+  /// The evidence against the accepted one is as much as a decision takes, or it is not weighed any more.
   [[nodiscard]] bool is_refuted() const;
   /// The accepted one leads by the evidence for two decisions.
   [[nodiscard]] bool is_beyond_doubt() const;
