@@ -8,11 +8,7 @@ const GOOD = 0;  // `tracking` of a pose, as in pose_t
 export class WaitingReturns {
   constructor(model) {
     this.model = model;
-    this.forget();
-  }
-
-  forget() {
-    [this.first, this.end, this.path] = [null, 0, null];
+    [this.first, this.end, this.path, this.ofPoses] = [null, 0, null, -1];
   }
 
   /// {path, T_map_local} at the pose of that index: a dot of no size for each return, in metres; null: nothing waits.
@@ -20,10 +16,8 @@ export class WaitingReturns {
     const {poses, posesVersion} = this.model;
     const begin = firstWaiting(poses, index);
     if (begin > index) return null;
-    if (poses[begin] !== this.first || posesVersion !== this.ofPoses || this.end > index + 1) {
-      this.forget();
+    if (poses[begin] !== this.first || posesVersion !== this.ofPoses || this.end > index + 1)
       [this.first, this.end, this.path, this.ofPoses] = [poses[begin], begin, new Path2D(), posesVersion];
-    }
     for (; this.end <= index; ++this.end)
       for (const [x, y] of this.model.hitsOf(poses[this.end], "local")) {
         this.path.moveTo(x, y);

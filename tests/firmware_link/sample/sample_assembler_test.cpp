@@ -323,33 +323,33 @@ TEST_F(SampleAssemblerTest, TheRangesOfAVehicleThatStandsAreTheFloorsWhateverItR
   EXPECT_EQ(counters_.floor_returns, 0U);
 }
 
-TEST_F(SampleAssemblerTest, WhatTravelsOnTheFloorHasAHeightThatNothingMeasures) {
-  for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
-    position(ms, 0.002 * static_cast<double>(ms));
-    Reading height;
-    height.stream = 3;
-    height.at = device_ms(ms);
-    height.height_m = 0.0;
-    feed(height);
-    ranges(ms);
+/// A second in which the height is reported as 0, at positions by the time in milliseconds.
+class WithoutHeight : public SampleAssemblerTest {
+ protected:
+  template <typename PositionAt>
+  void travel(PositionAt x_m_at) {
+    for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
+      position(ms, x_m_at(ms));
+      Reading height;
+      height.stream = 3;
+      height.at = device_ms(ms);
+      height.height_m = 0.0;
+      feed(height);
+      ranges(ms);
+    }
+    end();
   }
-  end();
+};
+
+TEST_F(WithoutHeight, WhatTravelsOnTheFloorHasAHeightThatNothingMeasures) {
+  travel([](std::int64_t ms) { return 0.002 * static_cast<double>(ms); });
   ASSERT_EQ(samples_.size(), 10U);
   EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
   for (std::size_t i = 4; i < samples_.size(); ++i) EXPECT_EQ(samples_[i].status[0], RangeStatus::kHit) << i;
 }
 
-TEST_F(SampleAssemblerTest, WhatHasTravelledOnTheFloorDoesNotStandWhereItComesBack) {
-  for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
-    position(ms, 0.002 * static_cast<double>(std::min(ms, 1000 - ms)));
-    Reading height;
-    height.stream = 3;
-    height.at = device_ms(ms);
-    height.height_m = 0.0;
-    feed(height);
-    ranges(ms);
-  }
-  end();
+TEST_F(WithoutHeight, WhatHasTravelledOnTheFloorDoesNotStandWhereItComesBack) {
+  travel([](std::int64_t ms) { return 0.002 * static_cast<double>(std::min(ms, 1000 - ms)); });
   ASSERT_EQ(samples_.size(), 10U);
   EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
   EXPECT_EQ(samples_[9].status[0], RangeStatus::kHit);
