@@ -29,6 +29,7 @@ struct Backend::State {
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
   [[nodiscard]] bool newest_contact_is_at_fault() const;
+  [[nodiscard]] bool is_explained(KeyframeId contradicted_since) const;
   bool doubt_motion_if_contradicted();
   bool end_doubt();
   [[nodiscard]] bool has_restarted_unplaced() const;
@@ -131,15 +132,22 @@ bool Backend::State::end_doubt() {
   return true;
 }
 
+/// By travel that has no place, or none beyond doubt. A silence explains no contradiction that begins behind
+/// it: on new ground no place ends it, and a fault long after would go unnoticed.
+bool Backend::State::is_explained(KeyframeId contradicted_since) const {
+  const std::optional<KeyframeId> unplaced = loops.unplaced_since();
+  if (unplaced && loops.unplaced_by() == UnplacedBy::kSilence) return contradicted_since <= *unplaced;
+  return loops.weighs_places();
+}
+
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
 /// True: the poses have moved. They do so at once where a contact was dropped: the next loops are looked for
 /// from there.
 bool Backend::State::doubt_motion_if_contradicted() {
   if (!agreement.is_contradicted()) return end_doubt();
-  if (loops.weighs_places()) return false;
   const ScanId agreed = scans.all().at_or_after(agreement.agreed_last());  // it may have been pruned
   const KeyframeId first = chain.all().at_or_after(scans[agreed].keyframe + 1);
-  if (first >= chain.all().end_id()) return false;
+  if (first >= chain.all().end_id() || is_explained(first)) return false;
   const bool is_at_fault = newest_contact_is_at_fault();
   if (is_at_fault) loops.drop_contact(graph);
   graph.doubt_motion_to(first);
@@ -202,6 +210,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   s.loops.add_keyframe(step.made, s.T_local_keyframe());
   s.graph.observe_building_axis(s.estimates);
   const bool was_unplaced = s.loops.unplaced_since().has_value();
+  const std::uint64_t dropped_before = s.loops.counters().closures_dropped;
   update.new_closures = s.loops.close_loops(s.T_local_keyframe(), s.graph);
   s.loops.search_elsewhere(s.T_local_keyframe(), s.graph.graph());
   update.poses_changed = s.follow_graph(s.graph.settle());
@@ -214,7 +223,8 @@ BackendUpdate Backend::add(const FrontendStep& step) {
     update.poses_changed = true;
     s.correct_newest(step.T_local_body);
   }
-  if (update.new_closures > 0 || step.made.starts_segment) s.confidence.reset();
+  const bool has_dropped = s.loops.counters().closures_dropped > dropped_before;
+  if (update.new_closures > 0 || has_dropped || step.made.starts_segment) s.confidence.reset();
   return update;
 }
 

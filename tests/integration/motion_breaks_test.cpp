@@ -94,6 +94,15 @@ TEST(CarriedVehicle, IsLookedForAnewWhereItsPlaceIsRefuted) {
   EXPECT_LE(wrong, 1) << "all of them, if a place that was accepted stays until another is";
 }
 
+TEST(TurnedVehicle, IsDoubtedThoughASilenceLongBeforeWasNeverPlaced) {
+  int wrong = 0;
+  for (const char* seed : {"1", "2", "3"}) {
+    const std::string flight = "sim://maze?seed=" + std::string(seed);
+    if (error_m(corrected_run(flight + "&fault=silence@20:3,turn@150:40")) > 1.0) ++wrong;
+  }
+  EXPECT_LE(wrong, 1) << "all of them, if a silence explains what contradicts the map later";
+}
+
 TEST(SlippedVehicle, IsDrawnWhereItWasUntilTheMapContradictedIt) {
   int wrong = 0;
   for (const char* seed : {"1", "4", "8"})

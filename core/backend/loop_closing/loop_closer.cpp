@@ -58,10 +58,12 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
 
 /// A restart or a doubt that no place has ended goes on across a silence, and a restart across the next one,
 /// also if its place was not beyond doubt: what was flown in between is no older map, and says nothing of
-/// where in that the vehicle is.
+/// where in that the vehicle is. Across a silence places are weighed on.
 void LoopCloser::begin_break(const Keyframe& made) {
   watched_since_ = made.id;
-  if (provisional_ && !made.odometry_ran_on) unplaced_since_ = provisional_->since;
+  is_joined_ = false;
+  if (provisional_ && made.odometry_ran_on) return;
+  if (provisional_) unplaced_since_ = provisional_->since;
   forget_places();
   const bool is_open = unplaced_since_ && unplaced_by_ != UnplacedBy::kSilence;
   if (is_open && made.odometry_ran_on) return;
@@ -101,7 +103,22 @@ void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
 }
 
 void LoopCloser::end_doubt() {
-  if (unplaced_since_ && unplaced_by_ == UnplacedBy::kContradiction) suspend_doubt();
+  if (!unplaced_since_ || unplaced_by_ != UnplacedBy::kContradiction) return;
+  if (is_joined_) {
+    suspend_doubt();
+  } else {
+    search_across_silence();
+  }
+}
+
+/// What it left open when a doubt came between, or a place that was not beyond doubt.
+void LoopCloser::search_across_silence() {
+  forget_places();
+  unplaced_since_ = watched_since_;
+  unplaced_by_ = UnplacedBy::kSilence;
+  MotionBreak silence;
+  silence.estimate_ran_on = true;
+  places_.begin(silence);
 }
 
 /// A correction or some scans that agree end the contradiction, and what was learnt of the places with it. If
@@ -124,8 +141,7 @@ bool LoopCloser::resume_doubt() {
 /// From where on a match with what lies before proves something alone. Of a contradiction nobody knows that
 /// the motion is at fault.
 KeyframeId LoopCloser::watched_since() const {
-  const bool is_unwatched = unplaced_since_ && unplaced_by_ != UnplacedBy::kContradiction;
-  return is_unwatched ? watched_since_ : chain_->all().first_id();
+  return is_joined_ ? chain_->all().first_id() : watched_since_;
 }
 
 /// Where the travel begins that a place moves as a whole. In doubt nobody knows at which keyframe the motion
@@ -215,7 +231,7 @@ void LoopCloser::weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& 
   if (!recent || !places_.add_query(newest, *recent, submaps_before(provisional_->since), graph.graph(),
                                     T_local_keyframe, T_path))
     return;
-  if (places_.is_beyond_doubt()) return forget_places();
+  if (places_.is_beyond_doubt()) return is_joined_ ? forget_places() : search_across_silence();
   replace_place(places_.decided(), graph);
   if (places_.is_refuted()) withdraw_place(graph);
 }
@@ -280,13 +296,15 @@ void LoopCloser::drop_closures_to_place(KeyframeGraph& graph) {
 void LoopCloser::withdraw_place(KeyframeGraph& graph) {
   drop_closures_to_place(graph);
   unplaced_since_ = provisional_->since;
+  is_joined_ = false;
   forget_places();
 }
 
 /// All closures that joined the travel to the place before are dropped. Where the graph refuses, all stays.
 void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
-  if (decided.empty() || !graph.accommodate(factors_of(decided), watched_since_)) return;
+  if (decided.empty() || !graph.accommodate(factors_of(decided), provisional_->moved_since)) return;
   drop_closures_to_place(graph);
+  is_joined_ = true;
   places_.accept_likeliest();
   for (const LoopClosure& closure : decided) accept(closure, graph);
 }
@@ -295,7 +313,8 @@ void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGra
 bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
   if (decided.empty()) return true;
   std::optional<Provisional> placed;
-  if (unplaced_by_ == UnplacedBy::kRestart) placed = {*unplaced_since_, graph.T_map_keyframe()};
+  if (unplaced_by_ == UnplacedBy::kRestart)
+    placed = {*unplaced_since_, watched_since_, graph.T_map_keyframe()};
   const std::optional<Contact> contact_before = contact_;
   // Travel does not tell how long ago the old contact was: it does not grow across a break.
   if (unplaced_by_ != UnplacedBy::kContradiction) contact_.reset();
@@ -312,6 +331,7 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   }
   provisional_ = std::move(placed);
   unplaced_since_.reset();
+  is_joined_ = true;
   for (const LoopClosure& closure : decided)
     if (!is_closed(closure)) accept(closure, graph);
   return true;
@@ -354,6 +374,10 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
   if (contact_ && pruned.contains(contact_->since)) contact_.reset();
+  if (provisional_) {
+    unplaced_since_ = provisional_->since;
+    is_joined_ = false;
+  }
   forget_places(pruned);
 }
 

@@ -94,6 +94,7 @@ class LoopCloser {
   /// Travel that was placed, and may yet lie elsewhere.
   struct Provisional {
     KeyframeId since{};
+    KeyframeId moved_since{};       ///< with the place
     KeyframePoses T_path_keyframe;  ///< as if it had not been placed
   };
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_before(KeyframeId since) const;
@@ -105,6 +106,7 @@ class LoopCloser {
   void begin_break(const Keyframe& made);
   void finish_oldest(KeyframeId end, const KeyframePoses& T_local_keyframe);
   void finish_open(KeyframeId end, const KeyframePoses& T_local_keyframe);
+  void search_across_silence();
   void suspend_doubt();
   [[nodiscard]] bool resume_doubt();
   void stop_searching();
@@ -135,6 +137,7 @@ class LoopCloser {
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no place is decided
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
   KeyframeId watched_since_{};     // motion to there is not known or is a guess: the newest break
+  bool is_joined_ = true;          // by a place, across that break
   bool place_is_refused_ = false;  // by the graph, since the newest query
   std::optional<Provisional> provisional_;
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...

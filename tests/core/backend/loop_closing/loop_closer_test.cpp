@@ -49,6 +49,9 @@ class FlownLoops {
   void feed_until_placed() {
     while (loops_.unplaced_since() && !is_over()) feed_one();
   }
+  void feed_until_beyond_doubt() {
+    while (loops_.provisional_since() && !is_over()) feed_one();
+  }
   void feed_until_contact() {
     while (loops_.closures().empty() && !is_over()) feed_one();
   }
@@ -56,6 +59,8 @@ class FlownLoops {
     for (const double from_m = here_m(); here_m() - from_m < way_m && !is_over();) feed_one();
   }
   void doubt_newest_motion() { loops_.doubt_since(chain_.all().last_id(), 9.8); }
+  void end_doubt() { loops_.end_doubt(); }
+  void prune_nothing() { loops_.erase({}); }
   void drop_contact() { loops_.drop_contact(graph_); }
   /// In a map that has what was flown from the middle on so much farther along x.
   void drop_those_off(double moved_m) {
@@ -236,15 +241,32 @@ TEST(LoopCloser, APlaceBehindARestartIsProvisionalUntilItIsBeyondDoubt) {
   EXPECT_FALSE(flown.loops().weighs_places());
 }
 
-TEST(LoopCloser, ASilenceEndsTheDoubtOfAPlaceThatWasFound) {
+TEST(LoopCloser, APlaceIsWeighedOnAcrossASilenceThatIsPlacedThen) {
   const TestVehicle vehicle = carried_behind_two_laps();
   FlownLoops flown(vehicle);
   flown.feed_until_unplaced();
   flown.feed_until_placed();
-  ASSERT_TRUE(flown.loops().provisional_since());
+  const std::optional<KeyframeId> provisional = flown.loops().provisional_since();
+  ASSERT_TRUE(provisional);
   flown.feed_one_after_silence();
-  EXPECT_FALSE(flown.loops().provisional_since());
+  EXPECT_EQ(flown.loops().provisional_since(), provisional);
+  flown.feed_until_beyond_doubt();
   EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kSilence);
+  EXPECT_GT(flown.loops().unplaced_since(), provisional);
+  flown.feed_until_placed();
+  EXPECT_FALSE(flown.loops().unplaced_since());
+}
+
+TEST(LoopCloser, PruningLeavesTravelUnplacedWhosePlaceWasNotBeyondDoubt) {
+  const TestVehicle vehicle = carried_behind_two_laps();
+  FlownLoops flown(vehicle);
+  flown.feed_until_unplaced();
+  const std::optional<KeyframeId> restarted = flown.loops().unplaced_since();
+  flown.feed_until_placed();
+  ASSERT_TRUE(flown.loops().provisional_since());
+  flown.prune_nothing();
+  EXPECT_EQ(flown.loops().unplaced_since(), restarted);
+  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kRestart);
 }
 
 TEST(LoopCloser, ASecondRestartLeavesTravelUnplacedWhosePlaceWasNotBeyondDoubt) {
@@ -307,6 +329,32 @@ TEST(LoopCloser, BehindASilenceOldGroundIsFoundAsFarOffAsItsEstimateDrifts) {
   flown.feed_until_placed();
   EXPECT_FALSE(flown.loops().unplaced_since());
   EXPECT_GT(flown.correction_m(), 0.5) << "much farther than it moves unseen";
+}
+
+TEST(LoopCloser, NoMatchAcrossASilenceIsSureAloneInDoubt) {
+  const TestVehicle vehicle = two_laps(0.008);
+  FlownLoops flown(vehicle);
+  flown.feed_until_contact();
+  flown.doubt_newest_motion();
+  flown.feed_one_after_silence();
+  const std::size_t closures = flown.loops().closures().size();
+  flown.feed_metres(2.0);
+  EXPECT_EQ(flown.loops().closures().size(), closures);
+}
+
+TEST(LoopCloser, WhatADoubtLeavesOfASilenceIsLookedForOnceItHasEnded) {
+  const TestVehicle vehicle = two_laps(0.008);
+  FlownLoops flown(vehicle);
+  flown.feed_until_contact();
+  flown.feed_one_after_silence();
+  const std::optional<KeyframeId> silence = flown.loops().unplaced_since();
+  ASSERT_TRUE(silence);
+  flown.feed_metres(0.5);
+  flown.doubt_newest_motion();
+  ASSERT_EQ(flown.loops().unplaced_by(), UnplacedBy::kContradiction);
+  flown.end_doubt();
+  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kSilence);
+  EXPECT_EQ(flown.loops().unplaced_since(), silence);
 }
 
 TEST(LoopCloser, ABreakBeforeAnythingIsMappedLeavesNoPlaceToBeFound) {
