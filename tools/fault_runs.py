@@ -34,16 +34,17 @@ GAP_S = 1.0  # between moments: old ground was out of reach
 class Fault:
     kind: str  # of `sim://`; or none
     amount: int | None = None  # s, or deg of a jump or turn
-    silent_after_s: int | None = None  # after the end of the break, for SHORT_SILENCE_S
+    silent_at_s: int | None = None  # before or behind the break, for SHORT_SILENCE_S
     at_s: int = BREAK_S
 
     def text(self):
         if self.kind == "none":
             return self.kind
         text = f"{self.kind}@{self.at_s}" + ("" if self.amount is None else f":{self.amount}")
-        if self.silent_after_s is None:
+        if self.silent_at_s is None:
             return text
-        return text + f",silence@{self.at_s + (self.amount or 0) + self.silent_after_s}:{SHORT_SILENCE_S}"
+        silence = f"silence@{self.silent_at_s}:{SHORT_SILENCE_S}"
+        return f"{silence},{text}" if self.silent_at_s < self.at_s else f"{text},{silence}"
 
     def is_told(self):
         """Whether the input shows that motion broke. A flight without a break counts, for comparison."""
@@ -56,8 +57,9 @@ class Fault:
 
 FAULTS = [Fault("none"), Fault("silence", 20), Fault("silence", 31), Fault("silence", 60), Fault("reset"),
           Fault("restart", 60), Fault("restart", 60, at_s=EARLY_S), Fault("carried", 30), Fault("carried", 60),
-          Fault("carried", 60, silent_after_s=4), Fault("jump", 10), Fault("jump", 20),
-          Fault("jump", 30), Fault("turn", 20), Fault("turn", 30), Fault("slip", 6), Fault("teleport", 20)]
+          Fault("carried", 60, silent_at_s=214), Fault("jump", 10), Fault("jump", 20),
+          Fault("jump", 30), Fault("turn", 20), Fault("turn", 30), Fault("turn", 30, silent_at_s=20),
+          Fault("slip", 6), Fault("teleport", 20)]
 
 
 @dataclasses.dataclass(frozen=True)

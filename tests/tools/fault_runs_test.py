@@ -50,6 +50,12 @@ class Moments(unittest.TestCase):
                          [runs.Moment(25.0, 10.0, 0.2, "tracking"), runs.Moment(27.0, 11.0, 0.3, "lost")])
 
 
+class Faults(unittest.TestCase):
+    def test_a_silence_is_told_in_the_order_of_time(self):
+        self.assertEqual(runs.Fault("turn", 30, silent_at_s=20).text(), "silence@20:2,turn@150:30")
+        self.assertEqual(runs.Fault("carried", 60, silent_at_s=214).text(), "carried@150:60,silence@214:2")
+
+
 class WrongPlace(unittest.TestCase):
     def wrong_way_m(self, off_m, fault=runs.Fault("turn", 20)):
         """Of a flight of 300 s at 0.5 m/s whose final path is turned by 90 degrees. `off_m`: of stamp."""
@@ -138,7 +144,7 @@ class FaultRuns(unittest.TestCase):
         self.assertEqual([runs.Fault(kind, 60).end_s() for kind in ("silence", "carried", "restart")], [210, 210, 150])
         self.assertEqual(runs.Fault("reset").end_s(), 150)
         self.assertEqual(runs.Fault("carried", 60, at_s=80).end_s(), 140)
-        self.assertEqual(runs.Fault("carried", 60, 4, at_s=80).text(), "carried@80:60,silence@144:2")
+        self.assertEqual(runs.Fault("carried", 60, 144, at_s=80).text(), "carried@80:60,silence@144:2")
 
     def test_a_run_has_its_final_error_and_what_its_moments_tell(self):
         with tempfile.TemporaryDirectory() as name:
