@@ -292,8 +292,9 @@ void SampleAssembler::fill_beams(const PendingRanges& ranges, RangeSample& sampl
   const auto tilt = tilts_.at(ranges.measured_at);
   const auto height = heights_.at(ranges.measured_at);
   const bool knows_tilt = tilt.outcome == OdometryTimeline<BodyTilt>::Outcome::kFound;
-  const bool knows_height = height.outcome == OdometryTimeline<HeightReading>::Outcome::kFound;
-  const bool stands = knows_height && stands_at(height.value.height_m, sample.T_odom_body.position());
+  const bool has_height = height.outcome == OdometryTimeline<HeightReading>::Outcome::kFound;
+  const bool stands = has_height && stands_at(height.value.height_m, sample.T_odom_body.position());
+  const bool knows_height = has_height && !travelled_low_;
   for (std::size_t i = 0; i < ranges.distance_m.size(); ++i) {
     const auto range_m = static_cast<double>(ranges.distance_m[i]);
     const double rise = knows_tilt ? rise_of_beam(config_.beams.bearing_rad[i], tilt.value) : 0.0;

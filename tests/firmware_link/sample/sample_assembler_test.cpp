@@ -327,13 +327,14 @@ TEST_F(SampleAssemblerTest, TheRangesOfAVehicleThatStandsAreTheFloorsWhateverItR
 class WithoutHeight : public SampleAssemblerTest {
  protected:
   template <typename PositionAt>
-  void travel(PositionAt x_m_at) {
+  void travel(PositionAt x_m_at, std::optional<BodyTilt> tilt = std::nullopt) {
     for (std::int64_t ms = 0; ms <= 1000; ms += 100) {
       position(ms, x_m_at(ms));
       Reading height;
       height.stream = 3;
       height.at = device_ms(ms);
       height.height_m = 0.0;
+      height.tilt = tilt;
       feed(height);
       ranges(ms);
     }
@@ -346,6 +347,14 @@ TEST_F(WithoutHeight, WhatTravelsOnTheFloorHasAHeightThatNothingMeasures) {
   ASSERT_EQ(samples_.size(), 10U);
   EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
   for (std::size_t i = 4; i < samples_.size(); ++i) EXPECT_EQ(samples_[i].status[0], RangeStatus::kHit) << i;
+}
+
+TEST_F(WithoutHeight, WhatTravelsOnTheFloorDoesNotSeeTheFloorThoughItsTiltIsLogged) {
+  travel([](std::int64_t ms) { return 0.002 * static_cast<double>(ms); }, BodyTilt());
+  ASSERT_EQ(samples_.size(), 10U);
+  EXPECT_EQ(samples_[0].status[0], RangeStatus::kInvalid);
+  for (std::size_t i = 4; i < samples_.size(); ++i) EXPECT_EQ(samples_[i].status[0], RangeStatus::kHit) << i;
+  EXPECT_EQ(counters_.floor_returns, 0U);
 }
 
 TEST_F(WithoutHeight, WhatHasTravelledOnTheFloorDoesNotStandWhereItComesBack) {
