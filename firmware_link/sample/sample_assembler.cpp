@@ -46,16 +46,17 @@ void SampleAssembler::set_periods(Duration range_period, Duration odometry_perio
   learns_odometry_period_ = odometry_period == Duration::zero();
   if (learns_range_period_) range_times_ = {};
   if (learns_odometry_period_) position_times_ = yaw_times_ = {};
-  interpolate_across(learns_odometry_period_ ? kUsualPeriod : odometry_period);
+  interpolate_across(odometry_period);
 }
 
+/// What is faster than usual, or not known (0), counts as usual.
 void SampleAssembler::interpolate_across(Duration odometry_period) {
-  config_.continuity.longest_interpolation = scaled(odometry_period, kMaxInterpolationInPeriods);
+  config_.continuity.longest_interpolation =
+      scaled(std::max(odometry_period, kUsualPeriod), kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
-  const Duration range_period = learns_range_period_ ? kUsualPeriod : config_.range_period;
-  attitude_.longest_interpolation =
-      scaled(std::max(odometry_period, range_period), kMaxInterpolationInPeriods);
+  attitude_.longest_interpolation = std::max(config_.continuity.longest_interpolation,
+                                             scaled(config_.range_period, kMaxInterpolationInPeriods));
   tilts_.set_limits(attitude_);
   heights_.set_limits(attitude_);
 }
@@ -78,7 +79,7 @@ void SampleAssembler::apply_learnt_periods() {
   if (learns_odometry_period_ && (is_certain || (is_likely && pending_.full()) || ended_)) {
     learns_odometry_period_ = false;
     const Duration slower = std::max(position_times_.period(), yaw_times_.period());
-    interpolate_across(std::clamp(slower, kUsualPeriod, kLongestLearnt));
+    interpolate_across(std::min(slower, kLongestLearnt));
   }
 }
 

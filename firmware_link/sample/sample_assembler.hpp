@@ -63,9 +63,9 @@ class SampleAssembler {
   SampleAssembler(const AssemblyConfig& config, InputCounters& counters);
 
   /// The periods of ranges and dead reckoning; 0: not known, it is learnt from the next readings, and ranges
-  /// in holes of the dead reckoning wait meanwhile. Dead reckoning is interpolated across at most 2.5 periods
-  /// (one lost packet), where its period is learnt from 250 ms to 2.5 s; tilt and height across 2.5 periods
-  /// of the slower of dead reckoning and ranges.
+  /// in holes of the dead reckoning wait meanwhile. Dead reckoning is interpolated across 2.5 periods (one
+  /// lost packet), but at least 250 ms, and at most 2.5 s where its period is learnt; tilt and height across
+  /// 2.5 periods of the slower of dead reckoning and ranges, likewise at least 250 ms.
   void set_periods(Duration range_period, Duration odometry_period);
   /// A duplicate or late reading is dropped and counted; a step back of more than a second is a reboot of the
   /// vehicle.

@@ -528,6 +528,32 @@ TEST(SampleAssembler, LearnsFromPositionsAtTenHertzWhatIsUsual) {
   }
 }
 
+/// All come every 10 ms; two packets in a row with pose and tilt are lost.
+TEST(SampleAssembler, InterpolatesWhatComesFasterThanUsualAsWhatIsUsualWhetherStatedOrLearnt) {
+  for (const std::int64_t stated_ms : {10, 0}) {
+    AssemblyConfig ageless = config();
+    ageless.sensor.range_age = Duration::zero();
+    InputCounters counters;
+    SampleAssembler assembler(ageless, counters);
+    assembler.set_periods(milliseconds(stated_ms), milliseconds(stated_ms));
+    std::vector<RangeSample> samples;
+    for (std::int64_t ms = 0; ms <= 1000; ms += 10) {
+      Reading pose = whole_reading(ms, {});
+      pose.tilt = BodyTilt{.x_up = 0.2, .y_up = 0.0};
+      if (ms != 490 && ms != 500) assembler.add(pose);
+      Reading ranges;
+      ranges.stream = 2;
+      ranges.at = device_ms(ms);
+      for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(ranges.distance_m.try_push_back(1.F));
+      assembler.add(ranges);
+      while (const auto sample = assembler.take()) samples.push_back(*sample);
+    }
+    EXPECT_EQ(samples.size(), 101U) << stated_ms;
+    for (const RangeSample& sample : samples)
+      EXPECT_NEAR(sample.distance_m[0], std::sqrt(1.0 - 0.2 * 0.2), 1e-6) << stated_ms;
+  }
+}
+
 TEST(SampleAssembler, CountsGapsByThePeriodOfTheRangesThatItLearns) {
   for (const std::int64_t period_ms : {20, 100, 500}) {
     InputCounters counters;
