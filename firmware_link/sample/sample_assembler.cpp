@@ -55,6 +55,11 @@ void SampleAssembler::interpolate_across(Duration odometry_period) {
       scaled(std::max(odometry_period, kUsualPeriod), kMaxInterpolationInPeriods);
   positions_.set_limits(config_.continuity);
   yaws_.set_limits(config_.continuity);
+  interpolate_attitude();
+}
+
+/// Across the periods of the slower of dead reckoning and ranges.
+void SampleAssembler::interpolate_attitude() {
   attitude_.longest_interpolation = std::max(config_.continuity.longest_interpolation,
                                              scaled(config_.range_period, kMaxInterpolationInPeriods));
   tilts_.set_limits(attitude_);
@@ -72,6 +77,7 @@ void SampleAssembler::apply_learnt_periods() {
   if (learns_range_period_ && (range_times_.is_certain() || ended_)) {
     learns_range_period_ = false;
     config_.range_period = range_times_.period();
+    interpolate_attitude();
     for (const Duration between_ranges : range_times_.spacings()) count_hole(between_ranges);
   }
   const bool is_certain = position_times_.is_certain() && yaw_times_.is_certain();

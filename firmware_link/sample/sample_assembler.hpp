@@ -96,6 +96,7 @@ class SampleAssembler {
   void count_gap(const Reading& reading);
   void count_hole(Duration between_ranges);
   void interpolate_across(Duration odometry_period);
+  void interpolate_attitude();
   void learn_periods(const Reading& reading);
   /// If enough readings have come for them, or no more can.
   void apply_learnt_periods();

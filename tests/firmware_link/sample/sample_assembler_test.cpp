@@ -235,6 +235,15 @@ TEST(SampleAssembler, TheLastSamplesDoNotNeedTheirTilt) {
   EXPECT_FALSE(flight.is_level.back());
 }
 
+Reading tilted_ranges(std::int64_t ms) {
+  Reading reading;
+  reading.stream = 2;
+  reading.at = device_ms(ms);
+  reading.tilt = BodyTilt{.x_up = 0.2, .y_up = 0.0};
+  for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(reading.distance_m.try_push_back(1.F));
+  return reading;
+}
+
 TEST(SampleAssembler, LevelsRangesWhoseTiltComesAsOftenThoughDeadReckoningComesMoreOften) {
   AssemblyConfig aged = config();
   aged.sensor.range_age = milliseconds(60);
@@ -244,19 +253,30 @@ TEST(SampleAssembler, LevelsRangesWhoseTiltComesAsOftenThoughDeadReckoningComesM
   std::vector<RangeSample> samples;
   for (std::int64_t ms = 0; ms <= 1000; ms += 20) {
     assembler.add(whole_reading(ms, {}));
-    if (ms % 100 == 0) {
-      Reading ranges;
-      ranges.stream = 2;
-      ranges.at = device_ms(ms);
-      ranges.tilt = BodyTilt{.x_up = 0.2, .y_up = 0.0};
-      for (int beam = 0; beam < 4; ++beam) EXPECT_TRUE(ranges.distance_m.try_push_back(1.F));
-      assembler.add(ranges);
-    }
+    if (ms % 100 == 0) assembler.add(tilted_ranges(ms));
     while (const auto sample = assembler.take()) samples.push_back(*sample);
   }
   ASSERT_EQ(samples.size(), 10U);  // the first is older than all dead reckoning
   for (const RangeSample& sample : samples)
     EXPECT_NEAR(sample.distance_m[0], std::sqrt(1.0 - 0.2 * 0.2), 1e-6);
+}
+
+/// By the time that the period of the ranges is known, that of dead reckoning has long been.
+TEST(SampleAssembler, LevelsRangesThatComeSeldomByTheirPeriodAsItIsLearnt) {
+  AssemblyConfig aged = config();
+  aged.sensor.range_age = milliseconds(60);
+  InputCounters counters;
+  SampleAssembler assembler(aged, counters);
+  assembler.set_periods(Duration::zero(), Duration::zero());
+  std::vector<RangeSample> samples;
+  for (std::int64_t ms = 0; ms <= 5000; ms += 100) {
+    assembler.add(whole_reading(ms, {}));
+    if (ms % 500 == 0) assembler.add(tilted_ranges(ms));
+    while (const auto sample = assembler.take()) samples.push_back(*sample);
+  }
+  ASSERT_EQ(samples.size(), 10U);  // the first is older than all dead reckoning
+  for (std::size_t i = 5; i < samples.size(); ++i)
+    EXPECT_NEAR(samples[i].distance_m[0], std::sqrt(1.0 - 0.2 * 0.2), 1e-6) << i;
 }
 
 TEST_F(SampleAssemblerTest, TakesNoTiltThatIsNoneAndNoRangeOfABodyOnItsSide) {
