@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample/landed_odometry_freeze.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +12,11 @@
 
 namespace swiftlet {
 namespace {
+
+/// The firmware, too, takes a vehicle to fly until it has seen little thrust for that long (supervisor.c,
+/// IS_FLYING_HYSTERESIS_THRESHOLD), and pulls the yaw back only from then on. What crosses a box is low for
+/// less.
+constexpr Duration kLandsAfter = std::chrono::seconds(2);
 
 bool is_finite(const std::optional<Point2>& position) {
   return position && std::isfinite(position->x_m) && std::isfinite(position->y_m);
@@ -28,7 +34,7 @@ Reading LandedOdometryFreeze::hold(const Reading& reading) {
   const bool has_yaw = reading.yaw_odom_rad && std::isfinite(*reading.yaw_odom_rad);
   if (has_position) follow_position(*reading.position_odom, reading.at);
   if (has_yaw) yaw_vehicle_rad_ = reading.yaw_odom_rad;
-  if (reading.height_m) is_low_ = *reading.height_m <= kStandingM;
+  if (reading.height_m) follow_height(*reading.height_m, reading.at);
   const std::optional<bool> is_flying = flies(reading);
   Reading held = reading;
   if (position_vehicle_ && yaw_vehicle_rad_) {
@@ -53,10 +59,19 @@ void LandedOdometryFreeze::follow_position(const Point2& position, DeviceTime at
   position_at_ = at;
 }
 
+void LandedOdometryFreeze::follow_height(double height_m, DeviceTime at) {
+  if (!(height_m <= kStandingM)) {
+    low_since_.reset();
+  } else if (!low_since_) {
+    low_since_ = at;
+  }
+}
+
 std::optional<bool> LandedOdometryFreeze::flies(const Reading& reading) {
   reports_flight_ = reports_flight_ || reading.is_flying.has_value();
   if (reports_flight_ || !reading.height_m || !std::isfinite(*reading.height_m)) return reading.is_flying;
-  return *reading.height_m > kStandingM;
+  if (!low_since_) return true;
+  return reading.at - *low_since_ < kLandsAfter ? std::nullopt : std::optional(false);
 }
 
 void LandedOdometryFreeze::follow(bool is_flying) {
@@ -84,7 +99,7 @@ void LandedOdometryFreeze::hold_still() {
 }
 
 bool LandedOdometryFreeze::waits_for_its_flight() const {
-  return state_ == State::kNotFlown && reports_flight_ && is_low_;
+  return state_ == State::kNotFlown && reports_flight_ && low_since_.has_value();
 }
 
 }  // namespace swiftlet

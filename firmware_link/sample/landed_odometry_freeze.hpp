@@ -17,8 +17,8 @@ namespace swiftlet {
 /// reckoning continues from where the vehicle stood, also if its estimator was reset meanwhile. A vehicle
 /// that was carried elsewhere restarts it. One that has not flown yet may be carried on purpose: it stands
 /// while it reports that it does not fly and is not higher than kStandingM. Where the vehicle reports neither
-/// whether it flies nor its thrust, its height tells of landings; where it reports no height either, nothing
-/// is frozen. One thread at a time; allocates nothing.
+/// whether it flies nor its thrust, it has landed when it has not been higher than that for two seconds;
+/// where it reports no height either, nothing is frozen. One thread at a time; allocates nothing.
 class LandedOdometryFreeze {
  public:
   /// Position and yaw may come in different readings.
@@ -29,6 +29,7 @@ class LandedOdometryFreeze {
   /// nullopt: this reading does not tell.
   [[nodiscard]] std::optional<bool> flies(const Reading& reading);
   void follow_position(const Point2& position, DeviceTime at);
+  void follow_height(double height_m, DeviceTime at);
   void follow(bool is_flying);
   void hold_still();
   [[nodiscard]] bool waits_for_its_flight() const;
@@ -36,9 +37,9 @@ class LandedOdometryFreeze {
   State state_ = State::kNotFlown;
   std::uint32_t boot_ = 0;
   bool reports_flight_ = false;
-  bool is_low_ = false;  ///< by the newest height
   bool stands_ = false;
   bool restart_pending_ = false;
+  std::optional<DeviceTime> low_since_;     ///< by its heights; nothing if the newest is above kStandingM
   std::optional<Point2> position_vehicle_;  ///< the newest, by the vehicle's own dead reckoning
   DeviceTime position_at_{};
   std::optional<double> yaw_vehicle_rad_;

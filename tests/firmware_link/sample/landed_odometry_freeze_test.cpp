@@ -139,19 +139,44 @@ TEST(LandedOdometryFreeze, IgnoresAVehicleThatHasNotFlownOrDoesNotReportIt) {
   expect_pose(ground.hold(reading_of({2.0, 0.0, 0.1}, std::nullopt)), {2.0, 0.0, 0.1});
 }
 
-TEST(LandedOdometryFreeze, ByItsHeightWhereNothingElseTells) {
-  LandedOdometryFreeze ground;
-  const auto reading_at = [](double height_m, const Pose2& T_vehicle_body) {
+/// A reading each 100 ms of a vehicle whose height alone tells whether it flies.
+class ByHeight : public testing::Test {
+ protected:
+  Reading hold(double height_m, const Pose2& T_vehicle_body) {
     Reading reading = reading_of(T_vehicle_body, std::nullopt);
+    reading.at = device_ms(ms_ += 100);
     reading.height_m = height_m;
-    return reading;
-  };
-  expect_pose(ground.hold(reading_at(0.0, {1.0, 0.0, 0.5})), {1.0, 0.0, 0.5});
-  expect_pose(ground.hold(reading_at(0.5, {2.0, 0.0, 0.6})), {2.0, 0.0, 0.6});
-  static_cast<void>(ground.hold(reading_at(0.02, {2.0, 0.0, 0.6})));
-  const Reading held = ground.hold(reading_at(0.02, {2.0, 0.0, 0.1}));
-  expect_pose(held, {2.0, 0.0, 0.6});
-  EXPECT_TRUE(std::isnan(held.distance_m[0]));
+    return ground_.hold(reading);
+  }
+
+ private:
+  LandedOdometryFreeze ground_;
+  std::int64_t ms_ = 0;
+};
+
+TEST_F(ByHeight, WhatStaysLowForTwoSecondsHasLanded) {
+  expect_pose(hold(0.0, {1.0, 0.0, 0.5}), {1.0, 0.0, 0.5});
+  expect_pose(hold(0.5, {2.0, 0.0, 0.6}), {2.0, 0.0, 0.6});
+  for (int i = 0; i < 20; ++i) expect_pose(hold(0.02, {2.1, 0.0, 0.6}), {2.1, 0.0, 0.6});
+  for (const double yaw_rad : {0.6, 0.4, 0.1}) {  // it is pulled back
+    const Reading held = hold(0.02, {2.1, 0.0, yaw_rad});
+    expect_pose(held, {2.1, 0.0, 0.6});
+    EXPECT_TRUE(std::isnan(held.distance_m[0]));
+  }
+  expect_pose(hold(0.5, {2.1 + std::cos(0.1), std::sin(0.1), 0.1}),
+              {2.1 + std::cos(0.6), std::sin(0.6), 0.6});
+}
+
+TEST_F(ByHeight, ABoxThatItCrossesIsNoLanding) {
+  for (int crossing = 0; crossing < 5; ++crossing) {
+    expect_pose(hold(0.5, {0.0, 0.0, 0.0}), {0.0, 0.0, 0.0});
+    for (int i = 1; i <= 6; ++i) {  // at 60 degrees and .4 m a second
+      const Pose2 T_vehicle_body(0.04 * i, 0.0, radians(6.0 * i));
+      const Reading held = hold(0.08, T_vehicle_body);
+      expect_pose(held, T_vehicle_body);
+      EXPECT_EQ(held.distance_m[0], 1.F);
+    }
+  }
 }
 
 TEST(LandedOdometryFreeze, WhatTheVehicleReportsOutvotesItsHeight) {
