@@ -26,7 +26,7 @@ inline constexpr double kMaxFromBeginningM = 1000.0;
   config.sensor = sensor;
   config.continuity.longest_silence = kBatteryLasts;
   config.continuity.farthest_m = kMaxFromBeginningM;
-  config.unwatched_after = kUnwatched;
+  config.continuity.unwatched_after = kUnwatched;
   config.measurement_period = kMeasurementPeriod;
   return config;
 }

@@ -27,6 +27,8 @@ struct ContinuityLimits {
   double top_turn_rate_rad_per_s = 4.0 * kPi;
   /// From where the dead reckoning began; what is farther away is an error of it.
   double farthest_m = std::numeric_limits<double>::infinity();
+  /// Between readings that far apart lies a pause: what the vehicle did there is a guess.
+  Duration unwatched_after = Duration::max();
 };
 
 struct YawReading {
@@ -81,6 +83,7 @@ class OdometryTimeline {
     Value value{};
     /// Counts the restarts of the dead reckoning: values of equal runs are joined by motion.
     std::uint32_t run = 0;
+    std::uint32_t pauses = 0;  ///< so far
   };
 
   explicit OdometryTimeline(const ContinuityLimits& limits) : limits_(limits) {}
@@ -97,8 +100,9 @@ class OdometryTimeline {
       const bool is_silence = elapsed > limits_.longest_silence;
       is_leap = !is_silence && !is_motion(last.value, value, elapsed, limits_);
       if (is_silence || is_leap) ++run_;
+      if (elapsed >= limits_.unwatched_after) ++pauses_;
     }
-    readings_[(first_ + count_) % kCapacity] = {at, value, run_};
+    readings_[(first_ + count_) % kCapacity] = {at, value, run_, pauses_};
     if (count_ < kCapacity) {
       ++count_;
     } else {
@@ -124,13 +128,13 @@ class OdometryTimeline {
     for (std::size_t i = count_; i > 0; --i) {
       const Reading& before = reading(i - 1);
       if (before.at > time) continue;
-      if (before.at == time) return {Outcome::kFound, before.value, before.run};
+      if (before.at == time) return {Outcome::kFound, before.value, before.run, before.pauses};
       const Reading& after = reading(i);
       const Duration hole = after.at - before.at;
       if (before.run != after.run) return {};
       if (hole > limits_.longest_interpolation) return {Outcome::kHole, {}, before.run};
       const double fraction = to_seconds(time - before.at) / to_seconds(hole);
-      return {Outcome::kFound, interpolate(before.value, after.value, fraction), before.run};
+      return {Outcome::kFound, interpolate(before.value, after.value, fraction), before.run, before.pauses};
     }
     return {};
   }
@@ -140,6 +144,7 @@ class OdometryTimeline {
     DeviceTime at{};
     Value value{};
     std::uint32_t run = 0;
+    std::uint32_t pauses = 0;
   };
   [[nodiscard]] const Reading& reading(std::size_t i) const { return readings_[(first_ + i) % kCapacity]; }
   [[nodiscard]] const Reading& newest() const { return reading(count_ - 1); }
@@ -149,6 +154,7 @@ class OdometryTimeline {
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   std::uint32_t run_ = 0;
+  std::uint32_t pauses_ = 0;
 };
 
 }  // namespace swiftlet

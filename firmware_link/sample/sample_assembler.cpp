@@ -235,7 +235,7 @@ std::optional<RangeSample> SampleAssembler::take() {
       continue;
     }
     const Pose2 T_odom_body(position.value.x_m, position.value.y_m, yaw.value.yaw_rad);
-    const Motion motion{position.run, yaw.run, at};
+    const Motion motion{position.run, yaw.run, position.pauses + yaw.pauses, at};
     if (!is_within_reach(position.value, motion)) {
       ++counters_.too_far;
       pending_.erase(0);
@@ -258,6 +258,12 @@ bool SampleAssembler::is_of_last_run(const Motion& motion) const {
          last_motion_->yaw_run == motion.yaw_run;
 }
 
+/// Across a pause that is not interpolated, samples are as far apart as the readings around it.
+bool SampleAssembler::was_watched_until(const Motion& motion) const {
+  return motion.pauses == last_motion_->pauses ||
+         motion.at - last_motion_->at < config_.continuity.unwatched_after;
+}
+
 bool SampleAssembler::is_within_reach(const Point2& position_odom, const Motion& motion) {
   if (!is_of_last_run(motion)) began_at_odom_ = position_odom;
   return distance_m(began_at_odom_, position_odom) <= config_.continuity.farthest_m;
@@ -271,7 +277,7 @@ RangeSample SampleAssembler::finish(const PendingRanges& ranges, const Pose2& T_
   sample.stamp = ranges.received;
   sample.T_odom_body = T_odom_body;
   const bool runs_on = is_of_last_run(motion);
-  const bool was_watched = runs_on && motion.at - last_motion_->at < config_.unwatched_after;
+  const bool was_watched = runs_on && was_watched_until(motion);
   sample.starts_segment = !was_watched;
   sample.odometry_ran_on = runs_on && !was_watched;
   last_motion_ = motion;

@@ -44,8 +44,6 @@ struct AssemblyConfig {
   /// before holds the same measurement and makes no sample; 0: each packet holds a new one.
   Duration measurement_period{};
   ContinuityLimits continuity;
-  /// Dead reckoning that was not received for that long is a guess: RangeSample::odometry_ran_on.
-  Duration unwatched_after = Duration::max();
 };
 
 /// Assembles range samples from readings: pairs ranges with dead reckoning of the same instant (the packet's
@@ -82,10 +80,12 @@ class SampleAssembler {
     HostTime received{};
     FixedVector<float, kMaxBeams> distance_m;
   };
-  /// Which runs of the dead reckoning a sample belongs to, and when it was measured.
+  /// Which runs of the dead reckoning a sample belongs to, how many pauses that had before, and when the
+  /// sample was measured.
   struct Motion {
     std::uint32_t position_run = 0;
     std::uint32_t yaw_run = 0;
+    std::uint32_t pauses = 0;
     DeviceTime at{};
   };
 
@@ -108,6 +108,8 @@ class SampleAssembler {
   [[nodiscard]] bool is_coming(const Timeline& timeline, DeviceTime at) const;
   /// Whether motion joins it with the last sample.
   [[nodiscard]] bool is_of_last_run(const Motion& motion) const;
+  /// Whether the step from the last sample is no guess. Precondition: is_of_last_run().
+  [[nodiscard]] bool was_watched_until(const Motion& motion) const;
   /// False when the dead reckoning has run away.
   bool is_within_reach(const Point2& position_odom, const Motion& motion);
   RangeSample finish(const PendingRanges& ranges, const Pose2& T_odom_body, const Motion& motion);

@@ -66,6 +66,17 @@ TEST(OdometryTimeline, ALongSilenceBeginsANewRun) {
   EXPECT_NE(positions.at(device_ms(0)).run, positions.at(device_ms(1001)).run);
 }
 
+TEST(OdometryTimeline, CountsThePausesBeforeAReadingAndGoesOnBehindThem) {
+  ContinuityLimits watched = limits();
+  watched.longest_silence = seconds(30);
+  watched.unwatched_after = seconds(1);
+  Positions positions(watched);
+  for (const int ms : {0, 999, 1999}) positions.add(device_ms(ms), {});
+  EXPECT_EQ(positions.at(device_ms(999)).pauses, 0U);
+  EXPECT_EQ(positions.at(device_ms(1999)).pauses, 1U);
+  EXPECT_EQ(positions.at(device_ms(1999)).run, positions.at(device_ms(0)).run);
+}
+
 TEST(OdometryTimeline, AnImpossibleJumpBeginsANewRun) {
   Positions positions(limits());
   positions.add(device_ms(0), {0.0, 0.0});

@@ -727,7 +727,7 @@ TEST_F(SampleAssemblerTest, LeavesOutWhatTheDeadReckoningPutsBeyondItsReach) {
 TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningSurvivesBeginsASegmentWithAGuess) {
   AssemblyConfig watched = config();
   watched.continuity.longest_silence = std::chrono::seconds(30);
-  watched.unwatched_after = std::chrono::seconds(1);
+  watched.continuity.unwatched_after = std::chrono::seconds(1);
   SampleAssembler assembler(watched, counters_);
   const auto fly = [&](std::int64_t ms, double x_m) {
     Reading reading;
@@ -756,6 +756,34 @@ TEST_F(SampleAssemblerTest, ASilenceThatTheDeadReckoningSurvivesBeginsASegmentWi
   EXPECT_EQ(starts, (std::vector<std::pair<bool, bool>>{{true, false}, {true, true}, {true, false}}));
   EXPECT_EQ(counters_.gaps, 3U);
   EXPECT_EQ(counters_.segments, 3U);
+}
+
+/// Of ten seconds: dead reckoning every `odometry_ms`, ranges every `range_ms`.
+InputCounters fly_watched(std::int64_t odometry_ms, std::int64_t range_ms) {
+  AssemblyConfig watched = config();
+  watched.continuity.longest_silence = std::chrono::seconds(30);
+  watched.continuity.unwatched_after = std::chrono::seconds(1);
+  InputCounters counters;
+  SampleAssembler assembler(watched, counters);
+  assembler.set_periods(milliseconds(range_ms), milliseconds(odometry_ms));
+  for (std::int64_t ms = 0; ms <= 10'000; ms += 100) {
+    if (ms % odometry_ms == 0) assembler.add(whole_reading(ms, {}));
+    if (ms % range_ms == 0) assembler.add(tilted_ranges(ms));
+    while (assembler.take()) continue;
+  }
+  return counters;
+}
+
+TEST(SampleAssembler, RangesThatComeSeldomBeginNoSegmentWhereDeadReckoningGoesOn) {
+  const InputCounters counters = fly_watched(100, 2000);
+  EXPECT_EQ(counters.samples, 5U);  // the first is older than all dead reckoning
+  EXPECT_EQ(counters.segments, 1U);
+}
+
+TEST(SampleAssembler, DeadReckoningThatIsInterpolatedAcrossASecondGoesOn) {
+  const InputCounters counters = fly_watched(1000, 100);
+  EXPECT_EQ(counters.samples, 100U);
+  EXPECT_EQ(counters.segments, 1U);
 }
 
 TEST_F(SampleAssemblerTest, AfterARebootGapsAreCountedByTheHostsClock) {
