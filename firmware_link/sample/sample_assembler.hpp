@@ -135,7 +135,8 @@ class SampleAssembler {
   };
   std::optional<MeasuredHeight> last_height_;  ///< nothing where it could not be measured
   StoreyTracker storeys_;
-  FixedVector<PendingRanges, 32> pending_;  ///< 100 scans a second that are newer by kMinRangeAge
+  /// 125 of 100 scans a second: newer by kMinRangeAge than dead reckoning that comes once a second.
+  FixedVector<PendingRanges, 128> pending_;
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
   std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart
   struct Measurement {

@@ -54,6 +54,26 @@ TEST(CarmenSampleSource, TakesOdometryLinesAtTheTimeOfTheRangesWhenTheirStampsAr
   EXPECT_EQ((*source)->progress(), 1.0);
 }
 
+TEST(CarmenSampleSource, LosesNoScanOfAFastLaserThatWaitsForTheNextOdometryLine) {
+  constexpr int kScans = 800;
+  std::string text;
+  for (int i = 0; i < kScans; ++i) {
+    if (i % 100 == 0) text += odometry_line(0.001 * i, 0, 0, std::to_string(10 + i / 100));
+    text += flaser_line(180, 7, std::to_string(10.2 + 0.01 * i));
+  }
+  for (const char* stamp : {"18", "19"}) text += odometry_line(0.8, 0, 0, stamp);
+  const TemporaryFile file("a.clf", text);
+  for (const Duration age : {Duration(std::chrono::milliseconds(100)), kMinRangeAge}) {
+    SampleSourceOptions options;
+    options.range_age = age;
+    const auto source = CarmenSampleSource::open(file.path(), options);
+    ASSERT_TRUE(source.ok());
+    EXPECT_EQ(read_all(**source).size(), kScans) << to_seconds(age);
+    EXPECT_EQ((*source)->report().counters.unpaired, 0U) << to_seconds(age);
+    EXPECT_THAT((*source)->report().notes, ElementsAre(HasSubstr("from the ODOM lines")));
+  }
+}
+
 TEST(CarmenSampleSource, RawScansTakeTheirPosesFromTheOdometryLines) {
   const std::string scan = scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "10.2");
   const TemporaryFile file("a.clf", odometry_line(0, 0, 0, "10.0") + scan + odometry_line(0.2, 0, 0, "10.2"));
