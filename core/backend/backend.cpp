@@ -3,6 +3,7 @@
 #include "core/backend/backend.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -28,6 +29,8 @@ struct Backend::State {
   void drop_closures_off_map();
   void correct_newest(const Pose2& T_local_body);
   void compare_newest_scan(const FrontendStep& step);
+  [[nodiscard]] double evidence_since(KeyframeId since, const KeyframePoses& T_map_seen_from,
+                                      std::span<const std::shared_ptr<const Submap>> submaps) const;
   [[nodiscard]] bool newest_contact_is_at_fault() const;
   [[nodiscard]] bool is_explained(KeyframeId contradicted_since) const;
   bool doubt_motion_if_contradicted();
@@ -101,6 +104,15 @@ void Backend::State::compare_newest_scan(const FrontendStep& step) {
   if (!has_restarted_unplaced()) agreement.add_newest_scan(T_map_body);
 }
 
+/// Against these submaps, those of long before, of the travel since a keyframe seen from these poses.
+double Backend::State::evidence_since(KeyframeId since, const KeyframePoses& T_map_seen_from,
+                                      std::span<const std::shared_ptr<const Submap>> submaps) const {
+  const ScanRange scans_since{chain.scan_of(since), scans.all().end_id()};
+  return ReturnEvidence(config.tuning.confidence, scans)
+      .against(scans_since, chain.T_w_bodies(scans_since, T_map_seen_from),
+               config.tuning.confidence.old_after_m, submaps, T_map_keyframe());
+}
+
 /// Where older ground is met again, the first closures are matched in a wide window with the edge of what is
 /// known, and the next ones confirm them. They are at fault where the travel since would contradict the older
 /// map less without them.
@@ -111,14 +123,9 @@ bool Backend::State::newest_contact_is_at_fault() const {
   const KeyframePoses& T_local = T_local_keyframe();
   for (KeyframeId k = contact->since; k < chain.all().end_id(); k = chain.all().at_or_after(k + 1))
     T_map_without[k] = contact->T_map_since * between(T_local[contact->since], T_local[k]);
-  const ScanRange scans_since{chain.scan_of(contact->since), scans.all().end_id()};
-  const ReturnEvidence returns(config.tuning.confidence, scans);
-  const auto evidence = [&](const KeyframePoses& T_map_seen_from) {
-    return returns.against(scans_since, chain.T_w_bodies(scans_since, T_map_seen_from),
-                           config.tuning.confidence.old_after_m, loops.submaps(), T_map_keyframe());
-  };
-  const double corrected = evidence(T_map_keyframe());
-  return corrected > evidence(T_map_without) + 0.5 * config.tuning.confidence.alarm_log_odds;
+  const double corrected = evidence_since(contact->since, T_map_keyframe(), loops.submaps());
+  return corrected > evidence_since(contact->since, T_map_without, loops.submaps()) +
+                         0.5 * config.tuning.confidence.alarm_log_odds;
 }
 
 /// The loops that were closed meanwhile tell which motion was wrong. True: the poses have moved.
@@ -132,12 +139,14 @@ bool Backend::State::end_doubt() {
   return true;
 }
 
-/// By travel that has no place, or none beyond doubt. A silence explains no contradiction that begins behind
-/// it: on new ground no place ends it, and a fault long after would go unnoticed.
+/// By travel that has no place, or none beyond doubt. A silence explains what contradicts the map of before
+/// it; what contradicts the ground flown since is another fault. On new ground no place ends a silence.
 bool Backend::State::is_explained(KeyframeId contradicted_since) const {
   const std::optional<KeyframeId> unplaced = loops.unplaced_since();
-  if (unplaced && loops.unplaced_by() == UnplacedBy::kSilence) return contradicted_since <= *unplaced;
-  return loops.weighs_places();
+  if (!unplaced || loops.unplaced_by() != UnplacedBy::kSilence) return loops.weighs_places();
+  return contradicted_since <= *unplaced ||
+         evidence_since(contradicted_since, T_map_keyframe(), loops.submaps_since(*unplaced)) <
+             0.5 * config.tuning.confidence.alarm_log_odds;
 }
 
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.

@@ -79,6 +79,10 @@ class LoopCloser {
   [[nodiscard]] const LoopCloserCounters& counters() const { return counters_; }
   /// Complete ones, in the order of their ends.
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps() const { return submaps_; }
+  /// Of those, the ones that begin there or later.
+  [[nodiscard]] std::span<const std::shared_ptr<const Submap>> submaps_since(KeyframeId since) const {
+    return submaps().subspan(submaps_before(since).size());
+  }
   /// From there on the motion is known, and nothing has placed it in the earlier map yet.
   [[nodiscard]] std::optional<KeyframeId> unplaced_since() const { return unplaced_since_; }
   /// With unplaced_since().
