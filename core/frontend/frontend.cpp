@@ -69,6 +69,7 @@ struct Frontend::State {
   UncertainMotion since_keyframe;
   double yaw_correction_rad = 0.0;                                          // of since_keyframe
   std::array<double, kMaxKeyframeWindow> yaw_correction_of_keyframe_rad{};  // by id, modulo the capacity
+  std::array<bool, kMaxKeyframeWindow> sees_known_walls{};                  // likewise, in what was kept
   UncertainMotion keyframe_motion;                                 // from the keyframe before to the newest
   Eigen::Matrix3d viewpoint_covariance = Eigen::Matrix3d::Zero();  // of the newest keyframe, local frame
   KeyframeId newest{};
@@ -180,12 +181,13 @@ void Frontend::State::add_keyframe_pose(const RangeSample& sample) {
 }
 
 /// From a motion that later keyframes have corrected since; the correction already applied is part of the
-/// error.
+/// error. A motion to where no known wall was seen is in the graph as it was predicted, and tells nothing.
 void Frontend::State::update_drift() {
   const std::size_t lag = config.tuning.drift.lag_keyframes;
   if (graph.poses().size() < lag + 2) return;
   const PoseVertex& from = graph.poses()[graph.poses().size() - lag - 2];
   const PoseVertex& to = graph.poses()[graph.poses().size() - lag - 1];
+  if (!sees_known_walls[index_of(to.id) % kMaxKeyframeWindow]) return;
   const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
   const double yaw_error_rad =
       pose_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
@@ -247,12 +249,15 @@ void Frontend::State::update_axis() {
 // landmarks and the direction priors of new ones. On F as a whole, as in the paper, one bad batch is hidden
 // by many good ones and then makes the next one worse.
 void Frontend::State::optimize_or_roll_back() {
+  bool& sees_known = sees_known_walls[index_of(newest) % kMaxKeyframeWindow];
+  sees_known = associated > 0;
   if (associated + aligned > 0) {
     const double increase =
         solver.optimize(graph, config.solver_iterations, config.tuning.solver).chi_square - chi_square_before;
     if (increase > chi_square.quantile(2 * associated + aligned)) {
       graph.restore(before_batch);
       ++counters.batches_rolled_back;
+      sees_known = false;
     }
   }
   graph.update_end_points();

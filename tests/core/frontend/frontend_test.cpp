@@ -151,6 +151,30 @@ TEST(Frontend, LearnsThatTheOdometryTurnsWithoutKnowingIt) {
   EXPECT_LT(corrected_m, 0.6 * uncorrected_m);
 }
 
+TEST(Frontend, LearnsNothingOfADriftWhereNoWallIsSeen) {
+  constexpr double kDriftRadPerM = radians(2.0);
+  BeamLayout beams{.count = 11};
+  for (std::size_t i = 0; i < beams.count; ++i)
+    beams.bearing_rad[i] = (static_cast<double>(i) - 5.0) * kPi / 10.0;
+  SensorModel wheels = SensorModel::carmen_laser();
+  const auto missed_rad_per_m = [&](double open_m) {  // in the second ten metres of a corridor
+    const std::vector<test::RoomWall> walls{{{open_m, -1.0}, {open_m + 80.0, -1.0}},
+                                            {{open_m, 1.0}, {open_m + 80.0, 1.0}}};
+    const auto samples_to = [](double x_m) { return static_cast<std::size_t>(std::lround(x_m / 0.05)); };
+    const std::vector<Pose2> steps(samples_to(open_m + 20.0), Pose2(0.05, 0.0, 0.0));
+    double missed_rad = 0.0;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      const RoomDrive drive =
+          test::drive_along(walls, Pose2(), steps, beams, wheels, {0.3, kDriftRadPerM}, seed);
+      const std::vector<FrontendStep> driven = run(drive, {}, beams, wheels).steps;
+      const auto yaw_rad = [&](double x_m) { return driven[samples_to(x_m)].T_dead_body.yaw_rad(); };
+      missed_rad += std::abs(wrap_angle(yaw_rad(open_m + 20.0) - yaw_rad(open_m + 10.0)));
+    }
+    return missed_rad / (8 * 10.0);
+  };
+  EXPECT_LT(missed_rad_per_m(10.0), 1.5 * missed_rad_per_m(0.0) + radians(0.1));
+}
+
 TEST(Frontend, ReportsTheWallsThatAreThere) {
   const RoomDrive drive = usual_drive(7, {0.2, 0.0});
   const std::vector<test::RoomWall> room = test::ring_of_corridors();

@@ -70,18 +70,13 @@ inline RangeSample sense(const std::vector<RoomWall>& walls, const Pose2& T_room
   return sample;
 }
 
-/// `laps` times around the ring of corridors, 0.04 m or 4 degrees a sample.
-inline RoomDrive drive_around(int laps, const BeamLayout& beams, const SensorModel& sensor,
-                              const DriveErrors& errors, unsigned seed) {
-  const std::vector<RoomWall> walls = ring_of_corridors();
+/// In steps from sample to sample.
+inline RoomDrive drive_along(const std::vector<RoomWall>& walls, const Pose2& T_room_start,
+                             const std::vector<Pose2>& steps, const BeamLayout& beams,
+                             const SensorModel& sensor, const DriveErrors& errors, unsigned seed) {
   RandomGeometry random(seed);
-  std::vector<Pose2> steps;
-  for (int side = 0; side < 4 * laps; ++side) {
-    steps.insert(steps.end(), side % 2 == 0 ? 250 : 150, Pose2(0.04, 0.0, 0.0));
-    for (int i = 0; i < 22; ++i) steps.emplace_back(0.0, 0.0, 0.5 * kPi / 22.0);
-  }
   RoomDrive drive;
-  Pose2 T_room_body(1.0, 1.0, 0.0);
+  Pose2 T_room_body = T_room_start;
   Pose2 T_odom_body;
   for (std::size_t i = 0; i <= steps.size(); ++i) {
     drive.T_room_body.push_back(T_room_body);
@@ -101,6 +96,17 @@ inline RoomDrive drive_around(int laps, const BeamLayout& beams, const SensorMod
                                           errors.yaw_drift_rad_per_metre * steps[i].x_m());
   }
   return drive;
+}
+
+/// `laps` times around the ring of corridors, 0.04 m or 4 degrees a sample.
+inline RoomDrive drive_around(int laps, const BeamLayout& beams, const SensorModel& sensor,
+                              const DriveErrors& errors, unsigned seed) {
+  std::vector<Pose2> steps;
+  for (int side = 0; side < 4 * laps; ++side) {
+    steps.insert(steps.end(), side % 2 == 0 ? 250 : 150, Pose2(0.04, 0.0, 0.0));
+    for (int i = 0; i < 22; ++i) steps.emplace_back(0.0, 0.0, 0.5 * kPi / 22.0);
+  }
+  return drive_along(ring_of_corridors(), Pose2(1.0, 1.0, 0.0), steps, beams, sensor, errors, seed);
 }
 
 }  // namespace swiftlet::test
