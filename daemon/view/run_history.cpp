@@ -67,7 +67,15 @@ void RunHistory::begin_run(std::int64_t map_id) {
   map_id_ = map_id;
 }
 
+/// A message of one of its frames was lost.
+void RunHistory::drop_newest_unless_whole() {
+  if (poses_.empty() || poses_.back().is_whole()) return;
+  ranges_ -= poses_.back().ranges_m.size();
+  poses_.pop_back();
+}
+
 void RunHistory::add_pose(TrailPose pose) {
+  drop_newest_unless_whole();
   pose.serial = ++pose_serial_;
   if (!poses_.empty()) pose.utime_us = std::max(pose.utime_us, poses_.back().utime_us);
   poses_.push_back(std::move(pose));
@@ -78,6 +86,8 @@ void RunHistory::add_pose(TrailPose pose) {
 void RunHistory::add_local(std::int32_t sequence, const std::array<double, 3>& local) {
   if (poses_.empty() || poses_.back().sequence != sequence) return;
   poses_.back().local = local;
+  poses_.back().has_local = true;
+  ++changes_;
 }
 
 void RunHistory::add_odom(std::int32_t sequence, const std::array<double, 3>& odom) {
@@ -121,7 +131,7 @@ bool RunHistory::is_finished_at(std::optional<std::int64_t> at_us) const {
 
 std::span<const TrailPose> RunHistory::poses_after(std::uint32_t serial) const {
   std::span<const TrailPose> found = after(poses_, serial);
-  if (!found.empty() && !found.back().has_odom) found = found.first(found.size() - 1);
+  if (!found.empty() && !found.back().is_whole()) found = found.first(found.size() - 1);
   return found;
 }
 

@@ -32,10 +32,13 @@ struct TrailPose {
   std::array<double, 3> map{};         ///< x, y, yaw in frame map
   std::array<double, 3> local{};       ///< in frame local
   std::array<double, 3> odom{};        ///< in frame odom
+  bool has_local = false;
   bool has_odom = false;
   /// m, along each of RunHistory::bearings_rad(), from the body to what was hit; 0: no return, negative: no
   /// measurement. Empty: unknown.
   std::vector<float> ranges_m{};
+
+  [[nodiscard]] bool is_whole() const { return has_local && has_odom; }
 };
 
 struct SeenWall {
@@ -125,7 +128,7 @@ class RunHistory {
   /// silent for `silence_s`.
   [[nodiscard]] bool enter_run(std::int64_t map_id, double silence_s);
 
-  /// With the pose in frame map; a serial is given.
+  /// With the pose in frame map; a serial is given. One before that is not whole by now is forgotten.
   void add_pose(TrailPose pose);
   /// Frames local and odom of the same sequence; ignored where that is not the newest pose.
   void add_local(std::int32_t sequence, const std::array<double, 3>& local);
@@ -154,7 +157,7 @@ class RunHistory {
   [[nodiscard]] std::vector<SeenWall> walls_at(std::optional<std::int64_t> at_us, StoreyId storey) const;
   /// Whether the map is final, by the newest status that is not after `at_us`; unset: by the newest.
   [[nodiscard]] bool is_finished_at(std::optional<std::int64_t> at_us) const;
-  /// The newest pose has arrived in all its frames only when the next one is there, or odom is.
+  /// Each in all its frames: the newest is there once both others have come.
   [[nodiscard]] std::span<const TrailPose> poses_after(std::uint32_t serial) const;
   /// Those of the events after `serial`, oldest first.
   [[nodiscard]] std::span<const RunEvent> events_after(std::uint32_t serial) const;
@@ -190,6 +193,7 @@ class RunHistory {
   std::size_t tile_bytes_ = 0;
 
   void begin_run(std::int64_t map_id);
+  void drop_newest_unless_whole();
   void thin_poses();
   void thin_ranges();
   void thin_tiles();

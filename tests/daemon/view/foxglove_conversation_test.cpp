@@ -107,6 +107,7 @@ TEST_F(FoxgloveConversationTest, BeamsLeadFromTheBodyToTheirHits) {
   ASSERT_TRUE(shared_.history.enter_run(7, 0.0));
   shared_.history.add_pose({.utime_us = kSecondUs, .sequence = 1, .map = {1.0, 2.0, 0.5}});
   shared_.history.add_ranges(1, {0.0F, 1.0F, 2.0F}, {1.5F, 0.0F, -1.0F});
+  shared_.history.add_local(1, {});
   shared_.history.add_odom(1, {});
   const auto message = conversation.next();
   ASSERT_TRUE(message);
@@ -184,6 +185,7 @@ TEST_F(FoxgloveConversationTest, WhatTheFinalPassChangesIsSentThoughNoPoseFollow
   history.add_closure({.index = 0}, false, kSecondUs);
   EXPECT_EQ(all(conversation).size(), 4U);
   history.add_pose({.utime_us = kSecondUs + 1, .sequence = 1, .map = {5.0, 5.0, 0.0}});
+  history.add_local(1, {});
   history.add_odom(1, {});
   history.add_tile(kSecondUs + 1, uniform_tile({0, 0}, 2, 0), 0.05);
   history.add_walls(kSecondUs + 1, {{.id = 1, .end = {2.0F, 0.0F}}});

@@ -38,5 +38,21 @@ TEST(FoxgloveFeed, TimesBeginWithTheFirstPose) {
                                    Field(&FoxgloveMessage::json, HasSubstr(R"("sec":5,)")))));
 }
 
+TEST(FoxgloveFeed, AFirstPoseWithoutItsDeadReckoningIsNoOriginOfFrameOdom) {
+  RunHistory history;
+  ASSERT_TRUE(history.enter_run(7, 0.0));
+  history.add_pose({.utime_us = kSecondUs, .sequence = 0, .map = {9.0, 9.0, 0.0}});
+  history.add_local(0, {9.0, 9.0, 0.0});
+  add_whole_pose(history, 2 * kSecondUs, 1);
+  FoxgloveFeed feed{FoxglovePace{}};
+  feed.begin(FoxgloveTopic::kPoseOdom);
+  const auto message = feed.next(history, std::nullopt);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->utime_us, 2 * kSecondUs);
+  EXPECT_THAT(message->json, HasSubstr(R"("x":3.0)"));
+  feed.begin(FoxgloveTopic::kTransforms);
+  EXPECT_EQ(feed.next(history, std::nullopt)->utime_us, 2 * kSecondUs);
+}
+
 }  // namespace
 }  // namespace swiftlet

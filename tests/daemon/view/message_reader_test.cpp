@@ -83,6 +83,7 @@ ranges_t ranges_message(std::int32_t sequence) {
 
 TEST_F(MessageReaderTest, RangesBelongToThePoseOfTheirSequence) {
   take("POSE", pose_message(pose_t::FRAME_MAP, 3));
+  take("POSE_LOCAL", pose_message(pose_t::FRAME_LOCAL, 3));
   take("POSE_ODOM", pose_message(pose_t::FRAME_ODOM, 3));
   take("RANGES", ranges_message(2));
   ASSERT_EQ(history_.poses_after(0).size(), 1U);

@@ -73,6 +73,7 @@ TEST(RunHistory, OfAllTooManyRangesTheOldestAreForgotten) {
   for (int i = 0; i < 11; ++i) {
     history.add_pose({.utime_us = i, .sequence = i});
     history.add_ranges(i, {0.0F, 1.0F, 2.0F, 3.0F}, {1.0F, 2.0F, 3.0F, 4.0F});
+    history.add_local(i, {});
     history.add_odom(i, {});
   }
   const auto poses = history.poses_after(0);
@@ -87,6 +88,7 @@ TEST(RunHistory, RangesOfPosesThatAreThinnedDoNotCount) {
   for (int i = 0; i < 1000; ++i) {
     history.add_pose({.utime_us = i, .sequence = i});
     history.add_ranges(i, {0.0F, 1.0F}, {1.0F, 2.0F});
+    history.add_local(i, {});
     history.add_odom(i, {});
   }
   for (const TrailPose& pose : history.poses_after(0)) EXPECT_THAT(pose.ranges_m, testing::SizeIs(2));
@@ -95,27 +97,57 @@ TEST(RunHistory, RangesOfPosesThatAreThinnedDoNotCount) {
 TEST(RunHistory, RangesAlongOtherBeamsThanTheRunsAreNotBelieved) {
   RunHistory history;
   ASSERT_TRUE(history.enter_run(1, 0.0));
-  history.add_pose({.sequence = 1});
+  add_whole_pose(history, 1, 1);
   history.add_ranges(1, {0.0F, 1.0F}, {1.0F, 2.0F});
-  history.add_pose({.sequence = 2});
+  add_whole_pose(history, 2, 2);
   history.add_ranges(2, {0.0F, 2.0F}, {1.0F, 2.0F});
   history.add_ranges(2, {0.0F, 1.0F}, {1.0F});
-  history.add_odom(2, {});
   EXPECT_TRUE(history.poses_after(1).front().ranges_m.empty());
 }
 
 TEST(RunHistory, WhatIsNoTileOfOursIsUnknown) { EXPECT_THAT(inflate_tile({}), testing::Each(-1)); }
 
-TEST(RunHistory, APoseIsShownWithItsDeadReckoning) {
+TEST(RunHistory, APoseIsShownInAllItsFrames) {
   RunHistory history;
   ASSERT_TRUE(history.enter_run(1, 0.0));
   history.add_pose({.utime_us = 5, .sequence = 0, .map = {1.0, 2.0, 0.5}});
-  EXPECT_TRUE(history.poses_after(0).empty());
   history.add_odom(0, {3.0, 4.0, 0.25});
+  EXPECT_TRUE(history.poses_after(0).empty());
+  history.add_local(0, {2.0, 3.0, 0.5});
   ASSERT_EQ(history.poses_after(0).size(), 1U);
   EXPECT_EQ(history.poses_after(0).front().odom[1], 4.0);
   history.add_odom(9, {8.0, 8.0, 8.0});
   EXPECT_EQ(history.poses_after(0).front().odom[1], 4.0);
+}
+
+/// A lost message of one frame leaves a pose out, not the ones around it.
+void expect_only_pose_1_missing(RunHistory& history) {
+  add_whole_pose(history, 2, 2);
+  const auto poses = history.poses_after(0);
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].sequence, 0);
+  EXPECT_EQ(poses[1].sequence, 2);
+  EXPECT_EQ(history.poses_after(poses[0].serial).front().sequence, 2);
+}
+
+TEST(RunHistory, APoseWhoseDeadReckoningIsLostIsLeftOut) {
+  RunHistory history;
+  ASSERT_TRUE(history.enter_run(1, 0.0));
+  add_whole_pose(history, 0, 0);
+  history.add_pose({.utime_us = 1, .sequence = 1});
+  history.add_local(1, {3.0, 4.0, 0.25});
+  EXPECT_EQ(history.poses_after(0).size(), 1U) << "the newest is waited for";
+  expect_only_pose_1_missing(history);
+}
+
+TEST(RunHistory, APoseWhoseLocalPoseIsLostIsLeftOut) {
+  RunHistory history;
+  ASSERT_TRUE(history.enter_run(1, 0.0));
+  add_whole_pose(history, 0, 0);
+  history.add_pose({.utime_us = 1, .sequence = 1});
+  history.add_odom(1, {3.0, 4.0, 0.25});
+  EXPECT_EQ(history.poses_after(0).size(), 1U) << "the newest is waited for";
+  expect_only_pose_1_missing(history);
 }
 
 TEST(RunHistory, AnHourOfPosesTakesBoundedRoomAndKeepsItsBeginning) {

@@ -30,6 +30,7 @@ const auto& value_of(const Entry* entry) {
 /// Adds a pose, in all its frames.
 inline void add_whole_pose(RunHistory& history, std::int64_t utime_us, std::int32_t sequence) {
   history.add_pose({.utime_us = utime_us, .sequence = sequence, .map = {1.0, 2.0, 0.5}});
+  history.add_local(sequence, {2.0, 3.0, 0.5});
   history.add_odom(sequence, {3.0, 4.0, 0.25});
 }
 

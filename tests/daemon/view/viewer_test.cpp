@@ -87,6 +87,7 @@ TEST_F(ViewerTest, APoseGoesWithItsBeams) {
   begin_run();
   history_.add_pose({.sequence = 1});
   history_.add_ranges(1, {0.0F, 1.0F}, {1.5F, 2.5F});
+  history_.add_local(1, {});
   history_.add_odom(1, {});
   add_whole_pose(history_, 2, 2);
   Viewer viewer(shared_, live_);
