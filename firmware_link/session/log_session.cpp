@@ -101,6 +101,17 @@ bool LogSession::is_confirmed(const LogStamp& stamp) const {
   return doubted_ && doubted_->counter_ms != stamp.counter_ms && are_of_one_clock(*doubted_, stamp);
 }
 
+/// Then all that comes is as late as what waited in the vehicle, and for longer than anything waits there.
+bool LogSession::host_clock_has_stepped(const LogStamp& stamp) {
+  using std::chrono::abs;
+  if (last_ && abs(lateness(*last_, stamp)) > kClocksAgree)
+    leapt_ = stamp;
+  else if (leapt_ &&
+           (abs(lateness(*leapt_, stamp)) > kClocksAgree || abs(device_step(*last_, stamp)) > kClocksAgree))
+    leapt_.reset();
+  return leapt_ && device_step(*leapt_, stamp) > kLongestQueue;
+}
+
 /// A session begins with a reset, also after the link was lost. If the vehicle's clock did not advance as far
 /// as the host's meanwhile, the vehicle has rebooted (or is another one). Where what waited was discarded, it
 /// advances further.
@@ -112,6 +123,7 @@ std::optional<DeviceTime> LogSession::time_of(const LogStamp& stamp) {
     return std::nullopt;
   }
   doubted_.reset();
+  const bool host_has_stepped = host_clock_has_stepped(stamp);
   last_ = stamp;
   const Duration late = on_time_ ? lateness(*on_time_, stamp) : Duration::zero();
   const bool has_rebooted = is_after_reset && (late > kClocksAgree || late < -kLongestQueue);
@@ -121,7 +133,7 @@ std::optional<DeviceTime> LogSession::time_of(const LogStamp& stamp) {
   }
   // The few packets that the vehicle's radio keeps through any silence do not show how the clocks compare.
   const bool has_waited = is_of_the_clock && late > kClocksAgree;
-  if (!has_waited || has_rebooted) on_time_ = stamp;
+  if (!has_waited || has_rebooted || host_has_stepped) on_time_ = stamp;
   return clock_.unwrap(stamp.counter_ms);
 }
 

@@ -81,6 +81,7 @@ class LogSession {
   bool find_layout(LogRecord& record);
   std::optional<DeviceTime> time_of(const LogStamp& stamp);
   [[nodiscard]] bool continues(const LogStamp& stamp) const;
+  [[nodiscard]] bool host_clock_has_stepped(const LogStamp& stamp);
   [[nodiscard]] bool is_confirmed(const LogStamp& stamp) const;
   /// Whether the first `entry_count` entries exist and have names.
   [[nodiscard]] bool is_named(const LogBlock& block, std::size_t entry_count) const;
@@ -94,6 +95,7 @@ class LogSession {
   DeviceClockUnwrapper clock_;
   std::optional<LogStamp> last_;     ///< of the packet read last
   std::optional<LogStamp> on_time_;  ///< of the last one that had not waited in the vehicle
+  std::optional<LogStamp> leapt_;    ///< of the first one as late as all since, but not as the one before
   std::optional<LogStamp> doubted_;  ///< of the packet before, if its stamp was doubtful
   bool reset_received_ = false;
   std::uint32_t boot_ = 0;

@@ -237,6 +237,18 @@ TEST(LogSession, AStepOfTheHostsClockCostsNothing) {
   }
 }
 
+TEST(LogSession, AStepOfTheHostsClockIsNoRebootAtTheNextConnection) {
+  TwoBlocks vehicle;
+  for (std::int64_t i = 0; i < 50; ++i) EXPECT_EQ(vehicle.pair(1000 + 100 * i, 100 * i), 2);
+  for (std::int64_t i = 50; i < 250; ++i) EXPECT_EQ(vehicle.pair(1000 + 100 * i, 30'000 + 100 * i), 2);
+  vehicle.connect();
+  EXPECT_EQ(vehicle.pair(27'000, 56'000), 2);
+  EXPECT_EQ(vehicle.boot(), 0U);
+  vehicle.connect();
+  EXPECT_EQ(vehicle.pair(2000, 61'000), 2);
+  EXPECT_EQ(vehicle.boot(), 1U);
+}
+
 TEST(LogSession, WhatWaitedInTheVehicleIsReadWhole) {
   TwoBlocks vehicle;
   int read = vehicle.pair(1000, 0);
