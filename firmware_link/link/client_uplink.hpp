@@ -22,6 +22,8 @@ class ClientUplink {
   /// The packet to send next; nullopt: there is none, or it is the turn of the link's owner, which has a
   /// request to send if `owner_waits`.
   [[nodiscard]] virtual std::optional<CrtpPacket> next_packet(bool owner_waits) = 0;
+  /// A packet that the link has not got acknowledged: the vehicle may have received it.
+  virtual void take_back(const CrtpPacket& packet) = 0;
   /// A file descriptor that is readable when something has arrived.
   [[nodiscard]] virtual int arrivals() const = 0;
 };

@@ -86,7 +86,7 @@ void RadioLink::open(HostTime now) {
 
 void RadioLink::lose_dongle(UsbOutcome failure) {
   radio_.reset();
-  unacknowledged_.reset();
+  give_up_unacknowledged();
   ++statistics_.device_losses;
   statistics_.condition = condition_of(failure);
   statistics_.safelink = false;
@@ -148,8 +148,13 @@ void RadioLink::negotiate_safelink() {
   mode_ = Mode::kAsking;
   sent_ = Sent::kPoll;
   unanswered_asks_ = 0;
-  unacknowledged_.reset();
+  give_up_unacknowledged();
   statistics_.safelink = false;
+}
+
+void RadioLink::give_up_unacknowledged() {
+  if (is_repeating_for_client()) uplink_.take_back(*unacknowledged_);
+  unacknowledged_.reset();
 }
 
 CrtpPacket RadioLink::next_packet(HostTime now) {

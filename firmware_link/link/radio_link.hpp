@@ -31,7 +31,8 @@ namespace swiftlet {
 /// received. Switches the vehicle's safelink on or off, because it keeps what another program asked for. With
 /// it, an unacknowledged packet is sent again until it is acknowledged. Without, it is not: the vehicle may
 /// have executed it and only the acknowledgement is lost; the sender repeats a request that is not answered.
-/// Requests that wait when the vehicle falls silent are dropped.
+/// Requests that wait when the vehicle falls silent are dropped. A client gets back what is not acknowledged
+/// then, or when the dongle is lost; what it has sent again is delivered again.
 ///
 /// One thread at a time; the arguments of its constructor must outlive it. Allocates only while it opens the
 /// dongle.
@@ -59,6 +60,7 @@ class RadioLink final : public Link {
   void exchange();
   void fall_silent();
   void negotiate_safelink();
+  void give_up_unacknowledged();
   [[nodiscard]] CrtpPacket next_packet(HostTime now);
   void hand_back(const LinkFrame& frame);
   void on_frame(const RadioAnswer& answer, HostTime now);

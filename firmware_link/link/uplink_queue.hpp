@@ -39,6 +39,8 @@ class UplinkQueue {
     return Packet{requests_.pop(), true};
   }
   void clear_requests() { requests_.clear(); }
+  /// As ClientUplink's. Precondition: the client's.
+  void take_back(const CrtpPacket& packet) { client_->take_back(packet); }
 
   /// Sleeps for that long, or until something of the client's arrives.
   void sleep_for(Duration duration, LinkClock& clock) const {

@@ -35,7 +35,8 @@ void ClientTraffic::take(std::span<const std::uint8_t> packet, HostTime now) {
 }
 
 bool ClientTraffic::has_packet(HostTime now) const {
-  const bool has_request = blocks_.deletion_is_due(now) || (!blocks_.is_resetting() && !requests_.empty());
+  const bool has_request =
+      blocks_.deletion_is_due(now) || (!blocks_.is_resetting() && !requests_.empty()) || taken_back_;
   return !steering_.empty() || (log_was_reset_ && has_request);
 }
 
@@ -72,6 +73,7 @@ bool ClientTraffic::is_overtaken(HostTime now) const {
 
 std::optional<CrtpPacket> ClientTraffic::next_request(HostTime now) {
   if (!log_was_reset_) return std::nullopt;
+  if (taken_back_) return std::exchange(taken_back_, std::nullopt);
   if (const std::optional<CrtpPacket> deletion = blocks_.next_deletion(now)) return deletion;
   while (!blocks_.is_resetting() && !requests_.empty()) {
     const CrtpPacket packet = requests_.front();
@@ -98,6 +100,10 @@ void ClientTraffic::drop_steering() {
   steering_.clear();
 }
 
+void ClientTraffic::take_back(const CrtpPacket& packet) {
+  if (!is_steering(bytes_of(packet))) taken_back_ = packet;
+}
+
 std::optional<CrtpPacket> ClientTraffic::on_frame(LinkFrame& frame) {
   if (frame.direction == LinkDirection::kToVehicle) {
     if (frame.is_ours) on_sent_by_owner(frame.packet());
@@ -119,7 +125,9 @@ void ClientTraffic::on_sent_by_owner(std::span<const std::uint8_t> packet) {
 std::optional<CrtpPacket> ClientTraffic::on_log_control(LinkFrame& frame) {
   const std::span<const std::uint8_t> packet = frame.packet();
   if (is_reset(packet)) {
-    if (!std::exchange(log_was_reset_, true)) has_lost_blocks_ = blocks_.forget_all() || has_lost_blocks_;
+    if (std::exchange(log_was_reset_, true)) return std::nullopt;
+    has_lost_blocks_ = blocks_.forget_all() || has_lost_blocks_;
+    if (taken_back_ && is_on(bytes_of(*taken_back_), kLogControlTopic)) taken_back_.reset();
     return std::nullopt;
   }
   frame.is_ours = packet.size() < 3 || !ClientLogBlocks::has_number(packet[2]);
@@ -159,6 +167,7 @@ std::optional<CrtpPacket> ClientTraffic::take_answer() {
 
 void ClientTraffic::abandon() {
   requests_.clear();
+  taken_back_.reset();
   answers_.clear();
   open_.clear();
   blocks_.abandon();

@@ -46,6 +46,9 @@ class ClientTraffic {
   [[nodiscard]] std::optional<CrtpPacket> next_packet(bool owner_waits, HostTime now);
   /// The vehicle is not received: what steers would come too late.
   void drop_steering();
+  /// As ClientUplink's. A request is sent again, before those that wait; the vehicle may execute it twice,
+  /// which does no harm to a parameter, a stop or a log block.
+  void take_back(const CrtpPacket& packet);
 
   /// The client's share of a frame that the link has delivered, if any; marks the frame where it is not the
   /// owner's.
@@ -78,6 +81,7 @@ class ClientTraffic {
   PacketRing<kSteeringCapacity, Steering> steering_;
   PacketRing<kRequestCapacity> requests_;
   PacketRing<kRequestCapacity> answers_;
+  std::optional<CrtpPacket> taken_back_;  ///< as it was sent
   int steering_in_a_row_ = 0;
   bool was_clients_ = false;  ///< the last packet that did not steer
   bool log_was_reset_ = false;

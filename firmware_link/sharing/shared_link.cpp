@@ -62,6 +62,10 @@ std::optional<CrtpPacket> SharedLink::next_packet(bool owner_waits) {
   return packet;
 }
 
+void SharedLink::take_back(const CrtpPacket& packet) {
+  if (socket_->has_client()) traffic_.take_back(packet);
+}
+
 void SharedLink::send_answers() {
   while (const std::optional<CrtpPacket> answer = traffic_.take_answer()) deliver(*answer);
 }

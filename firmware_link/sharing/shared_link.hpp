@@ -43,6 +43,7 @@ class SharedLink final : public Link, private ClientUplink {
  private:
   [[nodiscard]] bool has_packet() override;
   [[nodiscard]] std::optional<CrtpPacket> next_packet(bool owner_waits) override;
+  void take_back(const CrtpPacket& packet) override;
   [[nodiscard]] int arrivals() const override { return socket_->file(); }
   [[nodiscard]] bool is_connected() const {
     return link_->statistics().condition == LinkCondition::kConnected;

@@ -20,6 +20,7 @@ class ScriptedUplink final : public ClientUplink {
     --left;
     return packet_of(packet_);
   }
+  void take_back(const CrtpPacket& /*packet*/) override { ++left; }
   int arrivals() const override { return -1; }
 
   int left;

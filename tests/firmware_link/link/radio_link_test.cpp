@@ -140,6 +140,35 @@ TEST_F(RadioLinkTest, AClientsPacketIsTheNextOneAndAnUnacknowledgedOneIsRepeated
   EXPECT_LT(dongle_.packets[2].at - dongle_.packets[0].at, milliseconds(4));
 }
 
+TEST_F(RadioLinkTest, AClientsRequestThatASilenceLeftUnacknowledgedReachesTheVehicleBehindIt) {
+  connect();
+  ScriptedUplink client({0x2D, 1, 0}, 1);
+  link().uplink()->share_with(client);
+  dongle_.is_in_range = [] { return false; };
+  EXPECT_EQ(listen(milliseconds(1500)).size(), 1U);
+  EXPECT_TRUE(dongle_.vehicle.accepted.empty());
+  dongle_.is_in_range = [] { return true; };
+  static_cast<void>(listen(milliseconds(100)));
+  ASSERT_EQ(dongle_.vehicle.accepted.size(), 1U);
+  EXPECT_EQ(dongle_.vehicle.accepted[0][1], 1);
+}
+
+TEST_F(RadioLinkTest, AClientsRequestThatAPulledDongleLeftUnacknowledgedReachesTheVehicleBehindIt) {
+  connect();
+  ScriptedUplink client({0x2D, 1, 0}, 1);
+  link().uplink()->share_with(client);
+  dongle_.fates.assign(5, Fate::kPacketLost);
+  EXPECT_EQ(listen(milliseconds(2)).size(), 1U);
+  const std::vector<UsbIdentity> dongles = std::exchange(dongle_.plugged_in, {});
+  dongle_.has_news = true;
+  static_cast<void>(listen(milliseconds(300)));
+  EXPECT_TRUE(dongle_.vehicle.accepted.empty());
+  dongle_.plugged_in = dongles;
+  dongle_.has_news = true;
+  static_cast<void>(listen(milliseconds(1500)));
+  EXPECT_EQ(dongle_.vehicle.accepted.size(), 1U);
+}
+
 TEST_F(RadioLinkTest, RequestsSafelinkAndIsConnected) {
   EXPECT_EQ(condition(), LinkCondition::kSilent);
   EXPECT_TRUE(listen(milliseconds(50)).empty()) << "null packets are not handed back";

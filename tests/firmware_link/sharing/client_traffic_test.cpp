@@ -78,6 +78,26 @@ TEST_F(ClientTrafficTest, TheNewestSetpointIsSentHoweverLate) {
   EXPECT_EQ(next(), (Bytes{0x3C, 1}));
 }
 
+TEST_F(ClientTrafficTest, ARequestThatComesBackIsTheNextOneAndWhatSteersIsGone) {
+  for (std::uint8_t i = 1; i <= 2; ++i) take(Bytes{0x2D, i, 0});
+  traffic_.take_back(packet_of(next()));
+  traffic_.take_back(packet_of(Bytes{0x3C, 1}));
+  EXPECT_EQ(next(), (Bytes{0x2D, 1, 0}));
+  EXPECT_EQ(next(), (Bytes{0x2D, 2, 0}));
+  traffic_.take_back(packet_of(Bytes{0x2D, 2, 0}));
+  EXPECT_TRUE(traffic_.has_packet(now_));
+  EXPECT_EQ(next(), (Bytes{0x2D, 2, 0}));
+  EXPECT_FALSE(traffic_.has_packet(now_));
+}
+
+TEST_F(ClientTrafficTest, ALogBlockThatComesBackIsVoidOnceTheOwnerHasResetTheLog) {
+  take(Bytes{0x5D, 6, 1, 7, 0, 0});
+  traffic_.take_back(packet_of(next()));
+  reset_log();
+  EXPECT_EQ(next(), Bytes{});
+  EXPECT_TRUE(traffic_.take_loss_of_blocks());
+}
+
 TEST_F(ClientTrafficTest, RequestsTakeTurnsWithTheOwners) {
   for (std::uint8_t i = 0; i < 3; ++i) take(Bytes{0x2D, i, 0});
   EXPECT_EQ(next(true), (Bytes{0x2D, 0, 0}));
@@ -206,6 +226,7 @@ TEST_F(ClientTrafficTest, AClientThatIsGoneLeavesItsLastSetpointsAndDeletionsOnl
   const std::uint8_t number = next()[2];
   take(Bytes{0x3C, 1});
   take(Bytes{0x2D, 1, 0});
+  traffic_.take_back(packet_of(Bytes{0x2D, 2, 0}));
   traffic_.abandon();
   EXPECT_EQ(next(), (Bytes{0x3C, 1}));
   EXPECT_EQ(next(), (Bytes{0x5D, 2, number}));

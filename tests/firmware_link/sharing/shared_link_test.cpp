@@ -175,6 +175,11 @@ TEST_F(SharedLinkTest, RequestsWaitForAVehicleThatIsNotReceivedSetpointsDoNot) {
   EXPECT_EQ(link_->sharing().counters.steering_dropped, 1U);
 }
 
+TEST_F(SharedLinkTest, NothingIsSentAgainOfAClientThatIsGone) {
+  echo_->uplink()->take_back(param_read_request(7));
+  EXPECT_TRUE(pass().empty());
+}
+
 TEST_F(SharedLinkTest, TellsOncePerRefusedClientHoweverTheySendInTurn) {
   client_->step(clock_.now());
   static_cast<void>(pass());
