@@ -154,22 +154,24 @@ RunEnd run_once(const Options& options, const Configuration& config, const RunPa
           .wants_new_map = executor.wants_new_map()};
 }
 
-/// The flight goes on, and so does the daemon: what cannot be opened is told once, and tried again. Error:
-/// the newest reason, when `signalled`.
-Result<std::unique_ptr<RunParts>> open_in_flight(const Options& options, const Configuration& config,
-                                                 const ServiceManager& service_manager,
-                                                 const std::stop_token& signalled) {
+/// The flight goes on, and so does the daemon: what cannot be opened is told once, and tried again. nullptr:
+/// the daemon is to end, and a run that no sample reaches would take the finished map from its consumers.
+std::unique_ptr<RunParts> open_in_flight(const Options& options, const Configuration& config,
+                                         const ServiceManager& service_manager,
+                                         const std::stop_token& signalled) {
   std::string told;
-  while (true) {
+  while (!signalled.stop_requested()) {
     service_manager.feed_watchdog();
     Result<std::unique_ptr<RunParts>> opened = RunParts::open(options, config);
-    if (opened || signalled.stop_requested()) return opened;
+    if (signalled.stop_requested()) break;
+    if (opened) return std::move(opened).value();
     const std::string& why = opened.error().message;
     if (why != told) spdlog::warn("the next run cannot begin: {}; it is tried again", why);
     told = why;
     for (int i = 0; i < kSleepsBetweenTries && !signalled.stop_requested(); ++i)
       std::this_thread::sleep_for(kSleep);
   }
+  return nullptr;
 }
 
 }  // namespace
@@ -178,17 +180,19 @@ int run_until_over(const Options& options, const Configuration& config, const st
   const ServiceManager service_manager;
   int exit_code = 0;  // the worst of all runs
   Options of_run = options;
-  Result<std::unique_ptr<RunParts>> run = RunParts::open(of_run, config);
-  for (int number = 2; run; ++number) {
-    const RunEnd end = run_once(of_run, config, **run, service_manager, signalled);
+  Result<std::unique_ptr<RunParts>> first = RunParts::open(of_run, config);
+  if (!first) return refuse(first.error().message);
+  std::unique_ptr<RunParts> run = std::move(first).value();
+  for (int number = 2; run != nullptr; ++number) {
+    const RunEnd end = run_once(of_run, config, *run, service_manager, signalled);
     exit_code = std::max(exit_code, end.exit_code);
-    if (!end.wants_new_map || signalled.stop_requested()) return exit_code;
-    run->reset();
+    if (!end.wants_new_map) break;
+    run.reset();
     reset_peak_memory();
     of_run = options_of_run(options, number);
     run = open_in_flight(of_run, config, service_manager, signalled);
   }
-  return std::max(exit_code, refuse(run.error().message));
+  return exit_code;
 }
 
 }  // namespace swiftlet

@@ -106,6 +106,22 @@ def a_new_map_takes_names_that_are_free_and_waits_for_what_is_not(bench):
     expect(all(file.read_bytes() == b"of another day" for file in another_days), "overwritten")
 
 
+def no_new_map_is_begun_for_who_ends_the_daemon(bench):
+    in_the_way = bench.folder / "out_2"
+    in_the_way.write_text("no folder", encoding="utf-8")
+    vehicle = bench.vehicle()
+    flight = commanded_flight(bench, vehicle, lcm_url=f"file://{bench.folder}/run.lcm?mode=w")
+    time.sleep(1.0)
+    expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
+    flight.wait_for("the next run cannot begin")
+    in_the_way.unlink()
+    flight.process.send_signal(signal.SIGTERM)
+    expect(flight.process.wait(timeout=60) == 0, flight.said())
+    vehicle.end()
+    expect(flight.said().count("publishing on") == 1, flight.said())
+    expect(not (bench.folder / "run_2.lcm").exists(), "a second run was published")
+
+
 def a_new_map_does_not_cut_off_a_client(bench):
     vehicle = bench.vehicle()
     share = free_port()
