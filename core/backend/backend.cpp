@@ -193,6 +193,7 @@ PoseConfidence Backend::State::computed_confidence() const {
           .from_start = covariances.from_start,
           .from_surroundings = covariances.from_surroundings,
           .slip = {tuning.slip_along_m2_per_m, tuning.slip_yaw_rad2_per_m},
+          .has_older_map = false,
           .figures = {}};
 }
 
@@ -332,6 +333,7 @@ PoseConfidence Backend::confidence() {
   newest.keyframe = s.correction.keyframe;
   newest.T_local_keyframe = T_local_newest;
   newest.yaw_map_local_rad = s.correction.T_map_local.yaw_rad();
+  newest.has_older_map = !s.loops.submaps().empty();
   newest.figures = tracking();
   return newest;
 }

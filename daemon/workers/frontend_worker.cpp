@@ -47,10 +47,17 @@ const FrontendStep& FrontendWorker::process() noexcept {
   return frontend_.process(received_.sample, applied_.T_map_local);
 }
 
+/// A restart makes a keyframe, with which the backend's answer comes.
+Tracking FrontendWorker::tracking() const noexcept {
+  const bool is_answered = confidence_.keyframe >= restarted_at_;
+  return is_answered || !confidence_.has_older_map ? confidence_.figures.tracking : Tracking::kLost;
+}
+
 void FrontendWorker::report(const FrontendStep& step) noexcept {
   const RangeSample& sample = received_.sample;
   T_local_body_ = step.T_local_body;
   if (sample.starts_segment) ++segment_;
+  if (sample.starts_segment && !sample.odometry_ran_on) restarted_at_ = step.keyframe;
   static_cast<void>(publisher_->confidence.load_if_new(confidence_));
   beams_.distance_m = sample.distance_m;
   beams_.status = sample.status;
@@ -66,7 +73,7 @@ void FrontendWorker::report(const FrontendStep& step) noexcept {
        .T_local_body = step.T_local_body,
        .T_odom_body = sample.T_odom_body,
        .storey = sample.storey,
-       .tracking = confidence_.figures.tracking,
+       .tracking = tracking(),
        .from_start = carried_on(confidence_.from_start, confidence_, step.T_local_body),
        .from_surroundings = carried_on(confidence_.from_surroundings, confidence_, step.T_local_body),
        .measured_at = sample.measured_at,

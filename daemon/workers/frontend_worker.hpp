@@ -40,12 +40,14 @@ class FrontendWorker {
   double correction_m_ = 0.0;  // ... and by how far it moved the pose
   Pose2 T_local_body_;         // of the sample before
   PoseConfidence confidence_;  // likewise
+  KeyframeId restarted_at_{};  // of the newest sample to which no odometry leads
   BeamReadings beams_;         // of the newest sample
   std::uint32_t segment_ = 0;
 
   const FrontendStep& process() noexcept;
   void take_correction() noexcept;
   void report(const FrontendStep& step) noexcept;
+  [[nodiscard]] Tracking tracking() const noexcept;
 };
 
 }  // namespace swiftlet

@@ -43,6 +43,7 @@ struct PoseConfidence {
   Covariance3 from_start;          ///< relative to the start of the run
   Covariance3 from_surroundings;   ///< relative to the part of the map around the vehicle
   SlipNoise slip;                  ///< by which both grow on the way from the keyframe
+  bool has_older_map = false;      ///< a vehicle whose estimate restarts would be kLost in it
   TrackingFigures figures;
 };
 static_assert(std::is_trivially_copyable_v<PoseConfidence>);

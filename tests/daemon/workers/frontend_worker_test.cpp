@@ -2,9 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/workers/frontend_worker.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "tests/support/manual_clock.hpp"
 #include "tests/support/scripted_sample_source.hpp"
@@ -135,6 +139,48 @@ TEST(FrontendWorker, CarriesTheNewestConfidenceOnToThePoseItPublishes) {
   EXPECT_EQ(pose.tracking, Tracking::kUncertain);
   EXPECT_DOUBLE_EQ(pose.from_start.xx, carried_on(confidence.from_start, confidence, pose.T_local_body).xx);
   EXPECT_GE(pose.from_start.xx, 0.5);
+}
+
+/// What it publishes of each sample, the backend having seen none since that of the confidence.
+std::vector<Tracking> tracking_of(FrontendBench& bench, std::span<const RangeSample> samples) {
+  std::vector<Tracking> published;
+  for (const RangeSample& sample : samples) {
+    bench.push(sample);
+    EXPECT_EQ(bench.worker.step(), StepResult::kProgress);
+    published.push_back(bench.pop_pose().tracking);
+  }
+  return published;
+}
+
+TEST(FrontendWorker, BehindARestartThePoseIsLostUntilTheBackendHasSeenIt) {
+  using enum Tracking;
+  FrontendBench bench;
+  std::vector<RangeSample> samples = resting_samples(5);
+  samples[1].starts_segment = samples[3].starts_segment = true;
+  PoseConfidence confidence;
+  confidence.has_older_map = true;
+  bench.queues->to_publisher.confidence.store(confidence);
+  EXPECT_THAT(tracking_of(bench, samples), testing::ElementsAre(kTracking, kLost, kLost, kLost, kLost));
+  const std::span<const RangeSample> next = std::span(samples).last(1);
+  confidence.figures.tracking = kRelocalizing;
+  for (const auto& [keyframe, expected] : {std::pair{1U, kLost}, {2U, kRelocalizing}}) {
+    confidence.keyframe = KeyframeId{keyframe};  // of the first restart, then of the second
+    bench.queues->to_publisher.confidence.store(confidence);
+    EXPECT_THAT(tracking_of(bench, next), testing::ElementsAre(expected));
+  }
+}
+
+TEST(FrontendWorker, WhereNoPlaceIsLostTheStateIsTheBackends) {
+  FrontendBench bench;
+  std::vector<RangeSample> samples = resting_samples(3);
+  samples[1].starts_segment = true;
+  EXPECT_THAT(tracking_of(bench, samples), testing::Each(Tracking::kTracking)) << "no older map";
+  samples[0].starts_segment = samples[0].odometry_ran_on = samples[1].odometry_ran_on = true;
+  PoseConfidence confidence;
+  confidence.keyframe = KeyframeId{1};
+  confidence.has_older_map = true;
+  bench.queues->to_publisher.confidence.store(confidence);
+  EXPECT_THAT(tracking_of(bench, samples), testing::Each(Tracking::kTracking)) << "it ran on";
 }
 
 TEST(FrontendWorker, CountsHowOftenTheDeadReckoningBeganAnew) {

@@ -4,6 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <vector>
+
+#include "daemon/workers/pipeline_queues.hpp"
+#include "daemon/workers/radio_worker.hpp"
+#include "tests/support/manual_clock.hpp"
 #include "tests/support/scripted_sample_source.hpp"
 
 namespace swiftlet {
@@ -62,6 +68,27 @@ TEST(Pipeline, TwoRunsOfTheSameInputAgreeToTheLastBit) {
     return out;
   };
   EXPECT_EQ(poses_of_a_run(), poses_of_a_run());
+}
+
+TEST(Pipeline, ARestartIsPublishedAsTheBackendSeesIt) {
+  std::vector<RangeSample> flight = flight_in_square_room(300, 2.5, 1.5);
+  constexpr std::array<std::size_t, 2> kRestarts{50, 200};  // before and behind the first submap
+  for (const std::size_t restart : kRestarts) flight[restart].starts_segment = true;
+  ScriptedSampleSource source(flight);
+  const ManualClock clock;
+  Pipeline pipeline(Configuration{}, source, clock, {});
+  std::vector<Tracking> published;
+  std::vector<Tracking> seen;
+  PoseUpdate pose;
+  while (published.size() < flight.size()) {
+    ASSERT_TRUE(*pipeline.step());
+    ASSERT_TRUE(pipeline.queues().to_publisher.poses.consumer().try_pop(pose));
+    published.push_back(pose.tracking);
+    seen.push_back(pipeline.backend().tracking().tracking);
+  }
+  EXPECT_EQ(published[50], Tracking::kTracking);
+  EXPECT_EQ(published[200], Tracking::kLost);
+  for (const std::size_t restart : kRestarts) EXPECT_EQ(published[restart], seen[restart]) << restart;
 }
 
 TEST(Pipeline, SaysWhatEndedTheInputOnceTheFinalPassIsDone) {
