@@ -31,9 +31,15 @@ bool is_taken(const Options& options, const Options& first) {
     std::error_code ignored;
     return !file.empty() && std::filesystem::exists(file, ignored);
   };
+  const auto holds_anything = [](const std::filesystem::path& directory) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(directory, ignored) &&
+           !std::filesystem::is_empty(directory, ignored);
+  };
+  const std::optional<std::string>& output = options.output_directory;
   const Result<LcmUrl> lcm = parse_lcm_url(options.lcm_url);
   return is_there(options.record.file) || (options.lcm_url != first.lcm_url && lcm && is_there(lcm->file)) ||
-         (options.output_directory && is_being_written_to(*options.output_directory));
+         (output && (holds_anything(*output) || is_being_written_to(*output)));
 }
 
 }  // namespace

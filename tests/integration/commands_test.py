@@ -122,6 +122,23 @@ def no_new_map_is_begun_for_who_ends_the_daemon(bench):
     expect(not (bench.folder / "run_2.lcm").exists(), "a second run was published")
 
 
+def a_new_map_leaves_another_days_results_alone(bench):
+    another_days = bench.folder / "out_2" / "report.json"
+    another_days.parent.mkdir()
+    another_days.write_text("{}", encoding="utf-8")
+    vehicle = bench.vehicle()
+    flight = commanded_flight(bench, vehicle)
+    time.sleep(1.0)
+    expect(tell(bench, flight, "new-map").returncode == 0, flight.said())
+    flight.wait_for("connected to the vehicle", times=2)
+    time.sleep(2.0)
+    flight.process.send_signal(signal.SIGTERM)
+    expect(flight.process.wait(timeout=60) == 0, flight.said())
+    vehicle.end()
+    expect(another_days.read_text(encoding="utf-8") == "{}" and len(os.listdir(another_days.parent)) == 1, "replaced")
+    expect((bench.folder / "out_3" / "report.json").exists(), sorted(os.listdir(bench.folder)))
+
+
 def a_new_map_does_not_cut_off_a_client(bench):
     vehicle = bench.vehicle()
     share = free_port()
