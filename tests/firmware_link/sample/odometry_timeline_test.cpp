@@ -104,7 +104,7 @@ TEST(OdometryTimeline, GoesOnWhileReadingsComeOftenEnough) {
 
 TEST(OdometryTimeline, KeepsTheLatestWhenFull) {
   OdometryTimeline<Point2, 3> positions(limits());
-  for (int i = 0; i < 10; ++i) positions.add(device_ms(100 * i), {0.1 * i, 0.0});
+  for (int i = 0; i < 10; ++i) positions.add(device_ms(100L * i), {0.1 * i, 0.0});
   EXPECT_EQ(positions.at(device_ms(650)).outcome, (OdometryTimeline<Point2, 3>::Outcome::kNever));
   EXPECT_NEAR(positions.at(device_ms(750)).value.x_m, 0.75, 1e-12);
   EXPECT_NEAR(positions.at(device_ms(900)).value.x_m, 0.9, 1e-12);
