@@ -92,10 +92,10 @@ unknown still, seeds 1 to {report['seeds']}:
 `turn` in degrees. In a `silence` nothing is received while the vehicle flies on; a `reset` restarts the estimate in
 flight, a `restart` the vehicle where it is; one that was `carried` restarts where it would have been by then. A
 `silence` behind that comes before the place can have been found, one before a `turn` on new ground. In a `jump` the
-heading of the estimate is elsewhere within a tenth of a second, which
-[no vehicle can fly](../algorithm.md#motion-and-its-error-13-14). Nothing tells of a `turn` (the same within two seconds),
-of a `slip` (the estimate stays while the vehicle flies on) and of a `teleport` (it is carried and the estimate goes on).
-In `{fault_runs.STOREYS}` the vehicle flies up the stairs of a house and back: the floors must not be mixed.
+heading of the estimate is elsewhere within a tenth of a second, which [no vehicle can
+fly](../algorithm.md#motion-and-its-error-13-14). Nothing tells of a `turn` (the same within two seconds), of a `slip`
+(the estimate stays while the vehicle flies on) and of a `teleport` (it is carried and the estimate goes on). In
+`{fault_runs.STOREYS}` the vehicle flies up the stairs of a house and back: the floors must not be mixed.
 {page.EASIER_SENSOR}
 
 "Final error" is the RMSE of the corrected path after the best rigid alignment of the whole. "Wrong place" are the runs
