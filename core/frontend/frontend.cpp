@@ -187,8 +187,9 @@ void Frontend::State::update_drift() {
   if (graph.poses().size() < lag + 2) return;
   const PoseVertex& from = graph.poses()[graph.poses().size() - lag - 2];
   const PoseVertex& to = graph.poses()[graph.poses().size() - lag - 1];
-  if (!sees_known_walls[index_of(to.id) % kMaxKeyframeWindow]) return;
-  const double corrected_rad = yaw_correction_of_keyframe_rad[index_of(to.id) % kMaxKeyframeWindow];
+  const std::size_t slot = index_of(to.id) % kMaxKeyframeWindow;
+  if (!sees_known_walls[slot]) return;
+  const double corrected_rad = yaw_correction_of_keyframe_rad[slot];
   const double yaw_error_rad =
       pose_residual(to.T_previous_body, from.T_local_body, to.T_local_body).error(2) + corrected_rad;
   drift.update(to.T_previous_body.x_m(), wrap_angle(to.T_previous_body.yaw_rad() - corrected_rad),

@@ -32,7 +32,7 @@ namespace swiftlet {
 /// it, an unacknowledged packet is sent again until it is acknowledged. Without, it is not: the vehicle may
 /// have executed it and only the acknowledgement is lost; the sender repeats a request that is not answered.
 /// Requests that wait when the vehicle falls silent are dropped. A client gets back what is not acknowledged
-/// then, or when the dongle is lost; what it has sent again is delivered again.
+/// then, or when the dongle is lost; sent again, it is a frame of its own in what is delivered.
 ///
 /// One thread at a time; the arguments of its constructor must outlive it. Allocates only while it opens the
 /// dongle.

@@ -135,7 +135,7 @@ class SampleAssembler {
   };
   std::optional<MeasuredHeight> last_height_;  ///< nothing where it could not be measured
   StoreyTracker storeys_;
-  /// 125 of 100 scans a second: newer by kMinRangeAge than dead reckoning that comes once a second.
+  /// 100 scans a second for 1.25 s: until dead reckoning comes, once a second, and by kMinRangeAge longer.
   FixedVector<PendingRanges, 128> pending_;
   std::array<std::optional<DeviceTime>, 256> last_by_stream_{};
   std::optional<DeviceTime> last_ranges_at_;  ///< since the last restart

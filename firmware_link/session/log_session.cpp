@@ -101,7 +101,8 @@ bool LogSession::is_confirmed(const LogStamp& stamp) const {
   return doubted_ && doubted_->counter_ms != stamp.counter_ms && are_of_one_clock(*doubted_, stamp);
 }
 
-/// Then all that comes is as late as what waited in the vehicle, and for longer than anything waits there.
+/// Follows how late packets are. True once they have been evenly late since a leap, for longer than anything
+/// waits in the vehicle.
 bool LogSession::host_clock_has_stepped(const LogStamp& stamp) {
   using std::chrono::abs;
   if (last_ && abs(lateness(*last_, stamp)) > kClocksAgree)

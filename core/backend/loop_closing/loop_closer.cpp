@@ -60,8 +60,7 @@ void LoopCloser::add_keyframe(const Keyframe& made, const KeyframePoses& T_local
 /// also if its place was not beyond doubt: what was flown in between is no older map, and says nothing of
 /// where in that the vehicle is. Across a silence places are weighed on.
 void LoopCloser::begin_break(const Keyframe& made) {
-  watched_since_ = made.id;
-  is_joined_ = false;
+  unjoined_since_ = made.id;
   if (provisional_ && made.odometry_ran_on) return;
   if (provisional_) unplaced_since_ = provisional_->since;
   forget_places();
@@ -104,17 +103,17 @@ void LoopCloser::doubt_since(KeyframeId keyframe, double log_odds) {
 
 void LoopCloser::end_doubt() {
   if (!unplaced_since_ || unplaced_by_ != UnplacedBy::kContradiction) return;
-  if (is_joined_) {
-    suspend_doubt();
-  } else {
+  if (unjoined_since_) {
     search_across_silence();
+  } else {
+    suspend_doubt();
   }
 }
 
 /// What it left open when a doubt came between, or a place that was not beyond doubt.
 void LoopCloser::search_across_silence() {
   forget_places();
-  unplaced_since_ = watched_since_;
+  unplaced_since_ = unjoined_since_;
   unplaced_by_ = UnplacedBy::kSilence;
   MotionBreak silence;
   silence.estimate_ran_on = true;
@@ -140,14 +139,12 @@ bool LoopCloser::resume_doubt() {
 
 /// From where on a match with what lies before proves something alone. Of a contradiction nobody knows that
 /// the motion is at fault.
-KeyframeId LoopCloser::watched_since() const {
-  return is_joined_ ? chain_->all().first_id() : watched_since_;
-}
+KeyframeId LoopCloser::watched_since() const { return unjoined_since_.value_or(chain_->all().first_id()); }
 
 /// Where the travel begins that a place moves as a whole. In doubt nobody knows at which keyframe the motion
 /// went wrong: none is moved so.
 KeyframeId LoopCloser::travel_since() const {
-  return unplaced_by_ == UnplacedBy::kContradiction ? chain_->all().end_id() : watched_since_;
+  return unplaced_by_ == UnplacedBy::kContradiction ? chain_->all().end_id() : *unjoined_since_;
 }
 
 std::uint32_t LoopCloser::close_loops(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph) {
@@ -231,7 +228,7 @@ void LoopCloser::weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& 
   if (!recent || !places_.add_query(newest, *recent, submaps_before(provisional_->since), graph.graph(),
                                     T_local_keyframe, T_path))
     return;
-  if (places_.is_beyond_doubt()) return is_joined_ ? forget_places() : search_across_silence();
+  if (places_.is_beyond_doubt()) return unjoined_since_ ? search_across_silence() : forget_places();
   replace_place(places_.decided(), graph);
   if (places_.is_refuted()) withdraw_place(graph);
 }
@@ -295,16 +292,21 @@ void LoopCloser::drop_closures_to_place(KeyframeGraph& graph) {
 /// The travel lies elsewhere, and none of the others is likely enough: the search begins anew.
 void LoopCloser::withdraw_place(KeyframeGraph& graph) {
   drop_closures_to_place(graph);
+  search_anew();
+}
+
+void LoopCloser::search_anew(const IdRanges<KeyframeId>& pruned) {
   unplaced_since_ = provisional_->since;
-  is_joined_ = false;
-  forget_places();
+  if (!unjoined_since_) unjoined_since_ = provisional_->moved_since;
+  forget_places(pruned);
 }
 
 /// All closures that joined the travel to the place before are dropped. Where the graph refuses, all stays.
+/// A silence meanwhile is joined only by a match from behind it.
 void LoopCloser::replace_place(std::span<const LoopClosure> decided, KeyframeGraph& graph) {
   if (decided.empty() || !graph.accommodate(factors_of(decided), provisional_->moved_since)) return;
   drop_closures_to_place(graph);
-  is_joined_ = true;
+  if (unjoined_since_ && decided.back().to >= *unjoined_since_) unjoined_since_.reset();
   places_.accept_likeliest();
   for (const LoopClosure& closure : decided) accept(closure, graph);
 }
@@ -314,7 +316,7 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   if (decided.empty()) return true;
   std::optional<Provisional> placed;
   if (unplaced_by_ == UnplacedBy::kRestart)
-    placed = {*unplaced_since_, watched_since_, graph.T_map_keyframe()};
+    placed = {*unplaced_since_, *unjoined_since_, graph.T_map_keyframe()};
   const std::optional<Contact> contact_before = contact_;
   // Travel does not tell how long ago the old contact was: it does not grow across a break.
   if (unplaced_by_ != UnplacedBy::kContradiction) contact_.reset();
@@ -331,7 +333,7 @@ bool LoopCloser::accept_place(std::span<const LoopClosure> decided, KeyframeGrap
   }
   provisional_ = std::move(placed);
   unplaced_since_.reset();
-  is_joined_ = true;
+  unjoined_since_.reset();
   for (const LoopClosure& closure : decided)
     if (!is_closed(closure)) accept(closure, graph);
   return true;
@@ -374,10 +376,7 @@ void LoopCloser::erase(const IdRanges<KeyframeId>& pruned) {
     return pruned.contains(closure.from) || pruned.contains(closure.to);
   });
   if (contact_ && pruned.contains(contact_->since)) contact_.reset();
-  if (provisional_) {
-    unplaced_since_ = provisional_->since;
-    is_joined_ = false;
-  }
+  if (provisional_) return search_anew(pruned);
   forget_places(pruned);
 }
 

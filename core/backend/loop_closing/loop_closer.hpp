@@ -119,6 +119,7 @@ class LoopCloser {
                     KeyframeGraph& graph);
   void drop_closures_to_place(KeyframeGraph& graph);
   void withdraw_place(KeyframeGraph& graph);
+  void search_anew(const IdRanges<KeyframeId>& pruned = {});
   void weigh_on(const KeyframePoses& T_local_keyframe, KeyframeGraph& graph);
   void note_contact(KeyframeId query, const PoseGraph& graph);
   void drop(LoopClosure& closure, KeyframeGraph& graph);
@@ -140,9 +141,8 @@ class LoopCloser {
   std::optional<Contact> contact_;            // the newest
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no place is decided
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
-  KeyframeId watched_since_{};     // motion to there is not known or is a guess: the newest break
-  bool is_joined_ = true;          // by a place, across that break
-  bool place_is_refused_ = false;  // by the graph, since the newest query
+  std::optional<KeyframeId> unjoined_since_;  // the newest break, until a place joins what lies around it
+  bool place_is_refused_ = false;             // by the graph, since the newest query
   std::optional<Provisional> provisional_;
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...
   double suspended_at_m_ = 0.0;                // ... and the travel at its end

@@ -241,44 +241,44 @@ TEST(LoopCloser, APlaceBehindARestartIsProvisionalUntilItIsBeyondDoubt) {
   EXPECT_FALSE(flown.loops().weighs_places());
 }
 
-TEST(LoopCloser, APlaceIsWeighedOnAcrossASilenceThatIsPlacedThen) {
-  const TestVehicle vehicle = carried_behind_two_laps();
-  FlownLoops flown(vehicle);
-  flown.feed_until_unplaced();
-  flown.feed_until_placed();
-  const std::optional<KeyframeId> provisional = flown.loops().provisional_since();
-  ASSERT_TRUE(provisional);
-  flown.feed_one_after_silence();
-  EXPECT_EQ(flown.loops().provisional_since(), provisional);
-  flown.feed_until_beyond_doubt();
-  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kSilence);
-  EXPECT_GT(flown.loops().unplaced_since(), provisional);
-  flown.feed_until_placed();
-  EXPECT_FALSE(flown.loops().unplaced_since());
+/// A vehicle that was carried has a place, which is not beyond doubt.
+class ProvisionalPlace : public testing::Test {
+ protected:
+  void SetUp() override {
+    flown_.feed_until_unplaced();
+    restarted_ = flown_.loops().unplaced_since();
+    flown_.feed_until_placed();
+    ASSERT_TRUE(restarted_);
+    ASSERT_EQ(flown_.loops().provisional_since(), restarted_);
+  }
+  void expect_unplaced_since_the_restart() const {
+    EXPECT_EQ(flown_.loops().unplaced_since(), restarted_);
+    EXPECT_EQ(flown_.loops().unplaced_by(), UnplacedBy::kRestart);
+  }
+
+  TestVehicle vehicle_ = carried_behind_two_laps();
+  FlownLoops flown_{vehicle_};
+  std::optional<KeyframeId> restarted_;
+};
+
+TEST_F(ProvisionalPlace, IsWeighedOnAcrossASilenceThatIsPlacedThen) {
+  flown_.feed_one_after_silence();
+  EXPECT_EQ(flown_.loops().provisional_since(), restarted_);
+  flown_.feed_until_beyond_doubt();
+  EXPECT_EQ(flown_.loops().unplaced_by(), UnplacedBy::kSilence);
+  EXPECT_GT(flown_.loops().unplaced_since(), restarted_);
+  flown_.feed_until_placed();
+  EXPECT_FALSE(flown_.loops().unplaced_since());
 }
 
-TEST(LoopCloser, PruningLeavesTravelUnplacedWhosePlaceWasNotBeyondDoubt) {
-  const TestVehicle vehicle = carried_behind_two_laps();
-  FlownLoops flown(vehicle);
-  flown.feed_until_unplaced();
-  const std::optional<KeyframeId> restarted = flown.loops().unplaced_since();
-  flown.feed_until_placed();
-  ASSERT_TRUE(flown.loops().provisional_since());
-  flown.prune_nothing();
-  EXPECT_EQ(flown.loops().unplaced_since(), restarted);
-  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kRestart);
+TEST_F(ProvisionalPlace, IsLookedForAnewWhereSomethingIsPruned) {
+  flown_.prune_nothing();
+  expect_unplaced_since_the_restart();
 }
 
-TEST(LoopCloser, ASecondRestartLeavesTravelUnplacedWhosePlaceWasNotBeyondDoubt) {
-  const TestVehicle vehicle = carried_behind_two_laps();
-  FlownLoops flown(vehicle);
-  flown.feed_until_unplaced();
-  const std::optional<KeyframeId> restarted = flown.loops().unplaced_since();
-  flown.feed_until_placed();
-  ASSERT_TRUE(flown.loops().provisional_since());
-  flown.feed_one_after_reset();
-  EXPECT_EQ(flown.loops().unplaced_since(), restarted);
-  EXPECT_EQ(flown.loops().unplaced_by(), UnplacedBy::kRestart);
+TEST_F(ProvisionalPlace, IsLookedForAnewBehindASecondRestart) {
+  flown_.feed_one_after_reset();
+  expect_unplaced_since_the_restart();
 }
 
 TEST(LoopCloser, TheGroundBeforeABreakIsKnownUpToThere) {
