@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "core/geometry/stamped_pose.hpp"
 #include "core/mapping/picture/map_raster.hpp"
 #include "core/mapping/picture/thumbnail.hpp"
 #include "daemon/outputs/file_writer.hpp"
@@ -54,15 +57,34 @@ Status write_pictures(const std::filesystem::path& directory, const RunView& run
   return {};
 }
 
-/// A line at a time: hours of a patrol need not fit into memory.
+/// Of laser logs they may step back.
+bool stamps_ascend(const RunView& run) {
+  HostTime last = HostTime::min();
+  bool ascend = true;
+  const Status visited = for_each_scan(
+      run, [&](const TrajectoryPoint& at) { ascend = ascend && std::exchange(last, at.stamp) <= at.stamp; });
+  return ascend && visited.ok();
+}
+
+/// In the order of their stamps. Where they ascend a line at a time: hours of a patrol need not fit into
+/// memory.
 Status write_trajectory(const std::filesystem::path& path, const RunView& run, Pose2 TrajectoryPoint::*pose) {
   return write_file(path, [&](const FileSink& write) {
     std::string line;
-    return for_each_scan(run, [&](const TrajectoryPoint& at) {
+    const auto write_pose = [&](const StampedPose& at) {
       line.clear();
-      append_tum_line(line, at.stamp, at.*pose);
+      append_tum_line(line, at.stamp, at.pose);
       write(line);
+    };
+    if (stamps_ascend(run))
+      return for_each_scan(run, [&](const TrajectoryPoint& at) { write_pose({at.stamp, at.*pose}); });
+    std::vector<StampedPose> poses;
+    Status visited = for_each_scan(run, [&](const TrajectoryPoint& at) {
+      poses.push_back({at.stamp, at.*pose});
     });
+    std::ranges::stable_sort(poses, {}, &StampedPose::stamp);
+    for (const StampedPose& at : poses) write_pose(at);
+    return visited;
   });
 }
 

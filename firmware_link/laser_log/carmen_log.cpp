@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/geometry/angle.hpp"
@@ -91,6 +92,7 @@ Pose2 pose_of(const CarmenOdometry& odometry) {
 class Mounting {
  public:
   void add(const CarmenOdometry& laser, const CarmenOdometry& robot) {
+    if (laser.is_zero && robot.is_zero) return;  // the base had not reported yet
     const Pose2 T_robot_laser = pose_of(robot).inverse() * pose_of(laser);
     if (!T_robot_laser_) T_robot_laser_ = T_robot_laser;
     is_fixed_ = is_fixed_ && is_rounding(T_robot_laser_->inverse() * T_robot_laser);
@@ -106,19 +108,19 @@ class Mounting {
 
  private:
   static constexpr double kMaxLeverM = 1.0;
-  /// Of poses in two decimals.
+  /// Of poses in two decimals: four of each number, half a hundredth each.
   static bool is_rounding(const Pose2& T) {
-    return std::hypot(T.x_m(), T.y_m()) < 0.01 && std::abs(T.yaw_rad()) < 0.01;
+    return std::abs(T.x_m()) < 0.021 && std::abs(T.y_m()) < 0.021 && std::abs(T.yaw_rad()) < 0.021;
   }
   std::optional<Pose2> T_robot_laser_;
   bool is_fixed_ = true;
 };
 
-void move_to_laser(const Pose2& T_robot_laser, std::vector<CarmenOdometry>& robots) {
-  for (CarmenOdometry& robot : robots) {
-    const Pose2 laser = pose_of(robot) * T_robot_laser;
-    robot.position = laser.position();
-    robot.yaw_rad = laser.yaw_rad();
+void move(const Pose2& T_logged_moved, std::vector<CarmenOdometry>& poses) {
+  for (CarmenOdometry& logged : poses) {
+    const Pose2 moved = pose_of(logged) * T_logged_moved;
+    logged.position = moved.position();
+    logged.yaw_rad = moved.yaw_rad();
   }
 }
 
@@ -159,8 +161,7 @@ class CarmenParser {
     const bool has_robot_poses = kind_ == ScanLine::kFlaser;
     const std::optional<Pose2> T_robot_laser =
         has_robot_poses ? mounting_.T_robot_laser_if_fixed() : mounting_.T_robot_laser();
-    if (T_robot_laser && has_robot_poses) move_to_laser(*T_robot_laser, log_.scans);
-    if (T_robot_laser) move_to_laser(*T_robot_laser, log_.odometry);
+    if (T_robot_laser) place_body(*T_robot_laser, has_robot_poses);
     std::stable_sort(log_.odometry.begin(), log_.odometry.end(), earlier);
     return std::move(log_);
   }
@@ -198,8 +199,9 @@ class CarmenParser {
                        read_odometry_pose(numbers, laser) && read_odometry_pose(numbers, robot);
     for (int i = 0; i < 5; ++i) is_complete = is_complete && numbers.read(ignored);
     if (!is_complete || !read_stamp(numbers, laser.stamp)) return "ROBOTLASER1 line cut off or garbled";
-    laser.is_zero = robot.is_zero;
-    add_scan(ScanLine::kRobotLaser, *geometry, laser);
+    CarmenOdometry scan = laser;
+    scan.is_zero = robot.is_zero;
+    add_scan(ScanLine::kRobotLaser, *geometry, scan);
     log_.max_range_m = max_range_m;
     mounting_.add(laser, robot);
     return nullptr;
@@ -252,6 +254,7 @@ class CarmenParser {
     }
     if (kind != ScanLine::kRawLaser) log_.pose_scan_lag.add(scratch_m_, scan.yaw_rad, geometry.step_rad);
     log_.scans.push_back(scan);
+    log_.scans.back().line = log_.lines;
     for (const std::size_t i : picked_)
       log_.distances_m.push_back(i == kNoReading ? std::numeric_limits<float>::quiet_NaN() : scratch_m_[i]);
   }
@@ -286,6 +289,16 @@ class CarmenParser {
     beams_.count = static_cast<std::uint8_t>(picked_.size());
     for (std::size_t i = 0; i < picked_.size(); ++i)
       beams_.bearing_rad[i] = wrap_angle(geometry.bearing_rad(picked_[i]));
+  }
+
+  /// At the laser, with the robot's heading: dead reckoning errs along and across that.
+  void place_body(const Pose2& T_robot_laser, bool scans_are_of_robot) {
+    const Pose2 T_robot_body(T_robot_laser.x_m(), T_robot_laser.y_m(), 0.0);
+    const Pose2 T_laser_body(0.0, 0.0, -T_robot_laser.yaw_rad());
+    move(scans_are_of_robot ? T_robot_body : T_laser_body, log_.scans);
+    move(T_robot_body, log_.odometry);
+    for (double& bearing_rad : std::span(log_.beams.bearing_rad).first(log_.beams.count))
+      bearing_rad = wrap_angle(bearing_rad + T_robot_laser.yaw_rad());
   }
 
   void sort_scans() {

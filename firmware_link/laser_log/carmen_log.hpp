@@ -22,7 +22,8 @@ struct CarmenOdometry {
   HostTime stamp{};  ///< ipc_timestamp
   Point2 position;
   double yaw_rad = 0.0;
-  bool is_zero = false;  ///< as logged, all three numbers of the robot's pose
+  bool is_zero = false;    ///< as logged, all three numbers of the robot's pose
+  std::uint64_t line = 0;  ///< of the file; of scans only
 };
 
 /// A laser log of the CARMEN toolkit, thinned to a few beams: the ODOM lines and those of one kind of scan,
@@ -35,9 +36,10 @@ struct CarmenOdometry {
 /// where SCAN is: type start_angle field_of_view step max_range accuracy remission_mode n r_1 .. r_n m s_1 ..
 /// s_m. A log that has several kinds tells of the same scans in each: the first of this list counts.
 ///
-/// All poses are those of the laser, as far as the log says where on the robot it is: ROBOTLASER1 always
-/// does, FLASER where its first pose has the same place on the robot in all lines. Elsewhere that pose is
-/// another program's estimate and is not used.
+/// The body is at the laser, with the robot's heading, as far as the log says where on the robot the laser
+/// is: ROBOTLASER1 always does, FLASER where its first pose has the same place on the robot in all lines but
+/// those whose poses are all zero, before the base has reported. Elsewhere that pose is another program's
+/// estimate and is not used.
 ///
 /// Scans and odometry are in the order of their stamps, lines with equal stamps in the order of the file.
 struct CarmenLog {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,10 +19,11 @@ namespace swiftlet {
 namespace {
 
 constexpr std::size_t kUsualBeamCount = 11;
+// Scanners that meet nothing report their greatest range. Logs round readings to hundredths.
+constexpr double kRoundingM = 0.01;
 // Measured on the ACES log against its reference relations: the ranges fit the odometry of 0.1 s before.
 constexpr Duration kAgeAgainstOdometryLines = std::chrono::milliseconds(100);
 constexpr Duration kMaxUncovered = std::chrono::seconds(1);
-// Intel's scans step back 630 times, by 0.9 s at most.
 constexpr Duration kLongestDisorder = std::chrono::seconds(5);
 // Wheels that have moved do not come to stand at zero in all three numbers: their counters were reset.
 constexpr double kMovedM = 0.3;
@@ -57,6 +59,24 @@ bool trusts_odometry_lines(const CarmenLog& log) {
          spans_scans(log.odometry, log.scans);
 }
 
+double path_m(std::span<const CarmenOdometry> scans, std::span<const std::size_t> order) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    sum_m += distance_m(scans[order[i - 1]].position, scans[order[i]].position);
+  return sum_m;
+}
+
+/// In which the scans were measured. Where a logger stamps lines late, or its clock is set back, their poses
+/// lie on a shorter path in the order of the file than in that of the stamps.
+std::vector<std::size_t> measured_order(const CarmenLog& log, bool uses_odometry_lines) {
+  std::vector<std::size_t> by_stamp(log.scans.size());
+  std::iota(by_stamp.begin(), by_stamp.end(), std::size_t{0});
+  if (uses_odometry_lines || log.scan_reversals == 0) return by_stamp;
+  std::vector<std::size_t> by_line = by_stamp;
+  std::ranges::sort(by_line, {}, [&](std::size_t i) { return log.scans[i].line; });
+  return path_m(log.scans, by_line) < path_m(log.scans, by_stamp) ? by_line : by_stamp;
+}
+
 /// Median of the times from one scan to the next; 0 for fewer than two.
 Duration usual_interval(std::span<const DeviceTime> times) {
   std::vector<Duration> intervals;
@@ -70,7 +90,8 @@ Duration usual_interval(std::span<const DeviceTime> times) {
 /// `scan_times`: empty where dead reckoning comes from the ODOM lines.
 Duration range_age(const CarmenLog& log, std::span<const DeviceTime> scan_times) {
   if (scan_times.empty()) return kAgeAgainstOdometryLines;
-  return log.pose_scan_lag.runs_a_line_ahead() ? usual_interval(scan_times) : Duration::zero();
+  return log.pose_scan_lag.runs_a_line_ahead() ? within_limits_of_range_age(usual_interval(scan_times))
+                                               : Duration::zero();
 }
 
 SensorModel sensor_model(const CarmenLog& log, std::span<const DeviceTime> scan_times,
@@ -79,7 +100,7 @@ SensorModel sensor_model(const CarmenLog& log, std::span<const DeviceTime> scan_
   sensor.range_age = range_age(log, scan_times);
   if (options.range_age) sensor.range_age = *options.range_age;
   if (options.max_range_m) sensor.max_range_m = *options.max_range_m;
-  if (log.max_range_m > 0.0) sensor.max_range_m = std::min(sensor.max_range_m, log.max_range_m);
+  if (log.max_range_m > 0.0) sensor.max_range_m = std::min(sensor.max_range_m, log.max_range_m - kRoundingM);
   if (options.min_range_m) sensor.min_range_m = *options.min_range_m;
   return sensor;
 }
@@ -153,6 +174,7 @@ CarmenSampleSource::CarmenSampleSource(std::shared_ptr<const CarmenLog> log,
     : log_(std::move(log)),
       options_(options),
       uses_odometry_lines_(!log_->scans_have_poses || trusts_odometry_lines(*log_)),
+      scan_order_(measured_order(*log_, uses_odometry_lines_)),
       scan_times_(uses_odometry_lines_ ? std::vector<DeviceTime>() : regular_times(log_->scans)),
       sensor_(sensor_model(*log_, scan_times_, options)),
       assembler_(assembly_config(*log_, sensor_), report_.counters) {
@@ -161,11 +183,20 @@ CarmenSampleSource::CarmenSampleSource(std::shared_ptr<const CarmenLog> log,
   report_.problems = log_->problems;
   report_.shows_age = uses_odometry_lines_;
   report_.notes.push_back(describe_odometry(*log_, uses_odometry_lines_, sensor_.range_age));
-  if (!uses_odometry_lines_ && !options.range_age && log_->pose_scan_lag.runs_a_line_ahead())
+  if (!uses_odometry_lines_ && sensor_.range_age > Duration::zero() &&
+      log_->pose_scan_lag.runs_a_line_ahead())
     report_.notes.push_back(describe_lag(log_->pose_scan_lag, sensor_.range_age));
-  if (log_->scan_reversals > 0)
-    report_.notes.push_back("scans out of time order were sorted (" + std::to_string(log_->scan_reversals) +
-                            " steps back)");
+  tell_of_stamps();
+}
+
+void CarmenSampleSource::tell_of_stamps() {
+  if (log_->scan_reversals == 0) return;
+  const std::string steps = " (" + std::to_string(log_->scan_reversals) + " steps back)";
+  if (!std::ranges::is_sorted(scan_order_)) {
+    report_.notes.push_back("scans follow each other as in the file, not by their stamps" + steps);
+    return;
+  }
+  report_.notes.push_back("scans out of time order were sorted" + steps);
   if (log_->longest_step_back > kLongestDisorder)
     report_.problems.push_back(
         "the clock of the scans steps back by " +
@@ -228,7 +259,7 @@ void CarmenSampleSource::add_pose(const CarmenOdometry& odometry, Reading& readi
 }
 
 void CarmenSampleSource::feed_scan() {
-  const CarmenOdometry& scan = log_->scans[next_scan_];
+  const CarmenOdometry& scan = log_->scans[scan_order_[next_scan_]];
   Reading reading;
   reading.stream = kScanStream;
   // Two different scans with one stamp are both used; the assembler requires ascending times.
@@ -237,7 +268,7 @@ void CarmenSampleSource::feed_scan() {
   last_scan_at_ = reading.at;
   reading.received = scan.stamp;
   if (!uses_odometry_lines_) add_pose(scan, reading);
-  for (const float distance_m : log_->distances_of(next_scan_))
+  for (const float distance_m : log_->distances_of(scan_order_[next_scan_]))
     static_cast<void>(reading.distance_m.try_push_back(distance_m));
   ++next_scan_;
   assembler_.add(reading);

@@ -19,7 +19,8 @@ namespace swiftlet {
 /// scan, when their stamps can be trusted (they advance and span the scans) or there is nothing else
 /// (RAWLASER1), else from the pose in each scan's line; report().notes names the choice. Stamps are the
 /// ipc_timestamps as logged; where a scan and its pose share one, an age of the ranges is applied in regular
-/// times (line_times.hpp). One thread at a time.
+/// times (line_times.hpp). Such scans come in the order of the file where their stamps step back and their
+/// poses lie on a shorter path so: the samples' stamps step back, too. One thread at a time.
 class CarmenSampleSource final : public SampleSource {
  public:
   /// Errors: as read_carmen_log. Precondition: options.beam_count, if given, is 2..kMaxBeams.
@@ -40,12 +41,14 @@ class CarmenSampleSource final : public SampleSource {
   void feed_odometry(const CarmenOdometry& odometry);
   void feed_scan();
   void add_pose(const CarmenOdometry& odometry, Reading& reading);
+  void tell_of_stamps();
   void finish_report();
 
   std::shared_ptr<const CarmenLog> log_;
   SampleSourceOptions options_;
   bool uses_odometry_lines_;
-  std::vector<DeviceTime> scan_times_;  // of scans that carry their poses
+  std::vector<std::size_t> scan_order_;  // in which they were measured
+  std::vector<DeviceTime> scan_times_;   // of scans that carry their poses, in that order
   SensorModel sensor_;
   InputReport report_;
   SampleAssembler assembler_;

@@ -132,6 +132,39 @@ TEST(CarmenLog, FindsTheLaserOnTheRobotByTheTwoPosesOfEachLine) {
   EXPECT_EQ(read_carmen_log(of_estimated.path(), 4)->scans.at(10).position.x_m, 1.0);
 }
 
+TEST(CarmenLog, FindsTheLaserByLinesOfTwoDecimalsBehindSomeWithoutAPose) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) text += flaser_line_with_poses(Pose2(), Pose2(), std::to_string(i + 1));
+  const auto in_hundredths = [](const Pose2& T) {
+    return Pose2(std::round(100.0 * T.x_m()) / 100.0, std::round(100.0 * T.y_m()) / 100.0,
+                 std::round(100.0 * T.yaw_rad()) / 100.0);
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Pose2 robot(0.107 * i, 0.053 * i, 0.0313 * i);
+    text += flaser_line_with_poses(in_hundredths(robot * Pose2(0.3, 0.1, 0.0)), in_hundredths(robot),
+                                   std::to_string(i + 4));
+  }
+  const TemporaryFile file("a.clf", text);
+  const auto log = read_carmen_log(file.path(), 4);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  const Pose2 expected = Pose2(1.07, 0.53, 0.313) * Pose2(0.3, 0.1, 0.0);
+  EXPECT_NEAR(log->scans.at(13).position.x_m, expected.x_m(), 0.02);
+  EXPECT_NEAR(log->scans.at(13).position.y_m, expected.y_m(), 0.02);
+}
+
+TEST(CarmenLog, TheHeadingIsTheRobotsHoweverItsLaserIsTurned) {
+  // Laser, then robot: both at (1.5, 2) but for the turn, 0.5 rad and 0.1.
+  const TemporaryFile file("a.clf", scan_line("ROBOTLASER1", "1 -2.0 4.0 0.5 30 0.1 0 9", 9,
+                                              "0 1.5 2.0 0.5 1.5 2.0 0.1 0.1 0.2 9 9 9", "10.5") +
+                                        odometry_line(4.0, 0.0, 0.2, "10.4"));
+  const auto log = read_carmen_log(file.path(), 3);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_NEAR(log->scans.at(0).yaw_rad, 0.1, 1e-12);
+  EXPECT_NEAR(log->odometry.at(0).yaw_rad, 0.2, 1e-12);
+  EXPECT_NEAR(log->beams.bearing_rad[0], -2.0 + 0.4, 1e-12);
+  EXPECT_NEAR(log->beams.bearing_rad[2], 2.0 + 0.4, 1e-12);
+}
+
 TEST(CarmenLog, KeepsItsBeamsWhereTheScannerIsStartedWithAnotherResolution) {
   const TemporaryFile file("a.clf", flaser_line(181, 0.0, "1") + flaser_line(361, 0.0, "2") +
                                         flaser_line(541, 0.0, "3") + flaser_line(401, 0.0, "4"));

@@ -191,9 +191,37 @@ TEST(CarmenSampleSource, BeginsASegmentWhereTheWheelsAreResetAndTheLaserIsNotOnT
   EXPECT_EQ((*source)->report().counters.segments, 2U);
 }
 
+/// Lines with these stamps, each 0.1 m ahead of the one before; then what is on their file.
+std::vector<double> positions_of(const std::vector<const char*>& stamps, const std::vector<double>& x_m,
+                                 std::vector<std::string>* notes = nullptr) {
+  std::string text;
+  for (std::size_t i = 0; i < stamps.size(); ++i) text += flaser_line(180, x_m[i], stamps[i]);
+  const TemporaryFile file("a.clf", text);
+  const auto source = CarmenSampleSource::open(file.path(), {});
+  std::vector<double> found_m;
+  for (const RangeSample& sample : read_all(**source)) found_m.push_back(sample.T_odom_body.x_m());
+  if (notes != nullptr) *notes = (*source)->report().notes;
+  EXPECT_TRUE((*source)->report().problems.empty());
+  return found_m;
+}
+
+TEST(CarmenSampleSource, ScansFollowTheirPosesWhereStampsStepBack) {
+  const std::vector<double> ahead{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+  std::vector<std::string> notes;
+  EXPECT_EQ(positions_of({"0", "1", "2", "3", "4", "2.5", "3.5", "5"}, ahead, &notes), ahead);
+  EXPECT_THAT(notes,
+              ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("as in the file, not by their stamps (1 ")));
+  EXPECT_EQ(positions_of({"100", "101", "102", "103", "40", "41", "42", "43"}, ahead), ahead) << "set back";
+  EXPECT_EQ(
+      positions_of({"0", "1", "2", "4", "3", "5", "6", "7"}, {0, 0.1, 0.2, 0.4, 0.3, 0.5, 0.6, 0.7}, &notes),
+      ahead)
+      << "two lines are in the wrong place";
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("were sorted (1 ")));
+}
+
 TEST(CarmenSampleSource, TellsOfAClockThatStepsFarBack) {
   const TemporaryFile file("a.clf", flaser_line(180, 0, "100") + flaser_line(180, 0.1, "101") +
-                                        flaser_line(180, 0.2, "40") + flaser_line(180, 0.3, "41"));
+                                        flaser_line(180, 0, "40") + flaser_line(180, 0, "41"));
   const auto source = CarmenSampleSource::open(file.path(), {});
   ASSERT_TRUE(source.ok());
   EXPECT_THAT((*source)->report().problems, ElementsAre(HasSubstr("steps back by 61 s")));
@@ -208,30 +236,57 @@ TEST(CarmenSampleSource, TakesTheScannersOwnRangeWhereItIsLess) {
     options.max_range_m = limit_m;
     return (*CarmenSampleSource::open(file.path(), options))->sensor().max_range_m;
   };
-  EXPECT_EQ(range_of("4.1", {}), 4.1);
+  EXPECT_NEAR(range_of("4.1", {}), 4.1, 0.011);
   EXPECT_EQ(range_of("30", {}), 5.0);
   EXPECT_EQ(range_of("0", {}), 5.0);
-  EXPECT_EQ(range_of("30", 40.0), 30.0);
+  EXPECT_NEAR(range_of("30", 40.0), 30.0, 0.011);
 }
 
-TEST(CarmenSampleSource, TakesRangesForOneLineOlderIfTheScansTurnWithThePosesOfTheLineBefore) {
-  // A scanner that turns to and fro before a wall of slanting steps; each line has the pose of the next one.
+TEST(CarmenSampleSource, AScannersGreatestReadingIsNoReturn) {
+  for (const char* most : {"4.095", "4.1", "8.19", "30"}) {
+    const std::string readings =
+        std::string("0 -1.5 3.0 1.5 ") + most + " 0.1 0 3 " + most + " " + most + " 1.5";
+    const TemporaryFile file("a.clf",
+                             "ROBOTLASER1 " + readings + " 0 1 2 3 1 2 3 0 0 0 0 0 10.5 host 10.5\n");
+    SampleSourceOptions options;
+    options.beam_count = 3;
+    options.max_range_m = 60.0;
+    const auto source = CarmenSampleSource::open(file.path(), options);
+    ASSERT_TRUE(source.ok()) << source.error().message;
+    const std::vector<RangeSample> samples = read_all(**source);
+    ASSERT_EQ(samples.size(), 1U);
+    EXPECT_EQ(samples[0].status[0], RangeStatus::kNoReturn) << most;
+    EXPECT_EQ(samples[0].status[2], RangeStatus::kHit) << most;
+  }
+}
+
+/// A scanner that turns to and fro before a wall of slanting steps; each line has the pose of the next one.
+std::string lines_with_the_next_pose(double interval_s) {
   std::string text;
   const auto reading_at = [](int line) { return static_cast<int>(std::lround(12.0 * std::sin(0.8 * line))); };
   for (int line = 0; line < 300; ++line) {
     text += "FLASER 180";
     for (int i = 0; i < 180; ++i) text += (i + reading_at(line)) / 9 % 2 == 0 ? " 2.0" : " 3.5";
     const double yaw_rad = radians(reading_at(line + 1));
-    const std::string stamp = std::to_string(100.0 + 0.25 * line);
+    const std::string stamp = std::to_string(100.0 + interval_s * line);
     text.append(" 9 9 9 0 0 ").append(std::to_string(yaw_rad)).append(" ").append(stamp);
     text.append(" host ").append(stamp).append("\n");
   }
-  const TemporaryFile file("a.clf", text);
+  return text;
+}
+
+TEST(CarmenSampleSource, TakesRangesForOneLineOlderIfTheScansTurnWithThePosesOfTheLineBefore) {
+  const TemporaryFile file("a.clf", lines_with_the_next_pose(0.25));
   const auto source = CarmenSampleSource::open(file.path(), {});
   ASSERT_TRUE(source.ok());
   EXPECT_EQ((*source)->sensor().range_age, std::chrono::milliseconds(250));
   EXPECT_THAT((*source)->report().notes,
               ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("ranges taken for 250 ms older")));
+  EXPECT_THAT((*source)->again(std::chrono::milliseconds(260))->report().notes,
+              ElementsAre(HasSubstr("no ODOM lines"), HasSubstr("ranges taken for 260 ms older")))
+      << "calibrated";
+  const TemporaryFile slow("b.clf", lines_with_the_next_pose(1.5));
+  EXPECT_EQ((*CarmenSampleSource::open(slow.path(), {}))->sensor().range_age, kMaxRangeAge);
   SampleSourceOptions options;
   options.range_age = Duration::zero();
   EXPECT_EQ((*CarmenSampleSource::open(file.path(), options))->sensor().range_age, Duration::zero());
