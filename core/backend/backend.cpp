@@ -271,8 +271,7 @@ void Backend::prune(const Pruning& pruning) {
   State& s = *state_;
   if (pruning.empty()) return;
   SWIFTLET_CHECK(!s.refinement.is_final(), "the run goes on");
-  s.graph.erase(pruning.keyframes,
-                ties_around(pruning, s.scans, s.T_map_keyframe(), s.config.tuning.pruning));
+  s.graph.erase(pruning.keyframes, ties_around(pruning, s.scans, s.graph.graph(), s.config.tuning));
   s.loops.erase(pruning.keyframes);
   s.estimates.erase(pruning.keyframes);
   s.pruner.keep_anchors(pruning);

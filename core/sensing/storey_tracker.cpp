@@ -22,6 +22,10 @@ constexpr double kDriftMPerS = 0.004;
 // fastest climb takes.
 constexpr double kLevelM = 0.25;
 constexpr Duration kLevelFor = std::chrono::seconds(10);
+// ... or by less than tables and beds are high, over which it changes all the time, for longer than the
+// slowest climb, of the lowest storey in a minute, takes for as much (24 s).
+constexpr double kFurnitureM = 1.0;
+constexpr Duration kFurnishedFor = std::chrono::seconds(30);
 
 }  // namespace
 
@@ -46,7 +50,7 @@ void StoreyTracker::add(DeviceTime at, double ground_m) {
 /// The first readings count alike.
 void StoreyTracker::smooth(DeviceTime at, double ground_m) {
   if (readings_++ == 0) {
-    began_at_ = changed_at_ = last_at_ = at;
+    began_at_ = changed_at_ = climbed_at_ = last_at_ = at;
     smoothed_m_ = 0.0;
   }
   const double step_s = std::max(0.0, to_seconds(at - last_at_));
@@ -60,7 +64,11 @@ void StoreyTracker::watch_climb(DeviceTime at, double level_m) {
     changed_from_m_ = level_m;
     changed_at_ = at;
   }
-  is_level_ = at - changed_at_ >= kLevelFor;
+  if (std::abs(level_m - climbed_from_m_) > kFurnitureM) {
+    climbed_from_m_ = level_m;
+    climbed_at_ = at;
+  }
+  is_level_ = at - changed_at_ >= kLevelFor || at - climbed_at_ >= kFurnishedFor;
 }
 
 double StoreyTracker::off_m(StoreyId storey, double level_m) const {

@@ -49,8 +49,10 @@ class StoreyTracker {
   bool is_level_ = false;        // no climb
   double changed_from_m_ = 0.0;  // the level when it had last changed,
   DeviceTime changed_at_{};      // and when
-  double smoothed_m_ = 0.0;      // the ground
-  double drift_m_ = 0.0;         // of the zero of the readings
+  double climbed_from_m_ = 0.0;  // likewise, by more than furniture is high
+  DeviceTime climbed_at_{};
+  double smoothed_m_ = 0.0;  // the ground
+  double drift_m_ = 0.0;     // of the zero of the readings
   bool has_zero_ = false;
   std::uint64_t readings_ = 0;  // since the clock started
   DeviceTime began_at_{};

@@ -359,7 +359,7 @@ struct PruningTuning {
   std::size_t kept_per_tile = 3;           ///< of the oldest traversals in it, and of the newest
   std::size_t min_run = 4;                 ///< traversals: every hole needs ties on both sides
   double share_at_a_time = 0.05;           ///< of the most scans
-  double tie_sigma_m = 0.1;                ///< looser than what was known of the place
+  double tie_sigma_m = 0.1;                ///< at least: looser than what loops tell of a place
   double tie_sigma_rad = 0.05;             ///< likewise
 
   static constexpr TuningValue<PruningTuning> kValues[] = {

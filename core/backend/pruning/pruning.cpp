@@ -11,9 +11,12 @@
 #include <tuple>
 #include <utility>
 
+#include "core/backend/pose_graph/relative_uncertainty.hpp"
 #include "core/backend/store/traversal.hpp"
 #include "core/geometry/grid.hpp"
+#include "core/geometry/pose_residual.hpp"
 #include "core/sensing/keyframe.hpp"
+#include "core/sensing/odometry_covariance.hpp"
 
 namespace swiftlet {
 namespace {
@@ -203,26 +206,35 @@ KeyframeId Pruner::first_recent(KeyframeId first_in_use) const {
 }
 
 std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning, const ScanStore& scans,
-                                                        const KeyframePoses& T_map_keyframe,
-                                                        const PruningTuning& tuning) {
+                                                        const PoseGraph& graph, const BackendTuning& tuning) {
+  const KeyframePoses& T_map_keyframe = graph.T_map_keyframe;
+  const SlipNoise slip{tuning.confidence.slip_along_m2_per_m, tuning.confidence.slip_yaw_rad2_per_m};
+  const OdometrySigma least{tuning.pruning.tie_sigma_m, tuning.pruning.tie_sigma_rad};
   std::vector<RelativePoseFactor<KeyframeId>> ties;
-  const auto is_held_by_motion = [&](ScanId behind) {
-    return !scans[behind].starts_segment || scans[behind].odometry_ran_on;
-  };
-  const auto tie = [&](KeyframeId anchor, KeyframeId end, ScanId behind) {
-    if (pruning.keyframes.contains(end) || !is_held_by_motion(behind)) return;
-    RelativePoseFactor<KeyframeId> c;
-    c.from = anchor;
-    c.to = end;
-    c.T_from_to = between(T_map_keyframe[anchor], T_map_keyframe[end]);
-    const Eigen::Vector3d sigma(tuning.tie_sigma_m, tuning.tie_sigma_m, tuning.tie_sigma_rad);
-    c.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
-    c.is_closure = true;
-    ties.push_back(c);
+  const auto needs_tie = [&](KeyframeId end, ScanId behind) {
+    const bool is_held_by_motion = !scans[behind].starts_segment || scans[behind].odometry_ran_on;
+    return is_held_by_motion && !pruning.keyframes.contains(end);
   };
   for (const PrunedTraversal& traversal : pruning.traversals) {
-    tie(traversal.anchor, T_map_keyframe.previous(traversal.keyframes.first), traversal.scans.first);
-    tie(traversal.anchor, T_map_keyframe.at_or_after(traversal.keyframes.end), traversal.scans.end);
+    const KeyframeId before = T_map_keyframe.previous(traversal.keyframes.first);
+    const KeyframeId behind = T_map_keyframe.at_or_after(traversal.keyframes.end);
+    const bool ties_before = needs_tie(before, traversal.scans.first);
+    const bool ties_behind = needs_tie(behind, traversal.scans.end);
+    if (!ties_before && !ties_behind) continue;
+    const auto known = cautious_relative_covariances(graph, traversal.anchor, tuning.covariance, slip);
+    const auto tie = [&](KeyframeId end) {
+      RelativePoseFactor<KeyframeId> c;
+      c.from = traversal.anchor;
+      c.to = end;
+      c.T_from_to = between(T_map_keyframe[c.from], T_map_keyframe[end]);
+      Eigen::Matrix3d covariance = known[end];
+      covariance.diagonal() = covariance.diagonal().cwiseMax(least.covariance().diagonal());
+      c.information = residual_information(c.T_from_to, covariance);
+      c.is_closure = true;
+      ties.push_back(c);
+    };
+    if (ties_before) tie(before);
+    if (ties_behind) tie(behind);
   }
   return ties;
 }

@@ -66,11 +66,12 @@ class Pruner {
   std::vector<KeyframeId> anchors_;  // of what was pruned, ascending
 };
 
-/// What holds the ends of the holes to the anchors: from now on no motion does. An end that no motion held
-/// before has its tie from an earlier pruning, or needs none. Allocates.
+/// What holds the ends of the holes to the anchors: from now on no motion does. No end is known better by its
+/// tie than by what is pruned. An end that no motion held before has its tie from an earlier pruning, or needs
+/// none. Allocates.
 [[nodiscard]] std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning,
                                                                       const ScanStore& scans,
-                                                                      const KeyframePoses& T_map_keyframe,
-                                                                      const PruningTuning& tuning = {});
+                                                                      const PoseGraph& graph,
+                                                                      const BackendTuning& tuning = {});
 
 }  // namespace swiftlet

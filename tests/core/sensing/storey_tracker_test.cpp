@@ -153,6 +153,24 @@ TEST_F(StoreyTrackerTest, NeitherWeatherNorTablesNorALandingOnTheStairsChangeIt)
   EXPECT_EQ(storey(), 0U);
 }
 
+TEST_F(StoreyTrackerTest, AClimbEndsOverFurniture) {
+  fly(30.0);
+  fly(20.0, kStoreyM);
+  for (int i = 0; i < 20; ++i) {  // a table every 12 s
+    fly(kSampleS, 0.75);
+    fly(6.0);
+    fly(kSampleS, -0.75);
+    fly(6.0);
+  }
+  EXPECT_EQ(storey(), 1U);
+  fly(20.0, kStoreyM);
+  fly(30.0);
+  EXPECT_EQ(storey(), 2U) << "the next floor is not drawn onto it";
+  fly(20.0, -kStoreyM);
+  fly(30.0);
+  EXPECT_EQ(storey(), 1U);
+}
+
 constexpr double kWeatherMPerS = 2.5 / 600.0;
 
 TEST_F(StoreyTrackerTest, ASlowClimbAgainstTheWeatherIsOne) {

@@ -161,24 +161,54 @@ TEST(Pruning, AnchorsAreNearFromAnotherTimeAndStay) {
   }
 }
 
+/// Motions alone, each of which errs by so much in every direction.
+PoseGraph graph_of(const StoredRun& run, double step_sigma_m) {
+  PoseGraph graph;
+  graph.T_map_keyframe = run.T_local_keyframe();
+  for (const auto& [to, T_map_to] : run.T_local_keyframe()) {
+    if (to == run.T_local_keyframe().first_id()) continue;
+    RelativePoseFactor<KeyframeId> motion{to - 1, to, between(run.T_local_keyframe()[to - 1], T_map_to)};
+    motion.information.diagonal() = Eigen::Vector3d(1.0, 1.0, 100.0) / (step_sigma_m * step_sigma_m);
+    graph.factors.push_back(motion);
+  }
+  return graph;
+}
+
+TEST(Pruning, ATieKnowsNoMoreThanWhatIsPruned) {
+  const Pruning pruning = plan(ten_laps(), 300);
+  const PruningTuning least;
+  for (const double step_sigma_m : {1e-3, 0.2}) {
+    const PoseGraph graph = graph_of(ten_laps(), step_sigma_m);
+    for (const RelativePoseFactor<KeyframeId>& tie : ties_around(pruning, ten_laps().scans(), graph)) {
+      const double steps = std::abs(static_cast<double>(index_of(tie.to)) - index_of(tie.from));
+      const double sigma_m = std::sqrt(tie.information.inverse()(0, 0));
+      EXPECT_GE(sigma_m, std::max(least.tie_sigma_m, step_sigma_m * std::sqrt(steps)) - 1e-9);
+    }
+  }
+}
+
 TEST(Pruning, AHoleThatGrowsIsTiedAtItsNewEndOnly) {
   const Pruning begun = plan(ten_laps(), 300);
   ASSERT_FALSE(begun.empty());
   const IdRange<KeyframeId> hole = *begun.keyframes.begin();
-  const auto ties = ties_around(begun, ten_laps().scans(), ten_laps().T_local_keyframe());
+  PoseGraph graph = graph_of(ten_laps(), 0.01);
+  const auto ties = ties_around(begun, ten_laps().scans(), graph);
   ASSERT_EQ(ties.size(), 2 * static_cast<std::size_t>(begun.keyframes.end() - begun.keyframes.begin()));
   EXPECT_EQ(ties[0].to, hole.first - 1);
   EXPECT_EQ(ties[1].to, hole.end);
 
   ScanStore scans = ten_laps().scans();
   scans.erase(begun.scans);
-  KeyframePoses T_map_keyframe = ten_laps().T_local_keyframe();
-  T_map_keyframe.erase(begun.keyframes);
+  graph.T_map_keyframe.erase(begun.keyframes);
+  graph.factors.erase_if([&](const RelativePoseFactor<KeyframeId>& motion) {
+    return begun.keyframes.contains(motion.from) || begun.keyframes.contains(motion.to);
+  });
+  for (const RelativePoseFactor<KeyframeId>& tie : ties) graph.factors.push_back(tie);
   const IdRange<KeyframeId> next{hole.end, hole.end + kKeyframesPerTraversal};
   ASSERT_FALSE(begun.keyframes.contains(next.end)) << "not the next hole's";
   Pruning grown;
   grown.add({next, ten_laps().chain().scans_of(next), begun.traversals.front().anchor}, ten_laps().scans());
-  const auto more = ties_around(grown, scans, T_map_keyframe);
+  const auto more = ties_around(grown, scans, graph);
   ASSERT_EQ(more.size(), 1U);
   EXPECT_EQ(more.front().to, next.end);
 }
