@@ -108,9 +108,9 @@ class Mounting {
 
  private:
   static constexpr double kMaxLeverM = 1.0;
-  /// Of poses in two decimals: four of each number, half a hundredth each.
+  /// Of poses in two decimals: four of them, half a hundredth in each number.
   static bool is_rounding(const Pose2& T) {
-    return std::abs(T.x_m()) < 0.021 && std::abs(T.y_m()) < 0.021 && std::abs(T.yaw_rad()) < 0.021;
+    return std::hypot(T.x_m(), T.y_m()) < 0.03 && std::abs(T.yaw_rad()) < 0.025;
   }
   std::optional<Pose2> T_robot_laser_;
   bool is_fixed_ = true;
@@ -285,7 +285,10 @@ class CarmenParser {
 
   void choose_beams(const ScanGeometry& geometry) {
     geometry_ = geometry;
-    picked_ = pick_beams(geometry.readings, beam_count_);
+    // Of a full circle the first reading would be the last, too.
+    const std::size_t closing = geometry.is_full_circle() ? 1 : 0;
+    picked_ = pick_beams(geometry.readings + closing, beam_count_ + closing);
+    picked_.resize(beam_count_);
     beams_.count = static_cast<std::uint8_t>(picked_.size());
     for (std::size_t i = 0; i < picked_.size(); ++i)
       beams_.bearing_rad[i] = wrap_angle(geometry.bearing_rad(picked_[i]));

@@ -53,9 +53,11 @@ bool spans_scans(std::span<const CarmenOdometry> odometry, std::span<const Carme
   return uncovered <= scans.size() / 100;
 }
 
-/// Whether the stamps of the ODOM lines can be trusted to place the scans among them.
+/// Whether the stamps of both can be trusted to place the scans among the ODOM lines, and these tell more
+/// than the poses of the scans' own lines: between lines far apart the way is a straight one.
 bool trusts_odometry_lines(const CarmenLog& log) {
-  return log.odometry.size() >= 2 && log.odometry_reversals == 0 && advances(log.odometry) &&
+  return 2 * log.odometry.size() >= log.scans.size() && log.odometry.size() >= 2 &&
+         log.odometry_reversals == 0 && advances(log.odometry) && advances(log.scans) &&
          spans_scans(log.odometry, log.scans);
 }
 
@@ -137,6 +139,8 @@ std::string describe_odometry(const CarmenLog& log, bool uses_odometry_lines, Du
     return choice + "the stamps of the ODOM lines go back " + std::to_string(log.odometry_reversals) +
            " times";
   if (!advances(log.odometry)) return choice + "many ODOM lines have the stamp of the line before";
+  if (!advances(log.scans)) return choice + "many of them have the stamp of the line before";
+  if (2 * log.odometry.size() < log.scans.size()) return choice + "there are few ODOM lines";
   return choice + "the ODOM lines do not span the scans";
 }
 
@@ -191,12 +195,13 @@ CarmenSampleSource::CarmenSampleSource(std::shared_ptr<const CarmenLog> log,
 
 void CarmenSampleSource::tell_of_stamps() {
   if (log_->scan_reversals == 0) return;
-  const std::string steps = " (" + std::to_string(log_->scan_reversals) + " steps back)";
+  const std::string steps = std::to_string(log_->scan_reversals);
   if (!std::ranges::is_sorted(scan_order_)) {
-    report_.notes.push_back("scans follow each other as in the file, not by their stamps" + steps);
+    report_.notes.push_back("scans follow each other as in the file, not by their stamps (" + steps +
+                            " steps back)");
     return;
   }
-  report_.notes.push_back("scans out of time order were sorted" + steps);
+  report_.notes.push_back("scans out of time order were sorted (" + steps + " steps back)");
   if (log_->longest_step_back > kLongestDisorder)
     report_.problems.push_back(
         "the clock of the scans steps back by " +

@@ -16,11 +16,12 @@
 namespace swiftlet {
 
 /// Range samples from a CARMEN laser log. Dead reckoning comes from the ODOM lines, taken 0.1 s before the
-/// scan, when their stamps can be trusted (they advance and span the scans) or there is nothing else
-/// (RAWLASER1), else from the pose in each scan's line; report().notes names the choice. Stamps are the
-/// ipc_timestamps as logged; where a scan and its pose share one, an age of the ranges is applied in regular
-/// times (line_times.hpp). Such scans come in the order of the file where their stamps step back and their
-/// poses lie on a shorter path so: the samples' stamps step back, too. One thread at a time.
+/// scan, when their stamps can be trusted (they advance and span the scans) and there are half as many, or
+/// there is nothing else (RAWLASER1), else from the pose in each scan's line; report().notes names the
+/// choice. Stamps are the ipc_timestamps as logged; where a scan and its pose share one, an age of the ranges
+/// is applied in regular times (line_times.hpp). Such scans come in the order of the file where their stamps
+/// step back and their poses lie on a shorter path so: the samples' stamps step back, too. One thread at a
+/// time.
 class CarmenSampleSource final : public SampleSource {
  public:
   /// Errors: as read_carmen_log. Precondition: options.beam_count, if given, is 2..kMaxBeams.

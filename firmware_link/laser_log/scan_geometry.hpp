@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/angle.hpp"
 #include "core/sensing/sensor_model.hpp"
 
 namespace swiftlet {
@@ -19,6 +20,10 @@ struct ScanGeometry {
 
   [[nodiscard]] double bearing_rad(std::size_t reading) const {
     return start_rad + static_cast<double>(reading) * step_rad;
+  }
+  /// Whether a further reading would lie on the first, or beyond.
+  [[nodiscard]] bool is_full_circle() const {
+    return (static_cast<double>(readings) + 0.5) * step_rad > 2.0 * kPi;
   }
   bool operator==(const ScanGeometry&) const = default;
 };

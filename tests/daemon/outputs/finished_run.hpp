@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include "daemon/outputs/run_outputs.hpp"
@@ -12,10 +13,12 @@ namespace swiftlet {
 /// A flight of 81 samples through a room, drawn, with a truth of which the odometry knows nothing: every step
 /// was a tenth longer than odometry measured.
 struct FinishedRun {
-  /// From `first_above` on, the flight is on the next storey.
-  explicit FinishedRun(int samples = 81, int first_above = 1000) {
+  /// From `first_above` on, the flight is on the next storey. Sample `late` is stamped a quarter of a second
+  /// late, behind the two that follow it.
+  explicit FinishedRun(int samples = 81, int first_above = 1000, int late = -1) {
     for (FrontendStep step : room_flight(samples)) {
       if (static_cast<int>(step.sample.sequence) >= first_above) step.sample.storey = StoreyId{1};
+      if (static_cast<int>(step.sample.sequence) == late) step.sample.stamp += std::chrono::milliseconds(250);
       backend.add(step);
       map.update(backend, false);
       truth.push_back({step.sample.stamp, Pose2(1.1 * step.sample.T_odom_body.x_m(), 0.0, 0.0)});

@@ -88,6 +88,16 @@ TEST(RunOutputs, TrajectoriesHaveOneLineASample) {
               testing::StartsWith("1600000001.423000 1.300000 "));
 }
 
+TEST(RunOutputs, TrajectoriesAreInTheOrderOfTheirStamps) {
+  const TemporaryDirectory directory;
+  const FinishedRun run(81, 1000, 13);
+  ASSERT_TRUE(write_run_outputs(directory.path(), run.view(false)).ok());
+  const std::vector<std::string> corrected = lines_of(directory.path() / "trajectory.tum");
+  ASSERT_EQ(corrected.size(), 81U);
+  EXPECT_THAT(corrected[13], testing::StartsWith("1600000001.523000 1.400000 "));
+  EXPECT_THAT(corrected[15], testing::StartsWith("1600000001.673000 1.300000 "));
+}
+
 TEST(RunOutputs, TheGridFileHoldsTheMapsTiles) {
   const TemporaryDirectory directory;
   const FinishedRun run;

@@ -200,6 +200,16 @@ TEST(CarmenLog, ReadsScansThatSayHowTheirBeamsLie) {
   EXPECT_NEAR(log->odometry.at(0).position.y_m, -0.5 * std::sin(0.5), 1e-9);
 }
 
+TEST(CarmenLog, TheBeamsOfAFullCircleLieEvenly) {
+  const std::string readings = "0 -3.1 6.28 0.698131700797732 30 0.1 0 9";  // 40 degrees
+  const TemporaryFile file("a.clf", scan_line("RAWLASER1", readings, 9, "0", "10.5"));
+  const auto log = read_carmen_log(file.path(), 3);
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  ASSERT_EQ(log->beams.count, 3);
+  EXPECT_NEAR(log->beams.bearing_rad[1] - log->beams.bearing_rad[0], 2.0 * kPi / 3.0, 1e-9);
+  EXPECT_NEAR(log->beams.bearing_rad[2] - log->beams.bearing_rad[1], 2.0 * kPi / 3.0, 1e-9);
+}
+
 TEST(CarmenLog, RawScansHaveNoPoses) {
   const TemporaryFile file("a.clf", scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", "10.5"));
   const auto log = read_carmen_log(file.path(), 2);

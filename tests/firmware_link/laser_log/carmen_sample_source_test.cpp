@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/angle.hpp"
@@ -59,12 +60,13 @@ TEST(CarmenSampleSource, LosesNoScanOfAFastLaserThatWaitsForTheNextOdometryLine)
   std::string text;
   for (int i = 0; i < kScans; ++i) {
     if (i % 100 == 0) text += odometry_line(0.001 * i, 0, 0, std::to_string(10 + i / 100));
-    text += flaser_line(180, 7, std::to_string(10.2 + 0.01 * i));
+    text += scan_line("RAWLASER1", "0 -1.5 3.0 0.5 80 0.1 0 7", 7, "0", std::to_string(10.2 + 0.01 * i));
   }
   for (const char* stamp : {"18", "19"}) text += odometry_line(0.8, 0, 0, stamp);
   const TemporaryFile file("a.clf", text);
   for (const Duration age : {Duration(std::chrono::milliseconds(100)), kMinRangeAge}) {
     SampleSourceOptions options;
+    options.beam_count = 3;
     options.range_age = age;
     const auto source = CarmenSampleSource::open(file.path(), options);
     ASSERT_TRUE(source.ok());
@@ -154,6 +156,27 @@ TEST(CarmenSampleSource, TakesThePoseInTheScanWhenOdometryLinesShareStampsOrHave
   };
   EXPECT_THAT(note_of(whole_seconds), HasSubstr("from the FLASER lines: many ODOM lines have the stamp"));
   EXPECT_THAT(note_of(holes), HasSubstr("from the FLASER lines: the ODOM lines do not span"));
+}
+
+TEST(CarmenSampleSource, TakesThePoseInTheScanWhenItTellsMoreThanTheOdometryLines) {
+  std::string sparse;
+  std::string whole_seconds;
+  for (int i = 0; i <= 40; ++i) {
+    const std::string stamp = std::to_string(10.0 + 0.1 * i);
+    const std::string odometry = odometry_line(0.1 * i, 7.0, 0.0, stamp);
+    if (i % 5 == 0) sparse += odometry;
+    sparse += flaser_line(180, 0.1 * i, stamp);
+    whole_seconds += odometry + flaser_line(180, 0.1 * i, std::to_string(10 + i / 10), 1.0 + 0.01 * i);
+  }
+  for (const auto& [text, note] :
+       {std::pair{sparse, "there are few ODOM lines"},
+        std::pair{whole_seconds, "many of them have the stamp of the line before"}}) {
+    const TemporaryFile file("a.clf", text);
+    const auto source = CarmenSampleSource::open(file.path(), {});
+    ASSERT_TRUE(source.ok()) << note;
+    EXPECT_THAT((*source)->report().notes, ElementsAre(HasSubstr(note)));
+    for (const RangeSample& sample : read_all(**source)) EXPECT_NEAR(sample.T_odom_body.y_m(), 0.2, 1e-9);
+  }
 }
 
 TEST(CarmenSampleSource, BeginsASegmentWhereTheWheelsAreReset) {
