@@ -66,9 +66,10 @@ bool stamps_ascend(const RunView& run) {
   return ascend && visited.ok();
 }
 
-/// In the order of their stamps. Where they ascend a line at a time: hours of a patrol need not fit into
+/// In the order of their stamps. Where these ascend, a line at a time: hours of a patrol need not fit into
 /// memory.
-Status write_trajectory(const std::filesystem::path& path, const RunView& run, Pose2 TrajectoryPoint::*pose) {
+Status write_trajectory(const std::filesystem::path& path, const RunView& run, Pose2 TrajectoryPoint::*pose,
+                        bool ascend) {
   return write_file(path, [&](const FileSink& write) {
     std::string line;
     const auto write_pose = [&](const StampedPose& at) {
@@ -76,7 +77,7 @@ Status write_trajectory(const std::filesystem::path& path, const RunView& run, P
       append_tum_line(line, at.stamp, at.pose);
       write(line);
     };
-    if (stamps_ascend(run))
+    if (ascend)
       return for_each_scan(run, [&](const TrajectoryPoint& at) { write_pose({at.stamp, at.*pose}); });
     std::vector<StampedPose> poses;
     Status visited = for_each_scan(run, [&](const TrajectoryPoint& at) {
@@ -89,9 +90,11 @@ Status write_trajectory(const std::filesystem::path& path, const RunView& run, P
 }
 
 Status write_trajectories(const std::filesystem::path& directory, const RunView& run) {
-  Status written = write_trajectory(directory / "trajectory.tum", run, &TrajectoryPoint::T_map_body);
-  if (written) written = write_trajectory(directory / "odometry.tum", run, &TrajectoryPoint::T_odom_body);
-  if (written) written = write_trajectory(directory / "live.tum", run, &TrajectoryPoint::T_map_live);
+  const bool ascend = stamps_ascend(run);
+  Status written = write_trajectory(directory / "trajectory.tum", run, &TrajectoryPoint::T_map_body, ascend);
+  if (written)
+    written = write_trajectory(directory / "odometry.tum", run, &TrajectoryPoint::T_odom_body, ascend);
+  if (written) written = write_trajectory(directory / "live.tum", run, &TrajectoryPoint::T_map_live, ascend);
   if (!written || run.truth.empty()) return written;
   return write_file(directory / kTruth, [&](const FileSink& write) {
     std::string line;

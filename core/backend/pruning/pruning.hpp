@@ -67,7 +67,7 @@ class Pruner {
 };
 
 /// What holds the ends of the holes to the anchors: from now on no motion does. No end is known better by its
-/// tie than by what is pruned. An end that no motion held before has its tie from an earlier pruning, or
+/// tie than it was by the graph. An end that no motion held before has its tie from an earlier pruning, or
 /// needs none. Allocates.
 [[nodiscard]] std::vector<RelativePoseFactor<KeyframeId>> ties_around(const Pruning& pruning,
                                                                       const ScanStore& scans,

@@ -214,7 +214,7 @@ TEST(CarmenSampleSource, BeginsASegmentWhereTheWheelsAreResetAndTheLaserIsNotOnT
   EXPECT_EQ((*source)->report().counters.segments, 2U);
 }
 
-/// Lines with these stamps, each 0.1 m ahead of the one before; then what is on their file.
+/// Of the samples from lines with these stamps and positions, in their order.
 std::vector<double> positions_of(const std::vector<const char*>& stamps, const std::vector<double>& x_m,
                                  std::vector<std::string>* notes = nullptr) {
   std::string text;
@@ -259,10 +259,10 @@ TEST(CarmenSampleSource, TakesTheScannersOwnRangeWhereItIsLess) {
     options.max_range_m = limit_m;
     return (*CarmenSampleSource::open(file.path(), options))->sensor().max_range_m;
   };
-  EXPECT_NEAR(range_of("4.1", {}), 4.1, 0.011);
+  EXPECT_DOUBLE_EQ(range_of("4.1", {}), 4.09);
   EXPECT_EQ(range_of("30", {}), 5.0);
   EXPECT_EQ(range_of("0", {}), 5.0);
-  EXPECT_NEAR(range_of("30", 40.0), 30.0, 0.011);
+  EXPECT_DOUBLE_EQ(range_of("30", 40.0), 29.99);
 }
 
 TEST(CarmenSampleSource, AScannersGreatestReadingIsNoReturn) {

@@ -174,7 +174,7 @@ PoseGraph graph_of(const StoredRun& run, double step_sigma_m) {
   return graph;
 }
 
-TEST(Pruning, ATieKnowsNoMoreThanWhatIsPruned) {
+TEST(Pruning, ATieIsNoTighterThanTheGraph) {
   const Pruning pruning = plan(ten_laps(), 300);
   const PruningTuning least;
   for (const double step_sigma_m : {1e-3, 0.2}) {
