@@ -87,11 +87,12 @@ void LostSign::on_direction(double forward_m) {
   refuted_ = went_forward_ && went_backward_;
 }
 
-/// What was seen before does not lie in this frame.
+/// What was seen before does not lie in this frame, and how the vehicle will drive off is not known.
 void LostSign::begin_segment(const RangeSample& sample) {
   scans_.clear();
   for_each_path([](Path& path) { path.scan_offsets.clear(); });
   speed_m_per_s_ = speed_before_m_per_s_ = 0.0;
+  branch(added_ + 1);
   judge(sample);
 }
 
@@ -102,15 +103,15 @@ void LostSign::on_speed(double speed_m_per_s) {
   speed_before_m_per_s_ = std::exchange(speed_m_per_s_, speed_m_per_s);
   if (!stood || path_m_ - standstill_at_m_ < tuning_.standstill_spacing_m) return;
   standstill_at_m_ = path_m_;
-  branch();
+  branch(added_);
 }
 
-void LostSign::branch() {
+void LostSign::branch(std::uint64_t sample) {
   const std::size_t count = paths_.size();
   for (std::size_t i = 0; i < count; ++i) {
     Path other = paths_[i];
     other.reversed = !other.reversed;
-    other.changes.push_back({added_, reported_.cost.contradiction - other.cost.contradiction});
+    other.changes.push_back({sample, reported_.cost.contradiction - other.cost.contradiction});
     other.cost.misfit += other.reversed ? tuning_.begin_cost : tuning_.end_cost;
     other.changed_at_m = path_m_;
     paths_.push_back(std::move(other));

@@ -63,11 +63,11 @@ struct LostSignTuning {
 /// Mends odometry that reports every way as forward (wheel counters without a direction, firmware that takes
 /// the absolute value): decides from the ranges, with look-ahead, over which stretches the part of each step
 /// along the vehicle's heading is taken the other way round; what went sideways and how it turned stays. A
-/// hidden Markov model with two states, which may change near a standstill only; each path through it has a
-/// map of its own (per-survivor processing, Raheli, Polydoros & Tzou 1995). A path is chosen by how near its
-/// hits lie to earlier ones. It is judged by independent measures, since the choice itself favours it: rays
-/// that pass through what others hit, and ranges that jump. "As reported" wins unless the whole run shows
-/// that signs are lost; odometry that goes both ways refutes it.
+/// hidden Markov model with two states, which may change only near a standstill and where a segment begins;
+/// each path through it has a map of its own (per-survivor processing, Raheli, Polydoros & Tzou 1995). A path
+/// is chosen by how near its hits lie to earlier ones. It is judged by independent measures, since the choice
+/// itself favours it: rays that pass through what others hit, and ranges that jump. "As reported" wins unless
+/// the whole run shows that signs are lost; odometry that goes both ways refutes it.
 class LostSign {
  public:
   LostSign(const SensorModel& sensor, const BeamLayout& beams, const LostSignTuning& tuning = {});
@@ -182,7 +182,8 @@ class LostSign {
   void on_direction(double forward_m);
   void begin_segment(const RangeSample& sample);
   void on_speed(double speed_m_per_s);
-  void branch();
+  /// From `sample` on the sign may be the other.
+  void branch(std::uint64_t sample);
   void judge(const RangeSample& sample);
   [[nodiscard]] Scan scan_of(const RangeSample& sample) const;
   void add_costs(const Scan& scan);

@@ -169,6 +169,17 @@ TEST(LostSign, MendsReverseDrivingThatWasReportedAsForward) {
     ASSERT_TRUE(poses_near(mending.samples[i].T_odom_body, truth[i].T_odom_body, 0.15, 1e-9)) << i;
 }
 
+TEST(LostSign, ARunMayBeginInReverse) {
+  Drive drive(corridor_with_doors());
+  drive.go(-0.9);
+  drive.to_and_fro();
+  const std::vector<RangeSample> truth = drive.with_true_odometry();
+  const Mending mending = mend(drive.with_lost_signs());
+  EXPECT_NEAR(mending.reversed_m, drive.reversed_m(), 0.3);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    ASSERT_TRUE(poses_near(mending.samples[i].T_odom_body, truth[i].T_odom_body, 0.15, 1e-9)) << i;
+}
+
 TEST(LostSign, GivesBackWhatWasReported) {
   Drive drive(corridor_with_doors());
   drive.to_and_fro();
