@@ -390,7 +390,7 @@ def building_kinds_table(all_outcomes):
 
 def named_buildings(intro, texts):
     """`texts`: [(outcome, what is said of it)]."""
-    seeds = (f"{one.run.log.name.removeprefix('building ')} ({text})" for one, text in texts)
+    seeds = (f"{runs.seed_of(one.run.log)} ({text})" for one, text in texts)
     return [textwrap.fill(f"{intro}: {', '.join(seeds)}.", WIDTH, break_on_hyphens=False)] if texts else []
 
 
@@ -416,6 +416,33 @@ def buildings_text(all_outcomes):
                         *named_buildings("Failed, seed (why)", [(one, one.failed) for one in failed])])
 
 
+def robots_row(beams, group):
+    done = [one for one in group if not one.failed]
+    live = [one.live_ratio for one in done if one.live_ratio is not None]
+    bad = bad_buildings(group)
+    return [str(beams), *rate_cells(bad, len(group), interval(bad, len(group))),
+            *median_and_p95([one.ratio for one in done]), str(sum(ratio > OVER_ODOMETRY for ratio in live)),
+            *median_and_p95(live)]
+
+
+def robots_text(all_outcomes):
+    """Figures of the simulated robots with wheels."""
+    if not all_outcomes:
+        return "No run."
+    by_beams = {}
+    for one in all_outcomes:
+        by_beams.setdefault(one.run.beams, []).append(one)
+    bad_name = f"over {OVER_ODOMETRY:g} times or failed:"
+    table = page.table(["beams", "robots:", bad_name, "%:", "95 %:", "median ratio:", "p95:", "published poses, over:",
+                        "median:", "p95:"], [robots_row(*item) for item in sorted(by_beams.items())])
+    worse = [(one, f"{building_kind(one)}, {one.run.beams} beams, {one.ratio:.2f}")
+             for one in most_over_odometry(all_outcomes)]
+    failed = [(one, one.failed) for one in all_outcomes if one.failed]
+    return "\n\n".join([table, building_kinds_table(all_outcomes),
+                        *named_buildings(f"Over {OVER_ODOMETRY:g} times, seed (kind, beams, ratio)", worse),
+                        *named_buildings("Failed, seed (why)", failed)])
+
+
 def pictures_text(shown):
     def title(one):
         return one.run.title() if one.run.log.files() else f"{one.run.title()}, {building_kind(one)}"
@@ -438,13 +465,28 @@ The map of the worst of each kind, of at most {PICTURES_OF_BUILDINGS} kinds:
 """
 
 
+def driven_text(robots):
+    if not robots:
+        return ""
+    return f"""
+## Robots with wheels
+
+A robot with wheels and a laser scanner drives through the building of each seed, whose walls are 8 to 30 cm thick here
+(`tests/benchmarks/robot_log.cpp`). Its speed, scanner, lag, the scanner's place and the errors of its wheels are drawn;
+the log has {", ".join(map(str, runs.PLAIN_BEAMS))} beams in turn. "Over": {OVER_ODOMETRY:g} times the error of dead
+reckoning.
+
+{robots_text(robots)}
+"""
+
+
 def captured_text(all_outcomes):
     """How little is known of the true paths of some flights."""
     poses = [runs.true_poses(log) for log in {one.run.log for one in all_outcomes} if runs.is_captured(log)]
     return f"\nEach flight of Vicon has {min(poses)} to {max(poses)} true poses, at its stops.\n" if poses else ""
 
 
-def document(real, plain, pieces, buildings, shown, report):
+def document(real, plain, pieces, buildings, robots, shown, report):
     """`shown`: [(file name, outcome)] of the pictures. `report`: circumstances and what is missing."""
     limits = Quarters(real)
     of_logs = [(name, one) for name, one in shown if one.run.log.files()]
@@ -504,7 +546,7 @@ log, {runs.PIECE_OF_FLIGHT[0]:.0%} to {runs.PIECE_OF_FLIGHT[1]:.0%} of a flight.
 the geometric one of the ratio to dead reckoning.
 
 {pieces_table(pieces)}
-{simulated_text(buildings, of_buildings)}
+{simulated_text(buildings, of_buildings)}{driven_text(robots)}
 ## Pictures
 
 The map of the worst break-out of each log.

@@ -7,8 +7,11 @@ import dataclasses
 import random
 import signal
 import subprocess
+import tempfile
+from pathlib import Path
 
 import accuracy_runs
+import benchmark_page as page
 import mapped_runs
 import whole_runs
 from changed_log import Change
@@ -26,6 +29,7 @@ CUT_MAX = 0.3  # of the start
 PIECES = 6  # of each log and flight
 PIECE_OF_LOG, PIECE_OF_FLIGHT = (0.05, 0.35), (0.3, 0.7)  # shares of it
 KIND = "kind of building: "  # a note of the report
+ROBOT_LOG = page.BUILD / "tests/benchmarks/robot_log"
 
 PLAIN = [Change("as recorded")]
 MIRRORED = [Change("mirrored", mirrored=True)]
@@ -205,6 +209,25 @@ def building_runs(first, last):
             for seed in range(first, last + 1)]
 
 
+def robot_runs(first, last):
+    """Robots with wheels, each with one of PLAIN_BEAMS in turn. Raises OSError where ROBOT_LOG was not built."""
+    made_by = mapped_runs.content_digest(ROBOT_LOG)
+    return [Run(Log(f"robot {seed}", f"{ROBOT_LOG.name} {made_by}", None), PLAIN_BEAMS[seed % len(PLAIN_BEAMS)], None)
+            for seed in range(first, last + 1)]
+
+
+def seed_of(log):
+    """Of a building or robot."""
+    return log.name.split()[-1]
+
+
+def logged_drive(run, folder):
+    """The run with what its robot logs, and the kind of its building. Raises OSError or subprocess.CalledProcessError."""
+    kind = page.run(str(ROBOT_LOG), seed_of(run.log), str(folder / "drive")).strip()
+    log = Log(run.log.name, str(folder / "drive.clf"), str(folder / "drive.tum"))
+    return dataclasses.replace(run, log=log), kind
+
+
 def with_settings(run, settings):
     return dataclasses.replace(run, settings=settings)
 
@@ -225,8 +248,12 @@ class Results(mapped_runs.Results):
         return self.file(run).with_suffix(".png")
 
     def mapped(self, run):
-        result = mapped_runs.execute(run, self.swiftlet, self.picture(run))
-        return {**result, "report": figures_of(result["report"])}
+        with tempfile.TemporaryDirectory() as folder:
+            is_robot = run.log.source.startswith(ROBOT_LOG.name)
+            whole, kind = logged_drive(run, Path(folder)) if is_robot else (run, None)
+            result = mapped_runs.execute(whole, self.swiftlet, self.picture(run))
+        figures = figures_of(result["report"])
+        return {**result, "report": {**figures, "kind": kind or figures["kind"]}}
 
     def executed(self, run):
         try:

@@ -107,7 +107,7 @@ class BenchmarkRobustness(unittest.TestCase):
 
 
 class RecordedPage(unittest.TestCase):
-    """Of buildings 1 to 3, a log, and one whose data are missing."""
+    """Of buildings and robots 1 to 3, a log, and one whose data are missing."""
 
     def setUp(self):
         BenchmarkRobustness.setUp(self)
@@ -115,7 +115,11 @@ class RecordedPage(unittest.TestCase):
             (self.folder / name).write_text("data\n")
         logs = [mapped_runs.Log(name, f"{name}.clf", f"{name}.tum") for name in ("made", "lost")]
         runs = [robustness_runs.Run(log, 4, None) for log in logs]
-        for where, name, value in ((tool, "RECORDED_BUILDINGS", (1, 3)), (mapped_runs, "DATASETS", self.folder),
+        robot_log = self.folder / "robot_log"
+        robot_log.write_text('#!/bin/sh\necho log > "$2.clf"\necho true > "$2.tum"\necho offices\n')
+        robot_log.chmod(0o755)
+        for where, name, value in ((tool, "RECORDED_BUILDINGS", (1, 3)), (tool, "RECORDED_ROBOTS", (1, 3)),
+                                   (robustness_runs, "ROBOT_LOG", robot_log), (mapped_runs, "DATASETS", self.folder),
                                    (robustness_runs, "ensemble_runs", lambda: runs),
                                    (robustness_runs, "plain_runs", lambda: runs),
                                    (robustness_runs, "piece_runs", lambda: runs),
@@ -130,7 +134,7 @@ class RecordedPage(unittest.TestCase):
         """The page."""
         self.image = mock.MagicMock()
         options = argparse.Namespace(output=self.folder / "kept", jobs=1, kept=kept, record=True, buildings=None,
-                                     plain=False, pieces=False, screen=False, only=None)
+                                     robots=None, plain=False, pieces=False, screen=False, only=None)
         circumstances = {"date": "2026-11-22", "commit": "abc", "machine": "some"}
         with mock.patch.object(tool.page, "record") as written, mock.patch("sys.stdout"), mock.patch("sys.stderr"):
             tool.record(options, self.bad, circumstances, self.image)
@@ -143,6 +147,10 @@ class RecordedPage(unittest.TestCase):
         self.assertIn("![map](robustness/building_2.png)", self.record())
         [call] = self.image.open.call_args_list
         self.assertEqual(call.args[0].read_text(), "picture\n")
+
+    def test_it_has_the_robots(self):
+        of_robots = self.record().split("## Robots with wheels")[1]
+        self.assertIn("| offices | 3 | 0 | 0.0 |", of_robots)
 
     def test_kept_runs_are_recorded_only_where_all_exist(self):
         with self.assertRaisesRegex(LookupError, "1 of 1 runs are missing: record them without --kept"):

@@ -43,6 +43,14 @@ def buildings(others):
     return found
 
 
+def robots(ratios):
+    """30 robots in offices, of ratio 0.1 but for `ratios`: {seed: ratio}."""
+    report = {**REPORT, "kind": "offices"}
+    with mock.patch.object(runs, "ROBOT_LOG", Path(__file__)):
+        return [rates.outcome(one, {**result(ratios.get(int(runs.seed_of(one.log)), 0.1), 1.0), "report": report})
+                for one in runs.robot_runs(1, 30)]
+
+
 class RobustnessPage(unittest.TestCase):
     def test_a_run_far_over_the_best_quarter_breaks_out(self):
         group = made([0.1, 0.1, 0.1, 0.14, 0.16])
@@ -174,10 +182,24 @@ class RobustnessPage(unittest.TestCase):
         many = buildings({seed: (1.0 + seed, f"kind {seed}") for seed in range(1, 13)})
         self.assertEqual(len(rates.pictured_buildings(many)), 8)
 
+    def test_robots_have_a_row_for_each_number_of_beams(self):
+        text = rates.robots_text(robots({2: 0.6, 3: 1.5}))
+        self.assertIn("| 4 | 10 | 1 | 10.0 | 1.8 to 40.4 | 0.100 | 1.500 | 1 | 0.200 | 3.000 |", text)
+        self.assertIn("| 11 | 10 | 0 | 0.0 | 0.0 to 27.8 | 0.100 | 0.100 | 0 | 0.200 | 0.200 |", text)
+        self.assertIn("| 61 | 10 | 0 | 0.0 | 0.0 to 27.8 | 0.100 | 0.600 | 1 | 0.200 | 1.200 |", text)
+        self.assertIn("| offices | 30 | 1 |", text)
+        self.assertIn("Over 1.02 times, seed (kind, beams, ratio): 3 (offices, 4 beams, 1.50).", text)
+
+    def test_robots_that_fail_are_named(self):
+        [robot] = robots({})[:1]
+        text = rates.robots_text([rates.outcome(robot.run, {"failed": "exit code 3: it broke"})])
+        self.assertIn("| 11 | 1 | 1 | 100.0 | 20.7 to 100.0 | – | – | 0 | – | – |", text)
+        self.assertIn("Failed, seed (why): 1 (exit code 3: it broke).", text)
+
     def test_pictures_of_buildings_stand_beside_their_kinds(self):
         [one] = rates.pictured_buildings(buildings({3: (2.0, "maze")}))
         [log] = made([0.5])
-        text = rates.document([log], [], [], [one], [("log.png", log), ("building_3.png", one)], PAGE)
+        text = rates.document([log], [], [], [one], [], [("log.png", log), ("building_3.png", one)], PAGE)
         of_buildings, of_logs = text.split("## Simulated buildings")[1].split("## Pictures")
         self.assertIn("building 3, maze: error 2.000, 2.00 of dead reckoning.\n\n![map](robustness/building_3.png)",
                       of_buildings)
@@ -204,15 +226,16 @@ class RobustnessPage(unittest.TestCase):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
         shown = [("robot_4.png", one) for one in rates.pictured(group, rates.Quarters(group))]
         self.assertEqual([one.error for _, one in shown], [0.9])
-        text = rates.document(group, [], [], [], shown, PAGE)
+        text = rates.document(group, [], [], [], [], shown, PAGE)
         self.assertIn("commit abc", text)
         self.assertNotIn("Left out", text)
         self.assertIn("![map](robustness/robot_4.png)", text)
         self.assertNotIn("## Simulated buildings", text)
+        self.assertNotIn("## Robots with wheels", text)
         self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
 
     def test_the_page_says_what_its_figures_cannot_show(self):
-        text = " ".join(rates.document(made([0.1]), [], [], [], [], PAGE).split())
+        text = " ".join(rates.document(made([0.1]), [], [], [], [], [], PAGE).split())
         self.assertIn("A map that lays two corridors on each other covers fewer cells, so logs without truth (Duke "
                       "loop, Malaga, Mines 1, Mines 2, Mines 3, Mines 4, Olsson Hall, Rice Hall) do not show it.",
                       text)
@@ -223,17 +246,19 @@ class RobustnessPage(unittest.TestCase):
         flights = [ensemble.log for ensemble in runs.ENSEMBLES if ensemble.log.name.startswith("Vicon")][:3]
         real = [one for log in flights for one in made([0.1], beams=None, log=log)]
         with mock.patch.object(runs, "true_poses", lambda log: 9 if log == flights[1] else 16):
-            text = rates.document(real, [], [], [], [], PAGE)
+            text = rates.document(real, [], [], [], [], [], PAGE)
             self.assertIn("Each flight of Vicon has 9 to 16 true poses, at its stops.", text)
-            self.assertNotIn("true poses", rates.document(made([0.1]), [], [], [], [], PAGE))
+            self.assertNotIn("true poses", rates.document(made([0.1]), [], [], [], [], [], PAGE))
 
     def test_lines_are_not_too_long(self):
         built = buildings({seed: (1.0 + seed, "symmetrical") for seed in range(1, 20)})
-        for line in rates.document(made([0.1]), [], [], built, [], PAGE).splitlines():
+        text = rates.document(made([0.1]), [], [], built, robots({3: 2.0}), [], PAGE)
+        self.assertIn("## Robots with wheels", text)
+        for line in text.splitlines():
             self.assertTrue(len(line) <= 120 or line.startswith("|"), line)
 
     def test_the_page_names_the_data_that_were_missing(self):
-        text = rates.document(made([0.1]), [], [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})
+        text = rates.document(made([0.1]), [], [], [], [], [], {**PAGE, "missing": ["a.clf", "b.tum"]})
         self.assertIn("\nLeft out, for lack of data: a.clf; b.tum.\n", text)
 
 

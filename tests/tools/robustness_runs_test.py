@@ -93,6 +93,31 @@ class RobustnessRuns(unittest.TestCase):
             self.assertIsNone(results.get(building))
             self.assertEqual(results.get(log)["report"], {"closures": 1})
 
+    def test_a_robot_s_log_is_mapped_with_its_beams_and_its_building_s_kind_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            robot_log = Path(folder, "robot_log")
+            robot_log.write_text('#!/bin/sh\necho "log of $1" > "$2.clf"\necho true > "$2.tum"\necho wings\n')
+            robot_log.chmod(0o755)
+            mapped = []
+
+            def execute(run, *_):
+                mapped.append((run.beams, Path(run.log.source).read_text(), Path(run.log.reference).read_text()))
+                return {"report": {**REPORT, "input": {"notes": []}}}
+
+            with (mock.patch.object(runs, "ROBOT_LOG", robot_log),
+                  mock.patch.object(mapped_runs, "execute", execute)):
+                robots = runs.robot_runs(7, 9)
+                results = runs.Results(Path(folder, "kept"), robot_log)
+                for run in robots:
+                    results.make(run, at_once=1)
+                self.assertEqual({results.get(run)["report"]["kind"] for run in robots}, {"wings"})
+                robot_log.write_text("another")
+                mapped_runs.content_digest.cache_clear()
+                self.assertIsNone(results.get(runs.robot_runs(7, 7)[0]))
+            self.assertEqual({beams for beams, _, _ in mapped}, set(runs.PLAIN_BEAMS))
+            self.assertEqual([log for _, log, _ in mapped], ["log of 7\n", "log of 8\n", "log of 9\n"])
+            self.assertEqual({truth for _, _, truth in mapped}, {"true\n"})
+
     def test_a_run_that_is_ended_from_outside_is_none(self):
         with tempfile.TemporaryDirectory() as folder:
             swiftlet = Path(folder, "swiftlet")
