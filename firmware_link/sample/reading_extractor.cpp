@@ -3,6 +3,7 @@
 #include "firmware_link/sample/reading_extractor.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -22,6 +23,12 @@ std::optional<bool> is_flying(double value, unsigned mask) {
 
 // Beyond that the estimator does not use it either.
 constexpr double kZrangeEndsMm = 5000.0;
+// A height of 0 for so long from the first one on: no deck measures it. On the floor one reads a centimetre
+// or two.
+constexpr Duration kStaysZero = std::chrono::seconds(2);
+// After a second without the radio the vehicle gives up the link, and with it its blocks: twice that.
+constexpr Duration kSilent = std::chrono::seconds(2);
+constexpr Duration kPause = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -57,6 +64,7 @@ std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const auto offers_flying = [](const Slots& of) -> std::size_t { return of.flying ? 1 : 0; };
   Reading reading;
   reading.stream = record.block_id;
+  listen(record);
   reading.boot = record.boot;
   reading.at = record.at;
   reading.received = record.received;
@@ -165,13 +173,24 @@ bool ReadingExtractor::takes(std::optional<Source>& source, const LogRecord& rec
 
 template <typename Offers>
 bool ReadingExtractor::take_from(std::optional<Source>& source, const LogRecord& record, Offers offers) {
-  if (source && !record.described) return source->block_id == record.block_id;
-  const Source own{record.block_id, record.block->period, offers(slots_of(record))};
+  const Source own{record.block_id, record.block->period, offers(slots_of(record)), heard_};
   if (!source)
     source = record.described ? own : source_for(own, offers);
-  else if (is_better(own, *source))
+  else if (is_silent(*source) || (record.described && is_better(own, *source)))
     source = own;
-  return source->block_id == record.block_id;
+  if (source->block_id != record.block_id) return false;
+  source->heard_at = heard_;
+  return true;
+}
+
+void ReadingExtractor::listen(const LogRecord& record) {
+  const Duration step = newest_at_ ? record.received - *newest_at_ : Duration::zero();
+  if (step > Duration::zero() && step < kPause) heard_ += step;
+  newest_at_ = record.received;
+}
+
+bool ReadingExtractor::is_silent(const Source& source) const {
+  return heard_ - source.heard_at > std::max(kSilent, 3 * source.period);
 }
 
 /// Whatever another program logs beside it, a flight is mapped from the same block.
@@ -182,7 +201,7 @@ ReadingExtractor::Source ReadingExtractor::source_for(const Source& own, Offers 
     const auto id = static_cast<std::uint8_t>(i);
     const LogBlock& block = session_.blocks()[id];
     if (!block.running || block.period == Duration::zero()) continue;
-    const Source source{id, block.period, offers(slots_of_running(id))};
+    const Source source{id, block.period, offers(slots_of_running(id)), heard_};
     if (source.offered > 0 && (!best || is_better(source, *best))) best = source;
   }
   return best.value_or(own);
@@ -238,7 +257,10 @@ BodyTilt ReadingExtractor::read_tilt(const LogRecord& record, const Quantity& ti
 double ReadingExtractor::read_height_m(const LogRecord& record, const Quantity& height) {
   const double value = record.value(*height.slots[0]);
   if (height.kind == ValueKind::kMetres) return value;
-  return value < kZrangeEndsMm ? value * 1e-3 : std::numeric_limits<double>::quiet_NaN();
+  if (!zrange_since_) zrange_since_ = record.received;
+  zrange_measures_ = zrange_measures_ || value > 0.0;
+  const bool has_no_sensor = !zrange_measures_ && record.received - *zrange_since_ > kStaysZero;
+  return value < kZrangeEndsMm && !has_no_sensor ? value * 1e-3 : std::numeric_limits<double>::quiet_NaN();
 }
 
 Quaternion ReadingExtractor::read_quaternion(const LogRecord& record, const Quantity& quantity) {

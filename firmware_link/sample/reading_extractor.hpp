@@ -31,8 +31,10 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 /// from one block: of those that run, the one with the most distances; of equals the one with the shortest
 /// period, where all count as equal that are as short as kUsualPeriod; of equals the one with the lowest
 /// number. Of blocks whose start was not seen, the first one received; of those of a description a better one
-/// takes over when it comes. Names are resolved when a layout changes, not per packet: fixed storage. One
-/// thread at a time; `session` must outlive it.
+/// takes over when it comes. Another one takes over from a block that falls silent while others are heard:
+/// the vehicle deletes blocks when its link is lost, and a client may start them anew by other numbers. Names
+/// are resolved when a layout changes, not per packet: fixed storage. One thread at a time; `session` must
+/// outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
@@ -88,6 +90,7 @@ class ReadingExtractor {
     std::uint8_t block_id = 0;
     Duration period{};
     std::size_t offered = 0;  ///< of the ranges their number, else 1
+    Duration heard_at{};      ///< last, or when it was chosen; by heard_
   };
   /// stateEstimateZ.x counts millimetres in 16 bits and wraps at 32.767 m: made continuous again.
   struct WrappedMillimetres {
@@ -109,11 +112,13 @@ class ReadingExtractor {
   template <typename Offers>
   [[nodiscard]] Source source_for(const Source& own, Offers offers);
   [[nodiscard]] static bool is_better(const Source& source, const Source& than);
+  [[nodiscard]] bool is_silent(const Source& source) const;
+  void listen(const LogRecord& record);
   static Duration period_of(const std::optional<Source>& source);
   Point2 read_position(const LogRecord& record, const Quantity& position);
   static double read_yaw_rad(const LogRecord& record, const Quantity& yaw);
   static BodyTilt read_tilt(const LogRecord& record, const Quantity& tilt);
-  static double read_height_m(const LogRecord& record, const Quantity& height);
+  double read_height_m(const LogRecord& record, const Quantity& height);
   /// Precondition: one of the two kinds. NaN: requested in a type that cannot hold it.
   static Quaternion read_quaternion(const LogRecord& record, const Quantity& quantity);
 
@@ -135,6 +140,10 @@ class ReadingExtractor {
   std::optional<Source> flying_source_;
   WrappedMillimetres x_;
   WrappedMillimetres y_;
+  std::optional<HostTime> newest_at_;
+  Duration heard_{};  // how long records have come, pauses of all left out
+  std::optional<HostTime> zrange_since_;
+  bool zrange_measures_ = false;
 };
 
 }  // namespace swiftlet

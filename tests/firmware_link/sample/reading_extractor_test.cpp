@@ -25,10 +25,10 @@ class ReadingExtractorTest : public testing::Test {
     description_.blocks[block].variables = variables;
     description_.blocks[block].period = std::chrono::milliseconds(10 * block);
   }
-  std::optional<Reading> extract(const LogPacket& packet) {
+  std::optional<Reading> extract(const LogPacket& packet, HostTime at = host_ms(5)) {
     if (!described_) session_.describe(description_);
     described_ = true;
-    frame_ = received(packet.bytes(), host_ms(5));
+    frame_ = received(packet.bytes(), at);
     const std::optional<LogRecord> record = session_.on_frame(frame_);
     return record ? extractor_.extract(*record) : std::nullopt;
   }
@@ -188,6 +188,15 @@ TEST_F(ReadingExtractorTest, ABetterBlockOfADescriptionTakesOverWhenItComes) {
   EXPECT_FALSE(extract(LogPacket(1, 30).u16(500)).has_value());
 }
 
+TEST_F(ReadingExtractorTest, AHeightThatStaysZeroIsMeasuredByNothing) {
+  describe(1, {{"range.zrange", LogType::kUint16}});
+  EXPECT_EQ(extract(LogPacket(1, 10).u16(0), host_ms(1000))->height_m, 0.0);
+  EXPECT_EQ(extract(LogPacket(1, 20).u16(0), host_ms(3000))->height_m, 0.0);
+  EXPECT_TRUE(std::isnan(*extract(LogPacket(1, 30).u16(0), host_ms(3100))->height_m));
+  EXPECT_DOUBLE_EQ(*extract(LogPacket(1, 40).u16(250), host_ms(3200))->height_m, 0.25);
+  EXPECT_EQ(extract(LogPacket(1, 50).u16(0), host_ms(9000))->height_m, 0.0);  // it has landed
+}
+
 /// Blocks that hold the same variables.
 class RunningBlocksTest : public ReadingExtractorTest {
  protected:
@@ -217,6 +226,23 @@ TEST_F(RunningBlocksTest, ThePositionIsTakenFromTheLowestThatRunsWhoeverIsFirst)
   learn(sent({0x5D, 2, 2}));
   learn(received({0x5D, 2, 2, 0}));
   EXPECT_TRUE(extract(LogPacket(16, 130).f32(5.F).f32(5.F)));
+}
+
+TEST_F(RunningBlocksTest, OneThatFallsSilentIsReplaced) {
+  learn(received(toc_item_reply(0, LogType::kFloat, "stateEstimate", "x")));
+  learn(received(toc_item_reply(1, LogType::kFloat, "stateEstimate", "y")));
+  const Bytes position{7, 0, 0, 7, 1, 0};
+  make(2, position);
+  make(16, position);
+  const auto takes = [&](std::uint8_t block, int at_ms) {
+    return extract(LogPacket(block, static_cast<std::uint32_t>(at_ms)).f32(1.F).f32(1.F), host_ms(at_ms))
+        .has_value();
+  };
+  EXPECT_TRUE(takes(2, 1000));
+  EXPECT_FALSE(takes(16, 60'000));  // after a pause of all
+  for (int at_ms = 60'100; at_ms <= 62'000; at_ms += 100) EXPECT_FALSE(takes(16, at_ms));
+  EXPECT_TRUE(takes(16, 62'100));
+  EXPECT_FALSE(takes(2, 62'200));
 }
 
 TEST_F(RunningBlocksTest, TheRangesAreTakenFromTheOneThatHoldsMost) {
