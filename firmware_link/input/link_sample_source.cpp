@@ -180,6 +180,7 @@ std::vector<StampedPose> LinkSampleSource::ground_truth() const {
 std::string LinkSampleSource::explain_no_samples() const {
   const UnreadableRecords& unreadable = session_.unreadable();
   const bool has_data = extractor_.finds_ranges() || extractor_.finds_position() || extractor_.finds_yaw();
+  if (report_.counters.frames == 0) return input_.name + ": holds no packet and no row";
   if (!has_data && unreadable.unknown_block > 0)
     return input_.name +
            ": the contents of its log blocks are unknown (no table of contents); describe them in " +

@@ -2,9 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sample_table/client_table_link.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "firmware_link/crtp/byte_order.hpp"
 #include "firmware_link/crtp/crtp_packet.hpp"
@@ -42,6 +45,21 @@ std::uint32_t bits_of(double value, LogType type) {
   return fits ? static_cast<std::uint32_t>(value) : 0;
 }
 
+std::string_view prefix_of(std::string_view variable) { return variable.substr(0, variable.find('.')); }
+
+/// What is of use only together goes into one block, where a prefix needs several.
+std::string_view quantity_of(std::string_view variable) {
+  const std::string_view name = variable.substr(prefix_of(variable).size());
+  const auto is_one_of = [name](std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  if (is_one_of({".x", ".y", ".z", ".stateX", ".stateY", ".stateZ"})) return " position";
+  if (is_one_of({".qx", ".qy", ".qz", ".qw", ".q0", ".q1", ".q2", ".q3"})) return " quaternion";
+  if (is_one_of({".roll", ".pitch", ".yaw"})) return " angles";
+  if (is_one_of({".front", ".back", ".left", ".right"})) return " ranges";
+  return " other";
+}
+
 }  // namespace
 
 bool is_client_table(const std::string& path) {
@@ -57,13 +75,17 @@ Result<std::unique_ptr<ClientTableLink>> ClientTableLink::open(const std::string
   std::unique_ptr<ClientTableLink> link(new ClientTableLink(path, std::move(lines).value()));
   const Result<std::string_view> head = link->lines_.next();
   if (!head) return head.error();
-  for (const std::string& variable : variables_in(*head).value_or(std::vector<std::string>()))
-    link->describe(variable);
+  const auto variables = variables_in(*head).value_or(std::vector<std::string>());
+  for (const std::string& variable : variables) link->describe(variable, variables);
   return link;
 }
 
-void ClientTableLink::describe(const std::string& variable) {
-  const std::string group = variable.substr(0, variable.find('.'));
+void ClientTableLink::describe(const std::string& variable, std::span<const std::string> all) {
+  const std::string_view prefix = prefix_of(variable);
+  const auto alike = [&](const std::string& other) { return prefix_of(other) == prefix; };
+  std::string group(prefix);
+  if (std::ranges::count_if(all, alike) > static_cast<std::ptrdiff_t>(kMaxLogBytes / kValueBytes))
+    group += quantity_of(variable);
   std::uint8_t block = 0;
   const auto has_room = [&] {
     return description_.blocks[block].variables.size() < kMaxLogBytes / kValueBytes;

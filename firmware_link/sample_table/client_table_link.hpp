@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,7 +45,7 @@ class ClientTableLink final : public Link {
 
  private:
   ClientTableLink(std::string path, GzipLines lines) : path_(std::move(path)), lines_(std::move(lines)) {}
-  void describe(const std::string& variable);
+  void describe(const std::string& variable, std::span<const std::string> all);
   Status read_row();
   /// The packets of a row that hold nothing yet.
   void begin_frames(std::uint32_t counter_ms);

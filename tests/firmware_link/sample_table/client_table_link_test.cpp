@@ -77,6 +77,20 @@ TEST(ClientTableLink, ReadsTheOtherNamesOfTheFirmware) {
   EXPECT_NEAR((*with_quaternion)->next()->sample.T_odom_body.yaw_rad(), kPi / 2.0, 0.01);
 }
 
+TEST(ClientTableLink, AQuantityIsWholeWhateverStandsBetweenItsColumns) {
+  const TemporaryFile file("Wide.csv",
+                           table("stateEstimate.y,stateEstimate.qx,stateEstimate.vx,stateEstimate.vy,"
+                                 "stateEstimate.ax,stateEstimate.ay,stateEstimate.x,stateEstimate.qy,"
+                                 "stateEstimate.qz,stateEstimate.qw,range.front",
+                                 ",0.0,0.5,0.0,0.0,0.0,2.0,0.0,0.0,1.0,1500\n"));
+  const auto source = open_sample_source(file.path(), {});
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  const std::vector<RangeSample> samples = delivered_by(**source);
+  ASSERT_GT(samples.size(), 10U);
+  EXPECT_NEAR(samples[5].T_odom_body.x_m(), 2.0, 1e-6);
+  EXPECT_NEAR(samples[5].T_odom_body.yaw_rad(), 0.0, 1e-6);
+}
+
 TEST(ClientTableLink, AnUnusableRowEndsTheTable) {
   for (const char* const row :
        {"19000,1.0,x\n", "19000\n", "-5,0.5\n", "19000,1,32766,2,1500,90,500,2500,512,0,0,3.9,7\n"}) {
@@ -87,6 +101,13 @@ TEST(ClientTableLink, AnUnusableRowEndsTheTable) {
     EXPECT_THAT((*source)->report().problems, ElementsAre(HasSubstr("line 23: is no row of a log block")))
         << row;
   }
+}
+
+TEST(ClientTableLink, ATableWithoutRowsIsNamed) {
+  const TemporaryFile file("Head.csv", table(kColumns, kEndOfRow, 0));
+  const auto source = open_sample_source(file.path(), {});
+  ASSERT_FALSE(source.ok());
+  EXPECT_THAT(source.error().message, HasSubstr("holds no packet and no row"));
 }
 
 TEST(ClientTableLink, WhatABlockLacksIsNamed) {
