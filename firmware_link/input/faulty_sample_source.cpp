@@ -20,6 +20,11 @@ bool turns(MotionFaultKind kind) {
   return kind == MotionFaultKind::kYawJump || kind == MotionFaultKind::kYawTurn;
 }
 
+/// Whether the stamps show that samples are lost.
+bool is_gap(MotionFaultKind kind) {
+  return kind == MotionFaultKind::kSilence || kind == MotionFaultKind::kCarried;
+}
+
 Duration lasts_for(const MotionFault& fault) {
   if (fault.kind == MotionFaultKind::kYawJump) return kYawJumpTime;
   if (fault.kind == MotionFaultKind::kYawTurn) return kYawTurnTime;
@@ -88,33 +93,60 @@ std::vector<StampedPose> FaultySampleSource::ground_truth() const {
   return truth;
 }
 
+void FaultySampleSource::update_report() {
+  report_ = ForwardingSource::report();
+  InputCounters& counters = report_.counters;
+  counters.samples = delivered_.size();
+  counters.segments += faulty_.segments;
+  counters.gaps += faulty_.gaps;
+  counters.missing_packets += faulty_.missing_packets;
+}
+
 void FaultySampleSource::end() {
   ForwardingSource::end();
   for (std::size_t i = next_fault_; i < faults_.size(); ++i)
     add_note("the fault after " + shortest_text(to_seconds(faults_[i].after)) +
              " s never began: the flight ended before");
+  update_report();
 }
 
 Result<ReceivedSample> FaultySampleSource::next() {
+  Result<ReceivedSample> received = next_of_those_left();
+  update_report();
+  return received;
+}
+
+Result<ReceivedSample> FaultySampleSource::next_of_those_left() {
   for (;;) {
     Result<ReceivedSample> received = inner().next();
     if (!received) return received;
     RangeSample& sample = received->sample;
     const std::size_t number = received_++;
     if (!first_at_) first_at_ = sample.measured_at;
-    const Duration at = sample.measured_at - *first_at_;
-    if (!lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after)
-      lasting_ = faults_[next_fault_++];
-    if (lasting_ && at < lasting_->after + lasts_for(*lasting_)) {
-      if (hides_samples(lasting_->kind)) continue;
-    } else if (lasting_) {
-      begin(*lasting_, sample);
-      lasting_.reset();
-    }
+    if (is_hidden(sample, sample.measured_at - *first_at_)) continue;
     place(sample);
+    sample.sequence = static_cast<std::uint32_t>(delivered_.size());
     delivered_.push_back({number, added_});
     return received;
   }
+}
+
+/// By the fault that lasts then; the first sample behind it shows what it did.
+bool FaultySampleSource::is_hidden(RangeSample& sample, Duration at) {
+  if (!lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after) {
+    lasting_ = faults_[next_fault_++];
+    if (is_gap(lasting_->kind)) ++faulty_.gaps;
+  }
+  if (!lasting_) return false;
+  if (at < lasting_->after + lasts_for(*lasting_)) {
+    if (is_gap(lasting_->kind)) ++faulty_.missing_packets;
+    return hides_samples(lasting_->kind);
+  }
+  const bool started_segment = sample.starts_segment;
+  begin(*lasting_, sample);
+  lasting_.reset();
+  if (sample.starts_segment && !started_segment) ++faulty_.segments;
+  return false;
 }
 
 }  // namespace swiftlet

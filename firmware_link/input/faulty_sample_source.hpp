@@ -13,15 +13,19 @@
 
 namespace swiftlet {
 
-/// A simulated flight whose dead reckoning breaks by its faults. The truth stays that of the flight. A fault
-/// that it did not come to is a note of its report once it has ended.
+/// A simulated flight whose dead reckoning breaks by its faults. The truth stays that of the flight. Its
+/// report counts samples, segments, gaps and missing packets as they are behind the faults; the rest is the
+/// link's, which hears all. A fault that the flight did not come to is a note there once it has ended.
 class FaultySampleSource final : public ForwardingSource {
  public:
   /// `faults`: in the order of time.
   FaultySampleSource(std::unique_ptr<SampleSource> flight, std::vector<MotionFault> faults)
-      : ForwardingSource(std::move(flight)), faults_(std::move(faults)) {}
+      : ForwardingSource(std::move(flight)), faults_(std::move(faults)) {
+    update_report();
+  }
 
   [[nodiscard]] Result<ReceivedSample> next() override;
+  [[nodiscard]] const InputReport& report() const override { return report_; }
   void end() override;
   [[nodiscard]] std::vector<StampedPose> ground_truth() const override;
 
@@ -30,9 +34,12 @@ class FaultySampleSource final : public ForwardingSource {
     std::size_t number = 0;  // among the flight's samples
     Duration added{};        // to its stamp
   };
+  Result<ReceivedSample> next_of_those_left();
+  bool is_hidden(RangeSample& sample, Duration at);
   void begin(const MotionFault& fault, RangeSample& sample);
   void place(RangeSample& sample);
   void turn_to(double turned_rad, const Pose2& T_odom_body);
+  void update_report();
 
   std::vector<MotionFault> faults_;
   std::size_t next_fault_ = 0;
@@ -44,6 +51,8 @@ class FaultySampleSource final : public ForwardingSource {
   Pose2 T_fault_odom_;       // what faults have done to the estimate
   double turned_rad_ = 0.0;  // by the fault that lasts
   Pose2 T_odom_last_;        // of the last sample, before faults
+  InputCounters faulty_;     // of the faults alone
+  InputReport report_;
 };
 
 }  // namespace swiftlet

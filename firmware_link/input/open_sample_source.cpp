@@ -171,6 +171,14 @@ Status share(LinkInput& input, const UdpAddress& address) {
 
 Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const InputUri& uri,
                                                 const SampleSourceOptions& options) {
+  const auto* simulation = uri.as<SimulationAddress>();
+  const bool breaks = simulation != nullptr && !simulation->faults.empty();
+  if (breaks && options.recording != nullptr)
+    return Error{
+        ErrorCode::kInvalidInput,
+        name +
+            ": its faults are made behind the link, a recording would not have them; convert it to a "
+            "table (.csv), which has"};
   Result<LinkInput> opened = uri.kind->open(uri.address);
   if (!opened) return opened.error();
   LinkInput input = std::move(opened).value();
@@ -182,8 +190,7 @@ Result<std::unique_ptr<SampleSource>> open_link(const std::string& name, const I
   input.starts_logging = true;
   if (uri.is(InputNature::kVehicle)) input.cache_directory = TocCache::default_directory();
   std::unique_ptr<SampleSource> source = std::make_unique<LinkSampleSource>(std::move(input));
-  const auto* simulation = uri.as<SimulationAddress>();
-  if (simulation == nullptr || simulation->faults.empty()) return source;
+  if (!breaks) return source;
   return std::unique_ptr<SampleSource>(
       std::make_unique<FaultySampleSource>(std::move(source), simulation->faults));
 }

@@ -29,7 +29,8 @@ class StraightFlight final : public SampleSource {
     received.sample.stamp = HostTime(from_seconds(kPeriodS * number_));
     received.sample.T_odom_body = Pose2(0.1 * number_, 0.0, 0.0);
     truth_.push_back({received.sample.stamp, received.sample.T_odom_body});
-    ++number_;
+    report_.counters.samples = ++number_;
+    report_.counters.segments = 1;
     return received;
   }
   [[nodiscard]] const BeamLayout& beams() const override { return beams_; }
@@ -96,6 +97,21 @@ TEST(FaultySampleSource, ATeleportTellsNothing) {
   EXPECT_FALSE(flown.samples[50].starts_segment);
   EXPECT_NEAR(at_s(flown.samples[50]), 5.0, 1e-9);
   EXPECT_TRUE(poses_near(flown.samples[50].T_odom_body, Pose2(4.9, 0.0, 0.0), 1e-9, 1e-9));
+}
+
+TEST(FaultySampleSource, ItsReportCountsWhatTheFaultsLeft) {
+  FaultySampleSource source(std::make_unique<StraightFlight>(),
+                            parse_motion_faults("silence@2:1,restart@5:60,teleport@7:1").value());
+  std::uint32_t samples = 0;
+  for (Result<ReceivedSample> next = source.next(); next; next = source.next()) {
+    EXPECT_EQ(next->sample.sequence, samples);
+    EXPECT_EQ(source.report().counters.samples, ++samples);
+  }
+  const InputCounters& counters = source.report().counters;
+  EXPECT_EQ(counters.samples, 80U);
+  EXPECT_EQ(counters.segments, 3U);
+  EXPECT_EQ(counters.gaps, 1U);  // a teleport is none
+  EXPECT_EQ(counters.missing_packets, 10U);
 }
 
 TEST(FaultySampleSource, AFaultThatTheFlightDoesNotComeToIsANote) {

@@ -201,6 +201,18 @@ TEST(OpenSampleSource, RefusesAnInvalidInputWithOneLine) {
   }
 }
 
+TEST(OpenSampleSource, DoesNotRecordAFlightWhoseFaultsARecordingWouldNotHave) {
+  struct Nowhere final : FrameSink {
+    void take(const LinkFrame& /*frame*/) noexcept override {}
+  } nowhere;
+  SampleSourceOptions options;
+  options.recording = &nowhere;
+  EXPECT_TRUE(open_sample_source("sim://office", options).ok());
+  const auto source = open_sample_source("sim://office?fault=restart@20:10", options);
+  ASSERT_FALSE(source.ok());
+  EXPECT_THAT(source.error().message, HasSubstr("convert it to a table (.csv)"));
+}
+
 TEST(OpenSampleSource, NamesTheKindOfABuildingDrawnAtRandom) {
   const auto source = open_sample_source("sim://building?seed=3", {});
   ASSERT_TRUE(source.ok()) << source.error().message;
