@@ -137,7 +137,10 @@ RunEnd run_once(const Options& options, const Configuration& config, const RunPa
   spdlog::info("{}, publishing on {}", input_text(options, *run.source), options.lcm_url);
   daemon.report_to(service_manager);
   std::stop_source over;
-  const std::stop_callback at_signal(signalled, [&over] { over.request_stop(); });
+  const std::stop_callback at_signal(signalled, [&over] {
+    spdlog::info("stopped by a signal: the map is finished first; a second signal would lose it");
+    over.request_stop();
+  });
   CommandExecutor executor = make_executor(run, daemon, over);
   daemon.execute_commands_by(
       [&executor](const Command& command, const MapBuilder& map, std::optional<HostTime> newest) {
@@ -148,7 +151,6 @@ RunEnd run_once(const Options& options, const Configuration& config, const RunPa
   const Status outcome = run_recorded(daemon, run.recorder.get(), over.get_token());
   if (run.commands) run.commands->stop();
   daemon.execute_late_commands();
-  if (signalled.stop_requested()) spdlog::info("stopped by a signal");
   service_manager.feed_watchdog();
   return {.exit_code = finish_run(options, config, run, daemon, executor.places(), outcome),
           .wants_new_map = executor.wants_new_map()};

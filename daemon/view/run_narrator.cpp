@@ -48,7 +48,7 @@ void RunNarrator::see_pose(const TrailPose& pose) {
   if (!pose_) history_.add_event(pose.utime_us, EventLevel::kNote, "first pose");
   if (pose_ && pose.segment != pose_->segment)
     history_.add_event(pose.utime_us, EventLevel::kWarning,
-                       fmt::format("segment {}: dead reckoning began anew", pose.segment));
+                       fmt::format("segment {}: a silence, a restart or a reset", pose.segment));
   const std::int8_t before = pose_ ? pose_->tracking : pose_t::TRACKING_GOOD;
   if (pose.tracking != before) tell_tracking(pose);
   pose_ = pose;

@@ -138,7 +138,7 @@ SILENT_TEXTS = {
         … at … times its pace
         …, publishing on …
         recording to …
-        stopped by a signal
+        stopped by a signal: the map is finished first; a second signal would lose it
         log file reopened
         … samples, … keyframes, … loop closures (… of them dropped)
         … samples, … keyframes, … loop closures (… of them dropped), … input problems
