@@ -183,14 +183,16 @@ std::string LinkSampleSource::explain_no_samples() const {
   if (report_.counters.frames == 0) return input_.name + ": holds no packet and no row";
   if (!has_data && unreadable.unknown_block > 0)
     return input_.name +
-           ": the contents of its log blocks are unknown (no table of contents); describe them in " +
+           ": the contents of its log blocks are unknown (no table of contents, or not their creation); "
+           "describe them in " +
            input_.name +
            ".toml: [[block]] id = 1, variables = [ { name = \"range.front\", type = \"uint16\" }, ... ]";
   if (!extractor_.finds_ranges())
     return input_.name +
            ": no range.front, range.left, range.back or range.right in its log packets; log them";
   if (!extractor_.finds_position())
-    return input_.name + ": no position in its log packets; log stateEstimate.x and stateEstimate.y";
+    return input_.name +
+           ": no position in its log packets; log stateEstimate.x and stateEstimate.y, both in one block";
   if (!extractor_.finds_yaw())
     return input_.name + ": no yaw in its log packets; log stateEstimate.yaw or stabilizer.yaw";
   return input_.name + ": ranges and dead reckoning never lie close enough in time to be paired (" +

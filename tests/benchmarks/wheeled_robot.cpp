@@ -118,6 +118,20 @@ void append(std::string& text, const char* format, Values... values) {
   text.append(line, static_cast<std::size_t>(length));
 }
 
+/// The beginning of a FLASER line. Of an odd number the last one closes the half circle.
+void append_readings(const LaserScanner& scanner, const Pose2& T_world_laser,
+                     std::span<const WallSegment> walls, double wall_thickness_m, NoiseSource& noise,
+                     std::string& text) {
+  const double step_rad = kPi / static_cast<double>(scanner.readings - scanner.readings % 2);
+  append(text, "FLASER %zu", scanner.readings);
+  for (std::size_t i = 0; i < scanner.readings; ++i) {
+    const double bearing_rad = static_cast<double>(i) * step_rad - kPi / 2.0;
+    const std::optional<RayHit> hit =
+        cast_ray(walls, T_world_laser.position(), T_world_laser.yaw_rad() + bearing_rad, scanner.max_range_m);
+    append(text, " %.2f", reading_m(scanner, hit, wall_thickness_m, noise));
+  }
+}
+
 }  // namespace
 
 WheeledRobot draw_robot(std::uint64_t seed) {
@@ -167,8 +181,6 @@ RobotLog log_drive(const WheeledRobot& robot, std::span<const Pose2> T_world_rob
     const double step = std::round(std::max(time_s, 0.0) / kDriveStepS);
     return T_world_robot[std::min(static_cast<std::size_t>(step), T_world_robot.size() - 1)];
   };
-  const double resolution_rad = kPi / (scanner.readings % 2 == 1 ? static_cast<double>(scanner.readings - 1)
-                                                                 : static_cast<double>(scanner.readings));
   RobotLog log;
   Pose2 T_odom_robot;
   Pose2 T_world_before = T_world_robot.front();
@@ -180,13 +192,7 @@ RobotLog log_drive(const WheeledRobot& robot, std::span<const Pose2> T_world_rob
         T_odom_robot * measured_by_wheels(robot.wheels, between(T_world_before, T_world_now), wheel_noise);
     T_world_before = T_world_now;
     const Pose2 T_world_laser = at(time_s - scanner.lag_s) * T_robot_laser;
-    append(log.flaser, "FLASER %zu", scanner.readings);
-    for (std::size_t i = 0; i < scanner.readings; ++i) {
-      const double bearing_rad = static_cast<double>(i) * resolution_rad - kPi / 2.0;
-      const std::optional<RayHit> hit = cast_ray(walls, T_world_laser.position(),
-                                                 T_world_laser.yaw_rad() + bearing_rad, scanner.max_range_m);
-      append(log.flaser, " %.2f", reading_m(scanner, hit, wall_thickness_m, laser_noise));
-    }
+    append_readings(scanner, T_world_laser, walls, wall_thickness_m, laser_noise, log.flaser);
     const Pose2 T_odom_laser = T_odom_robot * T_robot_laser;
     for (const Pose2& T : {T_odom_laser, T_odom_robot})
       append(log.flaser, " %.6f %.6f %.6f", T.x_m(), T.y_m(), T.yaw_rad());
