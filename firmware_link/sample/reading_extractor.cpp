@@ -28,6 +28,7 @@ constexpr double kZrangeEndsMm = 5000.0;
 constexpr Duration kStaysZero = std::chrono::seconds(2);
 // After a second without the radio the vehicle gives up the link, and with it its blocks: twice that.
 constexpr Duration kSilent = std::chrono::seconds(2);
+// A longer step from any record to the next is a pause of all.
 constexpr Duration kPause = std::chrono::seconds(1);
 
 }  // namespace
@@ -60,11 +61,11 @@ const std::array<ReadingExtractor::Form, 1> ReadingExtractor::kAltitudeForms{
 
 std::optional<Reading> ReadingExtractor::extract(const LogRecord& record) {
   const Slots& slots = slots_of(record);
+  listen(record);
   const auto offers_ranges = [](const Slots& of) { return of.range_count; };
   const auto offers_flying = [](const Slots& of) -> std::size_t { return of.flying ? 1 : 0; };
   Reading reading;
   reading.stream = record.block_id;
-  listen(record);
   reading.boot = record.boot;
   reading.at = record.at;
   reading.received = record.received;
@@ -108,6 +109,7 @@ const ReadingExtractor::Slots& ReadingExtractor::slots_of(const LogRecord& recor
   if (revision_ != session_.revision()) {
     revision_ = session_.revision();
     for (Slots& slots : slots_) slots.resolved = false;
+    heard_at_.fill(heard_);
     range_source_.reset();
     position_source_.reset();
     yaw_source_.reset();
@@ -173,24 +175,23 @@ bool ReadingExtractor::takes(std::optional<Source>& source, const LogRecord& rec
 
 template <typename Offers>
 bool ReadingExtractor::take_from(std::optional<Source>& source, const LogRecord& record, Offers offers) {
-  const Source own{record.block_id, record.block->period, offers(slots_of(record)), heard_};
-  if (!source)
+  const Source own{record.block_id, record.block->period, offers(slots_of(record))};
+  if (!source || is_silent(*source))
     source = record.described ? own : source_for(own, offers);
-  else if (is_silent(*source) || (record.described && is_better(own, *source)))
+  else if (record.described && is_better(own, *source))
     source = own;
-  if (source->block_id != record.block_id) return false;
-  source->heard_at = heard_;
-  return true;
+  return source->block_id == record.block_id;
 }
 
 void ReadingExtractor::listen(const LogRecord& record) {
   const Duration step = newest_at_ ? record.received - *newest_at_ : Duration::zero();
   if (step > Duration::zero() && step < kPause) heard_ += step;
   newest_at_ = record.received;
+  heard_at_[record.block_id] = heard_;
 }
 
 bool ReadingExtractor::is_silent(const Source& source) const {
-  return heard_ - source.heard_at > std::max(kSilent, 3 * source.period);
+  return heard_ - heard_at_[source.block_id] > std::max(kSilent, 3 * source.period);
 }
 
 /// Whatever another program logs beside it, a flight is mapped from the same block.
@@ -201,8 +202,8 @@ ReadingExtractor::Source ReadingExtractor::source_for(const Source& own, Offers 
     const auto id = static_cast<std::uint8_t>(i);
     const LogBlock& block = session_.blocks()[id];
     if (!block.running || block.period == Duration::zero()) continue;
-    const Source source{id, block.period, offers(slots_of_running(id)), heard_};
-    if (source.offered > 0 && (!best || is_better(source, *best))) best = source;
+    const Source source{id, block.period, offers(slots_of_running(id))};
+    if (source.offered > 0 && !is_silent(source) && (!best || is_better(source, *best))) best = source;
   }
   return best.value_or(own);
 }

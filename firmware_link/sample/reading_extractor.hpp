@@ -31,10 +31,10 @@ inline constexpr std::array<const char*, 4> kRangeVariables{"range.front", "rang
 /// from one block: of those that run, the one with the most distances; of equals the one with the shortest
 /// period, where all count as equal that are as short as kUsualPeriod; of equals the one with the lowest
 /// number. Of blocks whose start was not seen, the first one received; of those of a description a better one
-/// takes over when it comes. Another one takes over from a block that falls silent while others are heard:
-/// the vehicle deletes blocks when its link is lost, and a client may start them anew by other numbers. Names
-/// are resolved when a layout changes, not per packet: fixed storage. One thread at a time; `session` must
-/// outlive it.
+/// takes over when it comes. A block that falls silent for two seconds while others are heard counts as one
+/// that does not run: the vehicle deletes blocks when its link is lost, and a client may start them anew by
+/// other numbers. Names are resolved when a layout changes, not per packet: fixed storage. One thread at a
+/// time; `session` must outlive it.
 class ReadingExtractor {
  public:
   explicit ReadingExtractor(const LogSession& session) : session_(session) {}
@@ -90,7 +90,6 @@ class ReadingExtractor {
     std::uint8_t block_id = 0;
     Duration period{};
     std::size_t offered = 0;  ///< of the ranges their number, else 1
-    Duration heard_at{};      ///< last, or when it was chosen; by heard_
   };
   /// stateEstimateZ.x counts millimetres in 16 bits and wraps at 32.767 m: made continuous again.
   struct WrappedMillimetres {
@@ -141,8 +140,9 @@ class ReadingExtractor {
   WrappedMillimetres x_;
   WrappedMillimetres y_;
   std::optional<HostTime> newest_at_;
-  Duration heard_{};  // how long records have come, pauses of all left out
-  std::optional<HostTime> zrange_since_;
+  Duration heard_{};                      // how long records have come, pauses of all left out
+  std::array<Duration, 256> heard_at_{};  // by heard_, each block last, or when the layouts changed
+  std::optional<HostTime> zrange_since_;  // its first value
   bool zrange_measures_ = false;
 };
 

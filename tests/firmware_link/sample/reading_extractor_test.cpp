@@ -245,6 +245,25 @@ TEST_F(RunningBlocksTest, OneThatFallsSilentIsReplaced) {
   EXPECT_FALSE(takes(2, 62'200));
 }
 
+TEST_F(RunningBlocksTest, OneThatFallsSilentIsReplacedByTheBestThatIsHeard) {
+  for (std::uint16_t i = 0; i < 4; ++i)
+    learn(received(toc_item_reply(i, LogType::kUint16, "range", kRangeVariables[i] + 6)));
+  const Bytes all{2, 0, 0, 2, 1, 0, 2, 2, 0, 2, 3, 0};
+  make(1, all);
+  make(4, {2, 0, 0});
+  make(5, all);
+  int taken_4 = 0;
+  int taken_5 = 0;
+  for (int at_ms = 1000; at_ms < 6000; at_ms += 100) {
+    const auto stamp = static_cast<std::uint32_t>(at_ms);
+    taken_4 += extract(LogPacket(4, stamp).u16(1000), host_ms(at_ms)) ? 1 : 0;
+    taken_5 +=
+        extract(LogPacket(5, stamp).u16(1000).u16(1000).u16(1000).u16(1000), host_ms(at_ms + 5)) ? 1 : 0;
+  }
+  EXPECT_EQ(taken_4, 0);
+  EXPECT_GT(taken_5, 25);
+}
+
 TEST_F(RunningBlocksTest, TheRangesAreTakenFromTheOneThatHoldsMost) {
   for (std::uint16_t i = 0; i < 4; ++i)
     learn(received(toc_item_reply(i, LogType::kUint16, "range", kRangeVariables[i] + 6)));
