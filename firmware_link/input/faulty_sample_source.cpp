@@ -97,9 +97,9 @@ void FaultySampleSource::update_report() {
   report_ = ForwardingSource::report();
   InputCounters& counters = report_.counters;
   counters.samples = delivered_.size();
-  counters.segments += faulty_.segments;
-  counters.gaps += faulty_.gaps;
-  counters.missing_packets += faulty_.missing_packets;
+  counters.segments = segments_;
+  counters.gaps += gaps_;
+  counters.missing_packets += missing_;
 }
 
 void FaultySampleSource::end() {
@@ -123,30 +123,32 @@ Result<ReceivedSample> FaultySampleSource::next_of_those_left() {
     RangeSample& sample = received->sample;
     const std::size_t number = received_++;
     if (!first_at_) first_at_ = sample.measured_at;
-    if (is_hidden(sample, sample.measured_at - *first_at_)) continue;
+    if (!survives_faults(sample, sample.measured_at - *first_at_)) continue;
     place(sample);
     sample.sequence = static_cast<std::uint32_t>(delivered_.size());
+    segments_ += sample.starts_segment ? 1U : 0U;
     delivered_.push_back({number, added_});
     return received;
   }
 }
 
-/// By the fault that lasts then; the first sample behind it shows what it did.
-bool FaultySampleSource::is_hidden(RangeSample& sample, Duration at) {
+/// The first sample behind a fault shows what it did.
+bool FaultySampleSource::survives_faults(RangeSample& sample, Duration at) {
   if (!lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after) {
     lasting_ = faults_[next_fault_++];
-    if (is_gap(lasting_->kind)) ++faulty_.gaps;
+    hides_already_ = false;
   }
-  if (!lasting_) return false;
+  if (!lasting_) return true;
   if (at < lasting_->after + lasts_for(*lasting_)) {
-    if (is_gap(lasting_->kind)) ++faulty_.missing_packets;
-    return hides_samples(lasting_->kind);
+    if (is_gap(lasting_->kind)) {
+      gaps_ += std::exchange(hides_already_, true) ? 0U : 1U;
+      ++missing_;
+    }
+    return !hides_samples(lasting_->kind);
   }
-  const bool started_segment = sample.starts_segment;
   begin(*lasting_, sample);
   lasting_.reset();
-  if (sample.starts_segment && !started_segment) ++faulty_.segments;
-  return false;
+  return true;
 }
 
 }  // namespace swiftlet

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -35,7 +36,7 @@ class FaultySampleSource final : public ForwardingSource {
     Duration added{};        // to its stamp
   };
   Result<ReceivedSample> next_of_those_left();
-  bool is_hidden(RangeSample& sample, Duration at);
+  bool survives_faults(RangeSample& sample, Duration at);
   void begin(const MotionFault& fault, RangeSample& sample);
   void place(RangeSample& sample);
   void turn_to(double turned_rad, const Pose2& T_odom_body);
@@ -48,10 +49,13 @@ class FaultySampleSource final : public ForwardingSource {
   Duration added_{};                    // to all stamps
   std::size_t received_ = 0;            // of the flight's samples
   std::vector<Delivered> delivered_;
-  Pose2 T_fault_odom_;       // what faults have done to the estimate
-  double turned_rad_ = 0.0;  // by the fault that lasts
-  Pose2 T_odom_last_;        // of the last sample, before faults
-  InputCounters faulty_;     // of the faults alone
+  Pose2 T_fault_odom_;          // what faults have done to the estimate
+  double turned_rad_ = 0.0;     // by the fault that lasts
+  Pose2 T_odom_last_;           // of the last sample, before faults
+  bool hides_already_ = false;  // the fault that lasts
+  std::uint64_t segments_ = 0;  // of the samples that were delivered
+  std::uint64_t gaps_ = 0;      // by the faults alone, as the next
+  std::uint64_t missing_ = 0;
   InputReport report_;
 };
 

@@ -28,6 +28,7 @@ class StraightFlight final : public SampleSource {
     received.sample.measured_at = DeviceTime(from_seconds(kPeriodS * number_));
     received.sample.stamp = HostTime(from_seconds(kPeriodS * number_));
     received.sample.T_odom_body = Pose2(0.1 * number_, 0.0, 0.0);
+    received.sample.starts_segment = number_ == 0;
     truth_.push_back({received.sample.stamp, received.sample.T_odom_body});
     report_.counters.samples = ++number_;
     report_.counters.segments = 1;
@@ -101,7 +102,7 @@ TEST(FaultySampleSource, ATeleportTellsNothing) {
 
 TEST(FaultySampleSource, ItsReportCountsWhatTheFaultsLeft) {
   FaultySampleSource source(std::make_unique<StraightFlight>(),
-                            parse_motion_faults("silence@2:1,restart@5:60,teleport@7:1").value());
+                            parse_motion_faults("silence@0:1,restart@5:60,teleport@7:1").value());
   std::uint32_t samples = 0;
   for (Result<ReceivedSample> next = source.next(); next; next = source.next()) {
     EXPECT_EQ(next->sample.sequence, samples);
@@ -109,7 +110,7 @@ TEST(FaultySampleSource, ItsReportCountsWhatTheFaultsLeft) {
   }
   const InputCounters& counters = source.report().counters;
   EXPECT_EQ(counters.samples, 80U);
-  EXPECT_EQ(counters.segments, 3U);
+  EXPECT_EQ(counters.segments, 2U);
   EXPECT_EQ(counters.gaps, 1U);  // a teleport is none
   EXPECT_EQ(counters.missing_packets, 10U);
 }
