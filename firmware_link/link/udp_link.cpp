@@ -26,7 +26,7 @@ constexpr std::array<std::uint8_t, 1> kFarewell{0xF4};
 constexpr std::array<std::uint8_t, 1> kNullPacket{0xFF};
 // A flood must not push the vehicle's packets out meanwhile. The system grants what net.core.rmem_max allows.
 constexpr int kSocketBufferBytes = 1 << 20;
-// Of a longer time it is not known whether the machine's clock was set meanwhile.
+// A longer time means that the machine's clock was set meanwhile.
 constexpr Duration kMaxInSocket = std::chrono::seconds(1);
 
 /// How long ago the kernel received what `message` holds.
@@ -37,7 +37,7 @@ Duration since_arrival(msghdr& message) {
     std::memcpy(&at, CMSG_DATA(part), sizeof at);
     const Duration age = std::chrono::system_clock::now().time_since_epoch() -
                          (std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec));
-    return std::clamp(age, Duration::zero(), kMaxInSocket);
+    return age < Duration::zero() || age > kMaxInSocket ? Duration::zero() : age;
   }
   return Duration::zero();
 }
