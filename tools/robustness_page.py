@@ -348,7 +348,7 @@ def changed_pairs(pairs, limits):
                        for a, b in sorted(changed, key=lambda pair: (pair[1].run.log.name, pair[1].run.title()))])
 
 
-def bad_buildings(all_outcomes):
+def bad_runs(all_outcomes):
     """How many are worse than dead reckoning or failed."""
     return sum(one.is_worse_than_odometry() or bool(one.failed) for one in all_outcomes)
 
@@ -374,21 +374,22 @@ def live_rows(done):
             ["published poses: median ratio", median], ["published poses: p95", p95]]
 
 
-def building_kinds_table(all_outcomes):
+def kinds_of_buildings_table(name, all_outcomes):
+    """`name`: of what the kinds of buildings are counted by."""
     kinds = {}
     for one in all_outcomes:
         kinds.setdefault(building_kind(one), []).append(one)
 
     def cells(name, group):
-        bad = bad_buildings(group)
+        bad = bad_runs(group)
         ratios = [one.ratio for one in group if not one.failed]
         return [name, *rate_cells(bad, len(group), interval(bad, len(group))), *median_and_p95(ratios)]
 
-    return page.table(["kind", "buildings:", f"over {OVER_ODOMETRY:g} times or failed:", "%:", "95 %:", "median ratio:",
+    return page.table(["kind", f"{name}:", f"over {OVER_ODOMETRY:g} times or failed:", "%:", "95 %:", "median ratio:",
                        "p95:"], [cells(name, group) for name, group in sorted(kinds.items())])
 
 
-def named_buildings(intro, texts):
+def named_seeds(intro, texts):
     """`texts`: [(outcome, what is said of it)]."""
     seeds = (f"{runs.seed_of(one.run.log)} ({text})" for one, text in texts)
     return [textwrap.fill(f"{intro}: {', '.join(seeds)}.", WIDTH, break_on_hyphens=False)] if texts else []
@@ -400,7 +401,7 @@ def buildings_text(all_outcomes):
         return "No run."
     done = [one for one in all_outcomes if not one.failed]
     failed = [one for one in all_outcomes if one.failed]
-    bad = bad_buildings(all_outcomes)
+    bad = bad_runs(all_outcomes)
     median, p95 = median_and_p95([one.ratio for one in done])
     rows = [["buildings", str(len(all_outcomes))], ["failed", str(len(failed))],
             [f"final error over {OVER_ODOMETRY:g} times that of dead reckoning, %", share_cell(bad, len(all_outcomes))],
@@ -411,15 +412,15 @@ def buildings_text(all_outcomes):
                  ["runs at once", ", ".join(map(str, sorted({one.figures["at_once"] for one in done})))],
                  ["longest call of the backend, ms", f"{max(one.figures['backend_max_ms'] for one in done):.1f}"]]
     worse = [(one, f"{building_kind(one)}, {one.ratio:.2f}") for one in most_over_odometry(done)]
-    return "\n\n".join([page.table(["", ":"], rows), building_kinds_table(all_outcomes),
-                        *named_buildings(f"Over {OVER_ODOMETRY:g} times, seed (kind, ratio)", worse),
-                        *named_buildings("Failed, seed (why)", [(one, one.failed) for one in failed])])
+    return "\n\n".join([page.table(["", ":"], rows), kinds_of_buildings_table("buildings", all_outcomes),
+                        *named_seeds(f"Over {OVER_ODOMETRY:g} times, seed (kind, ratio)", worse),
+                        *named_seeds("Failed, seed (why)", [(one, one.failed) for one in failed])])
 
 
 def robots_row(beams, group):
     done = [one for one in group if not one.failed]
     live = [one.live_ratio for one in done if one.live_ratio is not None]
-    bad = bad_buildings(group)
+    bad = bad_runs(group)
     return [str(beams), *rate_cells(bad, len(group), interval(bad, len(group))),
             *median_and_p95([one.ratio for one in done]), str(sum(ratio > OVER_ODOMETRY for ratio in live)),
             *median_and_p95(live)]
@@ -438,9 +439,9 @@ def robots_text(all_outcomes):
     worse = [(one, f"{building_kind(one)}, {one.run.beams} beams, {one.ratio:.2f}")
              for one in most_over_odometry(all_outcomes)]
     failed = [(one, one.failed) for one in all_outcomes if one.failed]
-    return "\n\n".join([table, building_kinds_table(all_outcomes),
-                        *named_buildings(f"Over {OVER_ODOMETRY:g} times, seed (kind, beams, ratio)", worse),
-                        *named_buildings("Failed, seed (why)", failed)])
+    return "\n\n".join([table, kinds_of_buildings_table("robots", all_outcomes),
+                        *named_seeds(f"Over {OVER_ODOMETRY:g} times, seed (kind, beams, ratio)", worse),
+                        *named_seeds("Failed, seed (why)", failed)])
 
 
 def pictures_text(shown):

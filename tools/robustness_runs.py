@@ -222,7 +222,7 @@ def seed_of(log):
 
 
 def logged_drive(run, folder):
-    """The run with what its robot logs, and the kind of its building. Raises OSError or subprocess.CalledProcessError."""
+    """The run with what its robot logs, and the kind of its building. Raises as page.run() does."""
     kind = page.run(str(ROBOT_LOG), seed_of(run.log), str(folder / "drive")).strip()
     log = Log(run.log.name, str(folder / "drive.clf"), str(folder / "drive.tum"))
     return dataclasses.replace(run, log=log), kind
@@ -247,22 +247,26 @@ class Results(mapped_runs.Results):
     def picture(self, run):
         return self.file(run).with_suffix(".png")
 
-    def mapped(self, run):
-        with tempfile.TemporaryDirectory() as folder:
-            is_robot = run.log.source.startswith(ROBOT_LOG.name)
-            whole, kind = logged_drive(run, Path(folder)) if is_robot else (run, None)
-            result = mapped_runs.execute(whole, self.swiftlet, self.picture(run))
-        figures = figures_of(result["report"])
-        return {**result, "report": {**figures, "kind": kind or figures["kind"]}}
+    def mapped(self, run, picture):
+        result = mapped_runs.execute(run, self.swiftlet, picture)
+        return {**result, "report": figures_of(result["report"])}
 
-    def executed(self, run):
+    def judged(self, run, picture):
         try:
-            return self.mapped(run)
+            return self.mapped(run, picture)
         except subprocess.CalledProcessError as error:
             if error.returncode in STOPPED:
                 raise
             said = (error.stderr or "").strip().splitlines()
             return {"failed": f"exit code {error.returncode}" + (f": {said[-1]}" if said else "")}
+
+    def executed(self, run):
+        if not run.log.source.startswith(ROBOT_LOG.name):
+            return self.judged(run, self.picture(run))
+        with tempfile.TemporaryDirectory() as folder:
+            with_log, kind = logged_drive(run, Path(folder))
+            result = self.judged(with_log, self.picture(run))
+        return result if "failed" in result else {**result, "report": {**result["report"], "kind": kind}}
 
 
 def figures_of(report):

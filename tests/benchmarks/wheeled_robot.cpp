@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 
 #include "core/base/time.hpp"
 #include "daemon/outputs/tum_trajectory.hpp"
@@ -20,12 +19,12 @@ constexpr double kReachedM = 0.12;
 constexpr double kTurnsOnTheSpotRad = 0.5;
 constexpr double kSlowsDownM = 0.3;
 constexpr double kTurnGainPerS = 2.5;
-constexpr double kAccelerationM = 1.0;  // per s^2
-constexpr double kAccelerationRad = 3.0;
+constexpr double kAccelerationMPerS2 = 1.0;
+constexpr double kAccelerationRadPerS2 = 3.0;
 constexpr double kReverseShare = 0.3;
 constexpr double kGlassSeenFromCos = 0.99;  // nearly squarely; else ...
 constexpr double kGlassMissed = 0.7;        // ... so often not
-constexpr double kFlattestCos = 0.2;  // the face of a thick wall is no farther off along a ray than by this
+constexpr double kFlattestCos = 0.2;        // flatter rays meet the face of a thick wall where this one does
 constexpr auto kFirstStamp = HostTime(std::chrono::seconds(1'000'000'000));
 
 /// Follows waypoints.
@@ -44,10 +43,11 @@ class Driver {
     } else if (next_ < way_.size()) {
       steer(speed_m_per_s, turn_rad_per_s);
     }
-    const double speed_step = kAccelerationM * kDriveStepS;
-    const double turn_step = kAccelerationRad * kDriveStepS;
-    speed_m_per_s_ += std::clamp(speed_m_per_s - speed_m_per_s_, -speed_step, speed_step);
-    turn_rad_per_s_ += std::clamp(turn_rad_per_s - turn_rad_per_s_, -turn_step, turn_step);
+    const double most_faster_m_per_s = kAccelerationMPerS2 * kDriveStepS;
+    const double most_faster_rad_per_s = kAccelerationRadPerS2 * kDriveStepS;
+    speed_m_per_s_ += std::clamp(speed_m_per_s - speed_m_per_s_, -most_faster_m_per_s, most_faster_m_per_s);
+    turn_rad_per_s_ +=
+        std::clamp(turn_rad_per_s - turn_rad_per_s_, -most_faster_rad_per_s, most_faster_rad_per_s);
     T_world_robot_ = T_world_robot_ * Pose2(speed_m_per_s_ * kDriveStepS, 0.0, turn_rad_per_s_ * kDriveStepS);
   }
 
@@ -65,8 +65,9 @@ class Driver {
     turn_rad_per_s =
         std::clamp(kTurnGainPerS * off_rad, -robot_->top_turn_rad_per_s, robot_->top_turn_rad_per_s);
     if (std::abs(off_rad) > kTurnsOnTheSpotRad) return;
-    const double speed = robot_->top_speed_m_per_s * std::cos(off_rad) * std::min(1.0, far_m / kSlowsDownM);
-    speed_m_per_s = is_reversing_ ? -speed : speed;
+    const double wanted_m_per_s =
+        robot_->top_speed_m_per_s * std::cos(off_rad) * std::min(1.0, far_m / kSlowsDownM);
+    speed_m_per_s = is_reversing_ ? -wanted_m_per_s : wanted_m_per_s;
   }
   void arrive() {
     stands_s_ = way_[next_].hover_s;
@@ -88,11 +89,12 @@ class Driver {
 
 /// What the wheels report of a step without sideways motion.
 Pose2 measured_by_wheels(const WheelErrors& errors, const Pose2& step, NoiseSource& noise) {
-  const double way_m = std::abs(step.x_m());
+  const double chord_m = std::copysign(std::hypot(step.x_m(), step.y_m()), step.x_m());
+  const double way_m = std::abs(chord_m);
   const double turn_rad = std::abs(step.yaw_rad());
   const double measured_m =
-      errors.metre_scale * step.x_m() + noise.gaussian(errors.way_sigma_m * std::sqrt(way_m));
-  double yaw_rad = errors.turn_scale * step.yaw_rad() + errors.missed_yaw_per_metre_rad * way_m +
+      errors.metre_scale * chord_m + noise.gaussian(errors.way_sigma_m * std::sqrt(way_m));
+  double yaw_rad = errors.turn_scale * step.yaw_rad() + errors.missed_yaw_per_metre_rad * chord_m +
                    noise.gaussian(errors.yaw_sigma_by_way_rad * std::sqrt(way_m)) +
                    noise.gaussian(errors.yaw_sigma_by_turn_rad * std::sqrt(turn_rad));
   if (noise.chance(errors.slips_per_metre * way_m)) yaw_rad += noise.gaussian(errors.slip_sigma_rad);

@@ -21,7 +21,7 @@ namespace swiftlet {
 struct WheelErrors {
   double metre_scale = 1.0;
   double turn_scale = 1.0;
-  double missed_yaw_per_metre_rad = 0.0;
+  double missed_yaw_per_metre_rad = 0.0;  ///< less in reverse: the wheels are unequal
   double way_sigma_m = 0.0;
   double yaw_sigma_by_way_rad = 0.0;
   double yaw_sigma_by_turn_rad = 0.0;
@@ -54,8 +54,8 @@ struct WheeledRobot {
 inline constexpr double kDriveStepS = 0.01;
 
 /// The true poses of the robot's middle, one each kDriveStepS, from the first waypoint to the last. It turns
-/// on the spot where a waypoint lies far off its heading, and takes some of the legs on which a pilot keeps
-/// the nose where it points in reverse. Spins are left out. Ends after half an hour.
+/// on the spot where a waypoint lies far off its heading. On some of the legs with PilotHeading::kKeep it
+/// drives in reverse. Spins are left out. Ends after half an hour. Precondition: two waypoints or more.
 [[nodiscard]] std::vector<Pose2> drive(const WheeledRobot& robot, std::span<const Waypoint> way,
                                        NoiseSource& noise);
 

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware_link/laser_log/carmen_log.hpp"
@@ -72,7 +74,7 @@ TEST_F(WheeledRobotTest, WithoutErrorsTheWheelsMeasureThePathOfTheLaser) {
   ASSERT_EQ(log.scans.size(), path.size() / 10 + 1);
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const Pose2 T_odom_laser(log.scans[i].position.x_m, log.scans[i].position.y_m, log.scans[i].yaw_rad);
-    ASSERT_TRUE(poses_near(T_world_odom * T_odom_laser, path[step_of(i)] * T_robot_laser, 0.05, 1e-5)) << i;
+    ASSERT_TRUE(poses_near(T_world_odom * T_odom_laser, path[step_of(i)] * T_robot_laser, 0.02, 1e-5)) << i;
   }
 }
 
@@ -105,12 +107,26 @@ TEST_F(WheeledRobotTest, RangesMayLagBehindTheWheels) {
   }
 }
 
-TEST_F(WheeledRobotTest, WheelsErrAsTheyAreDrawn) {
+TEST_F(WheeledRobotTest, WheelsMayMeasureMetresAndTurnsTooLong) {
   robot_.wheels.metre_scale = 1.1;
+  robot_.wheels.turn_scale = 1.05;
   const std::vector<Pose2> path = driven();
   const CarmenLog log = read(path);
   const std::size_t corner = 50;  // still on the way along x
   EXPECT_NEAR(log.scans[corner].position.x_m, 1.1 * path[step_of(corner)].x_m(), 0.01);
+  const double turned_rad =
+      wrap_angle(path.back().yaw_rad() - 2.0 * kPi);  // by more than half a turn to the left
+  EXPECT_NEAR(wrap_angle(log.scans.back().yaw_rad - 1.05 * (turned_rad + 2.0 * kPi)), 0.0, 0.02);
+}
+
+TEST_F(WheeledRobotTest, UnequalWheelsTurnTheOtherWayInReverse) {
+  robot_.wheels.missed_yaw_per_metre_rad = 0.1;
+  std::vector<Pose2> there_and_back;
+  for (int i = 0; i <= 400; ++i) there_and_back.emplace_back(0.005 * i, 0.0, 0.0);
+  for (int i = 400; i >= 0; --i) there_and_back.emplace_back(0.005 * i, 0.0, 0.0);
+  const CarmenLog log = read(there_and_back);
+  EXPECT_NEAR(log.scans[40].yaw_rad, 0.2, 0.01);
+  EXPECT_NEAR(log.scans.back().yaw_rad, 0.0, 0.01);
 }
 
 TEST_F(WheeledRobotTest, ASeedIsARobotAndItsDrive) {

@@ -15,7 +15,7 @@ PROGRAMS = {"swiftlet": sys.argv[1], "swiftletd": sys.argv[2]}
 OPTION = r"(?<![\w-])--?[a-z][a-z-]*"
 # Options of other programs that the documents run.
 FOREIGN = set("""--baseline --build --buildings --compare --compare-config --cpp --cpp-hpath --cpp-std --install --now --offline --only
-    --patrol --pieces --plain --prefix --preset --python --screen --seeds --target""".split())
+    --patrol --pieces --plain --prefix --preset --python --robots --screen --seeds --target""".split())
 
 
 def output_of(program, *arguments):
