@@ -92,7 +92,7 @@ void LostSign::begin_segment(const RangeSample& sample) {
   scans_.clear();
   for_each_path([](Path& path) { path.scan_offsets.clear(); });
   speed_m_per_s_ = speed_before_m_per_s_ = 0.0;
-  branch(added_ + 1);
+  branch(added_ + 1);  // this sample has no step
   judge(sample);
 }
 
