@@ -299,15 +299,11 @@ double RunRefinement::cost_of(const Hypothesis& path, const RefinementReport& ju
   return judged.misfit_of_path - map_log_evidence(*scans_, path.T_map_body, cell_m);
 }
 
-double RunRefinement::cost_of(const Hypothesis& path) const {
-  return cost_of(path, judge_as_it_is(batch(path, {}), path.T_map_body));
-}
-
 /// All are judged as they are: refine_together() has corrected the dead reckoning that the best one was
 /// judged by.
 void RunRefinement::take_better(std::span<const OtherPath> others, Hypothesis& best) const {
   if (others.empty()) return;
-  double least = cost_of(best);
+  double least = cost_of(best, judge_as_it_is(batch(best, {}), best.T_map_body));
   for (const OtherPath& other : others) {
     Hypothesis correction{.source = other.source,
                           .T_map_body = from(best.T_map_body.front(), other.T_map_body),
@@ -328,8 +324,7 @@ bool RunRefinement::may_find_floor(const Hypothesis& best) const {
          (best.source != MapSource::kDeadReckoning || best.report.accepted);
 }
 
-/// Floors are taken where their cost shows that they differ, and the path on them does not explain the run
-/// worse: at a poor optimum the walls may gain less than the floors cost.
+/// Where they differ by so much that it was worth its cost.
 bool RunRefinement::find_floor(Hypothesis& best, const PoseGraph& graph) {
   Hypothesis on_floor = best;
   const Known known = known_of(best, graph);
@@ -337,9 +332,8 @@ bool RunRefinement::find_floor(Hypothesis& best, const PoseGraph& graph) {
       refine_together_with_floor(batch(best, known), on_floor.report, on_floor.T_map_body);
   if (!floor) ++counters_.solver_failures;
   if (!floor || floor->cost < config_->tuning.floor.min_cost) return false;
-  on_floor.floor = std::move(*floor);
-  if (cost_of(on_floor) >= cost_of(best)) return false;
   best = std::move(on_floor);
+  best.floor = std::move(*floor);
   return true;
 }
 

@@ -102,7 +102,6 @@ class RunRefinement {
   [[nodiscard]] std::optional<Hypothesis> best_of_run(const PoseGraph& graph,
                                                       const KeyframePoses& T_local_keyframe);
   [[nodiscard]] double cost_of(const Hypothesis& path, const RefinementReport& judged) const;
-  [[nodiscard]] double cost_of(const Hypothesis& path) const;
   void take_better(std::span<const OtherPath> others, Hypothesis& best) const;
   [[nodiscard]] bool may_find_floor(const Hypothesis& best) const;
   bool find_floor(Hypothesis& best, const PoseGraph& graph);
