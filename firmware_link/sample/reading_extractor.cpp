@@ -175,10 +175,13 @@ bool ReadingExtractor::takes(std::optional<Source>& source, const LogRecord& rec
 
 template <typename Offers>
 bool ReadingExtractor::take_from(std::optional<Source>& source, const LogRecord& record, Offers offers) {
+  if (source && source->block_id == record.block_id) return true;
+  const bool is_open = !source || is_silent(*source);
+  if (!is_open && !record.described) return false;
   const Source own{record.block_id, record.block->period, offers(slots_of(record))};
-  if (!source || is_silent(*source))
+  if (is_open)
     source = record.described ? own : source_for(own, offers);
-  else if (record.described && is_better(own, *source))
+  else if (is_better(own, *source))
     source = own;
   return source->block_id == record.block_id;
 }
