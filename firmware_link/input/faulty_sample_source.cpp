@@ -134,16 +134,12 @@ Result<ReceivedSample> FaultySampleSource::next_of_those_left() {
 
 /// The first sample behind a fault shows what it did.
 bool FaultySampleSource::survives_faults(RangeSample& sample, Duration at) {
-  if (!lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after) {
-    lasting_ = faults_[next_fault_++];
-    hides_already_ = false;
-  }
+  const bool begins = !lasting_ && next_fault_ < faults_.size() && at >= faults_[next_fault_].after;
+  if (begins) lasting_ = faults_[next_fault_++];
   if (!lasting_) return true;
   if (at < lasting_->after + lasts_for(*lasting_)) {
-    if (is_gap(lasting_->kind)) {
-      gaps_ += std::exchange(hides_already_, true) ? 0U : 1U;
-      ++missing_;
-    }
+    gaps_ += begins && is_gap(lasting_->kind) ? 1U : 0U;
+    missing_ += is_gap(lasting_->kind) ? 1U : 0U;
     return !hides_samples(lasting_->kind);
   }
   begin(*lasting_, sample);

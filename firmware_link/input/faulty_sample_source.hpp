@@ -52,7 +52,6 @@ class FaultySampleSource final : public ForwardingSource {
   Pose2 T_fault_odom_;          // what faults have done to the estimate
   double turned_rad_ = 0.0;     // by the fault that lasts
   Pose2 T_odom_last_;           // of the last sample, before faults
-  bool hides_already_ = false;  // the fault that lasts
   std::uint64_t segments_ = 0;  // of the samples that were delivered
   std::uint64_t gaps_ = 0;      // by the faults alone, as the next
   std::uint64_t missing_ = 0;

@@ -261,10 +261,10 @@ BodyTilt ReadingExtractor::read_tilt(const LogRecord& record, const Quantity& ti
 double ReadingExtractor::read_height_m(const LogRecord& record, const Quantity& height) {
   const double value = record.value(*height.slots[0]);
   if (height.kind == ValueKind::kMetres) return value;
-  if (!zrange_since_) zrange_since_ = record.received;
-  zrange_measures_ = zrange_measures_ || value > 0.0;
-  const bool has_no_sensor = !zrange_measures_ && record.received - *zrange_since_ > kStaysZero;
-  return value < kZrangeEndsMm && !has_no_sensor ? value * 1e-3 : std::numeric_limits<double>::quiet_NaN();
+  if (!height_since_) height_since_ = record.received;
+  has_height_ = has_height_ || value != 0.0;
+  const bool has_none = !has_height_ && record.received - *height_since_ > kStaysZero;
+  return value < kZrangeEndsMm && !has_none ? value * 1e-3 : std::numeric_limits<double>::quiet_NaN();
 }
 
 Quaternion ReadingExtractor::read_quaternion(const LogRecord& record, const Quantity& quantity) {

@@ -142,8 +142,8 @@ class ReadingExtractor {
   std::optional<HostTime> newest_at_;
   Duration heard_{};                      // how long records have come, pauses of all left out
   std::array<Duration, 256> heard_at_{};  // by heard_, each block last, or when the layouts changed
-  std::optional<HostTime> zrange_since_;  // its first value
-  bool zrange_measures_ = false;
+  std::optional<HostTime> height_since_;  // in millimetres, its first value
+  bool has_height_ = false;               // that was not 0
 };
 
 }  // namespace swiftlet

@@ -21,7 +21,7 @@ namespace swiftlet {
 struct WheelErrors {
   double metre_scale = 1.0;
   double turn_scale = 1.0;
-  double missed_yaw_per_metre_rad = 0.0;  ///< less in reverse: the wheels are unequal
+  double missed_yaw_per_metre_rad = 0.0;  ///< of the other sign in reverse: unequal wheels
   double way_sigma_m = 0.0;
   double yaw_sigma_by_way_rad = 0.0;
   double yaw_sigma_by_turn_rad = 0.0;
@@ -48,7 +48,7 @@ struct WheeledRobot {
   LaserScanner scanner;
 };
 
-/// One as others have built theirs: errors drawn wider than those of the recorded laser logs.
+/// How widely its errors are drawn is a choice: nobody measured them.
 [[nodiscard]] WheeledRobot draw_robot(std::uint64_t seed);
 
 inline constexpr double kDriveStepS = 0.01;

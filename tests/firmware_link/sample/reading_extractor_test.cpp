@@ -197,6 +197,12 @@ TEST_F(ReadingExtractorTest, AHeightThatStaysZeroIsMeasuredByNothing) {
   EXPECT_EQ(extract(LogPacket(1, 50).u16(0), host_ms(9000))->height_m, 0.0);  // it has landed
 }
 
+TEST_F(ReadingExtractorTest, AHeightALittleBelowZeroIsThatOfAVehicleOnTheFloor) {
+  describe(1, {{"stateEstimateZ.z", LogType::kInt16}});
+  EXPECT_DOUBLE_EQ(*extract(LogPacket(1, 10).i16(-3), host_ms(1000))->height_m, -0.003);
+  EXPECT_DOUBLE_EQ(*extract(LogPacket(1, 20).i16(0), host_ms(9000))->height_m, 0.0);
+}
+
 /// Blocks that hold the same variables.
 class RunningBlocksTest : public ReadingExtractorTest {
  protected:
