@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <chrono>
@@ -143,10 +144,11 @@ TEST(LcmTransport, SaysNothingOfAnAbsentServerHoweverMuchIsPublished) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-/// A server of tcpq:// that accepts every connection, greets or not, and never reads.
+/// A server of tcpq:// that never reads. Connections wait in the kernel's queue until it greets.
 class StalledServer {
  public:
-  explicit StalledServer(bool greets) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  explicit StalledServer(bool greets)
+      : greets_(greets), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in bound{};
     bound.sin_family = AF_INET;
     bound.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -155,7 +157,7 @@ class StalledServer {
     socklen_t size = sizeof bound;
     EXPECT_EQ(::getsockname(socket_, std::bit_cast<sockaddr*>(&bound), &size), 0);
     url_ = "tcpq://127.0.0.1:" + std::to_string(ntohs(bound.sin_port));
-    thread_ = std::jthread([this, greets](const std::stop_token& stop) { accept(stop, greets); });
+    thread_ = std::jthread([this](const std::stop_token& stop) { accept(stop); });
   }
   ~StalledServer() {
     thread_ = {};
@@ -165,18 +167,20 @@ class StalledServer {
   StalledServer(const StalledServer&) = delete;
   StalledServer& operator=(const StalledServer&) = delete;
   [[nodiscard]] const std::string& url() const { return url_; }
+  void greet() { greets_ = true; }
 
  private:
-  void accept(const std::stop_token& stop, bool greets) {
+  void accept(const std::stop_token& stop) {
     constexpr std::array<std::uint8_t, 8> kGreeting{0x28, 0x76, 0x17, 0xFA, 0, 0, 1, 0};
     while (!stop.stop_requested()) {
       pollfd wait{.fd = socket_, .events = POLLIN, .revents = 0};
-      if (::poll(&wait, 1, 20) != 1) continue;
+      if (::poll(&wait, greets_ ? 1 : 0, 20) != 1) continue;
       connections_.push_back(::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC));
-      if (greets) ::send(connections_.back(), kGreeting.data(), kGreeting.size(), MSG_NOSIGNAL);
+      ::send(connections_.back(), kGreeting.data(), kGreeting.size(), MSG_NOSIGNAL);
     }
   }
 
+  std::atomic<bool> greets_;
   int socket_;
   std::string url_;
   std::vector<int> connections_;
@@ -184,11 +188,12 @@ class StalledServer {
 };
 
 TEST(LcmServer, IsReachedByItsAddressWhereTheUrlHasAName) {
-  const StalledServer server(true);
+  StalledServer server(false);
   const std::string port = server.url().substr(server.url().rfind(':'));
   std::optional<LcmServer> named = LcmServer::of_url("tcpq://localhost" + port);
   ASSERT_TRUE(named.has_value());
   EXPECT_FALSE(named->is_there()) << "nobody waits for the look";
+  server.greet();
   named->wait_for_look();
   ASSERT_TRUE(named->is_there());
   EXPECT_EQ(named->numeric_url(), server.url());
