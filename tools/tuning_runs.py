@@ -130,7 +130,7 @@ class Results(robustness_runs.Results):
 
     get = mapped_runs.Results.get
 
-    def mapped(self, run):
+    def mapped(self, run, _picture):
         default = (self.get(robustness_runs.with_settings(run, "")) or {}) if run.settings else {}
         judged = {name: default[name] for name in ("odometry", "final") if name in default}
         result = mapped_runs.execute(run, self.swiftlet, copied=self.copies,
