@@ -32,6 +32,7 @@ struct Backend::State {
   [[nodiscard]] double evidence_since(KeyframeId since, const KeyframePoses& T_map_seen_from,
                                       std::span<const std::shared_ptr<const Submap>> submaps) const;
   [[nodiscard]] bool newest_contact_is_at_fault() const;
+  [[nodiscard]] KeyframeId recent_since() const;
   [[nodiscard]] bool is_explained(KeyframeId contradicted_since) const;
   bool doubt_motion_if_contradicted();
   bool end_doubt();
@@ -139,14 +140,24 @@ bool Backend::State::end_doubt() {
   return true;
 }
 
+/// Where the newest travel begins that is no older map to itself.
+KeyframeId Backend::State::recent_since() const {
+  const std::span<const ScanId> made_by = chain.all().values();
+  const double from_m = scans[made_by.back()].path_m - config.tuning.confidence.old_after_m;
+  const auto is_before = [&](ScanId scan) { return scans[scan].path_m < from_m; };
+  const auto first = std::ranges::partition_point(made_by, is_before);
+  return chain.all().id_at(static_cast<std::size_t>(first - made_by.begin()));
+}
+
 /// By travel that has no place, or none beyond doubt. A silence explains what contradicts the map of before
-/// it; what contradicts the ground flown since is another fault. On new ground no place ends a silence.
+/// it; what contradicts the ground flown since is another fault. On new ground no place ends a silence, so
+/// the newest travel alone is weighed, whatever agreed before it.
 bool Backend::State::is_explained(KeyframeId contradicted_since) const {
   const std::optional<KeyframeId> unplaced = loops.unplaced_since();
   if (!unplaced || loops.unplaced_by() != UnplacedBy::kSilence) return loops.weighs_places();
   return contradicted_since <= *unplaced ||
-         evidence_since(contradicted_since, T_map_keyframe(), loops.submaps_since(*unplaced)) <
-             0.5 * config.tuning.confidence.alarm_log_odds;
+         evidence_since(std::max(contradicted_since, recent_since()), T_map_keyframe(),
+                        loops.submaps_since(*unplaced)) < 0.5 * config.tuning.confidence.alarm_log_odds;
 }
 
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.

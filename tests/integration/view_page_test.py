@@ -101,6 +101,11 @@ WAITING = """const done = arguments[0];
     return waiting && [waiting.path.points.map(rounded), rounded(waiting.T_map_local)];
   }));
 })();"""
+# A drone in doubt far from the origin, without any map.
+FAR_FROM_THE_MAP = """swiftletPage.model.addPoses(
+  [{segment: 0, tracking: 3, map: [100, 50, 1], local: [0, 0, 0], odom: [0, 0, 0], ranges: [3, 2], storey: 0,
+    utime_us: 1, covariance: [0, 0, 0, 0]}], [0, Math.PI]);
+swiftletPage.redraw();"""
 NO_STORAGE = """Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('of the test', 'SecurityError'); }});"""
 BOXES = """return ['#stage', '#notice', '#tools button'].flatMap((what) => [...document.querySelectorAll(what)])
   .map((element) => element.getBoundingClientRect().toJSON());"""
@@ -464,6 +469,27 @@ class PageTest(unittest.TestCase):
         self.js("swiftletPage.player.seek(swiftletPage.model.poses.find((pose) => pose.tracking > 0).utime_us)")
         self.wait_until("!swiftletPage.isStale && swiftletPage.scene.waiting.path !== null")
         self.assertFalse(self.js(f"{waiting} === null"))
+
+    def test_a_daemon_is_not_silent_that_seldom_tells_its_status(self):
+        self.browser.get(self.view("--lcm-url", LCM_URL).url)
+        self.js("swiftletPage.model.begin({generation: 1, map_id: '', title: '', is_recording: false, rate: 1})")
+        for ago_s in (60, 30, 0):
+            self.browser.execute_script(f"""swiftletPage.onMessage({{type: 'status'}});
+              swiftletPage.lastMessage_ms -= {ago_s}e3, swiftletPage.lastStatus_ms -= {ago_s}e3;""")
+        state = "swiftletPage.connectionState()[0]"
+        for silent_s, expected in ((40, "there"), (70, "silent")):
+            self.js(f"swiftletPage.lastMessage_ms = performance.now() - {silent_s}e3")
+            self.assertEqual(self.js(state), expected)
+
+    def test_a_view_that_nobody_moved_has_the_drone_and_what_waits_in_sight(self):
+        self.browser.get(self.view("--lcm-url", LCM_URL).url)
+        self.browser.execute_script(FAR_FROM_THE_MAP)
+        self.wait_until("!swiftletPage.isStale")
+        width, height = self.js("swiftletPage.transform.size")
+        places = self.js("swiftletPage.scene.placesToSee(null).map((place) => swiftletPage.transform.toScreen(place))")
+        self.assertEqual(len(places), 5)
+        for x, y in places:
+            self.assertTrue(0 < x < width and 0 < y < height, places)
 
     def test_a_screen_of_another_pixel_ratio_gets_a_canvas_of_its_own(self):
         self.set_screen(1200, 800)

@@ -83,7 +83,7 @@ struct BackendConfig {
       {"drop_scale", &BackendConfig::drop_scale, "",
        "closures scaled below this at the end of a run are dropped", 0, 0.99},
       {"optimizer_iterations", &BackendConfig::optimizer_iterations, "",
-       "Gauss-Newton steps at most; while flying never more than 4 a keyframe", 1, 1000},
+       "Gauss-Newton steps of one solution at most; while flying 4 a keyframe, but for trials", 1, 1000},
       {"refine", &BackendConfig::refine, "",
        "false: poses between keyframes stay interpolated, while flying and at the end"},
       {"refine_online", &BackendConfig::refine_online, "", "false: poses are refined at the end only"},

@@ -245,11 +245,13 @@ void LoopCloser::stop_searching() {
   proposed_.clear();
 }
 
+/// Those of a place that ends a doubt are older than what tracking closed meanwhile.
 void LoopCloser::note_contact(KeyframeId query, const PoseGraph& graph) {
   const double here_m = chain_->path_m(query);
   if (!contact_ || here_m - contact_->newest_m > config_->tuning.confidence.old_after_m)
     contact_ = {query, graph.T_map_keyframe[query], here_m};
-  contact_->newest_m = here_m;
+  if (query < contact_->since) contact_ = {query, graph.T_map_keyframe[query], contact_->newest_m};
+  contact_->newest_m = std::max(contact_->newest_m, here_m);
 }
 
 std::optional<LoopCloser::Contact> LoopCloser::contact_that_moved(const PoseGraph& graph) const {

@@ -141,7 +141,7 @@ class LoopCloser {
   std::optional<Contact> contact_;            // the newest
   std::optional<KeyframeId> unplaced_since_;  // motion to there is not known, and no place is decided
   UnplacedBy unplaced_by_ = UnplacedBy::kRestart;
-  std::optional<KeyframeId> unjoined_since_;  // the newest break, until a place joins what lies around it
+  std::optional<KeyframeId> unjoined_since_;  // the newest break, until a place is accepted behind it
   bool place_is_refused_ = false;             // by the graph, since the newest query
   std::optional<Provisional> provisional_;
   std::optional<KeyframeId> suspended_since_;  // a doubt that ended without a place: its unplaced_since_ ...

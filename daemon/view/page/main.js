@@ -3,6 +3,7 @@
 
 // Puts the parts of the page together.
 
+import {boundsWith} from "./bounds.js";
 import {Connection} from "./connection.js";
 import {EventLog} from "./event_log.js";
 import {connectKeys} from "./keys.js";
@@ -20,6 +21,7 @@ import {Timeline} from "./timeline.js";
 import {ViewTransform} from "./view_transform.js";
 
 const SILENT_AFTER_ms = 4000;
+const SILENT_AFTER_PERIODS = 2;  // of status messages: where nothing is flown no other come
 const NARROW_px = 760;
 const FREE_px = [48, 28, 60, 48];  // left, top, right, bottom: what lies over the map
 const byId = (id) => document.getElementById(id);
@@ -51,6 +53,8 @@ class Page {
     this.measure = null;      // {points} while measuring
     this.isConnected = false;
     this.lastMessage_ms = 0;
+    this.lastStatus_ms = 0;
+    this.statusPeriod_ms = 0; // between the newest two of a run
     this.frames = 0;          // drawn so far
     this.isSynced = false;
     this.hasEnded = false;    // swiftletd has, whatever moment is looked at
@@ -82,7 +86,7 @@ class Page {
     this.isSynced = message.type === "synced";
     const handlers = {
       run: () => this.beginRun(message),
-      status: () => this.model.status = message,
+      status: () => this.takeStatus(message),
       poses: () => this.model.addPoses(message.poses, message.bearings),
       walls: () => this.model.walls = message.walls,
       closures: () => this.model.addClosures(message.closures),
@@ -93,6 +97,13 @@ class Page {
     };
     handlers[message.type]?.();
     this.redraw();
+  }
+
+  takeStatus(status) {
+    const now_ms = performance.now();
+    this.statusPeriod_ms = this.model.status ? now_ms - this.lastStatus_ms : 0;
+    this.lastStatus_ms = now_ms;
+    this.model.status = status;
   }
 
   beginRun(run) {
@@ -247,7 +258,8 @@ class Page {
     if (this.isFollowing && pose) this.transform.center = pose.map.slice(0, 2);
     if (this.isHeadingUp && pose) this.transform.up_rad = pose.map[2];
     if (!this.isFitted) return;
-    const bounds = this.tileMap.bounds(this.model.resolution_m);
+    const map = this.tileMap.bounds(this.model.resolution_m);
+    const bounds = this.scene.placesToSee(this.player.at_us).reduce(boundsWith, map);
     if (bounds) this.transform.fit(bounds, FREE_px);
   }
 
@@ -267,8 +279,13 @@ class Page {
       return ["lost", `swiftletd has ended: the map is ${this.isFinal && this.isSynced ? "" : "not "}final`];
     if (!this.isConnected) return ["lost", "Connection lost: trying again"];
     if (this.model.run.generation === 0) return ["waiting", "Waiting for swiftletd"];
-    if (isLive && !hasEnded && performance.now() - this.lastMessage_ms > SILENT_AFTER_ms) return ["silent", "swiftletd is silent"];
+    if (isLive && !hasEnded && this.isSilent()) return ["silent", "swiftletd is silent"];
     return ["there", ""];
+  }
+
+  isSilent() {
+    const patience_ms = Math.max(SILENT_AFTER_ms, SILENT_AFTER_PERIODS * this.statusPeriod_ms);
+    return performance.now() - this.lastMessage_ms > patience_ms;
   }
 }
 

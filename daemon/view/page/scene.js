@@ -56,9 +56,21 @@ export class Scene {
       left < x + reach_m && left + side > x - reach_m && bottom < y + reach_m && bottom + side > y - reach_m);
   }
 
+  /// The final map has all.
+  doesAnythingWait(at_us) {
+    return this.model.status?.state !== FINISHED || (at_us ?? Infinity) < this.model.newest_us;
+  }
+
+  /// In metres: the drone, and around what the map does not show yet.
+  placesToSee(at_us) {
+    const index = this.model.indexAt(at_us);
+    if (index < 0 || this.model.poses[index].storey !== this.model.storey) return [];
+    const waiting = this.doesAnythingWait(at_us) ? this.waiting.cornersAt(index) : [];
+    return [this.model.poses[index].map, ...waiting];
+  }
+
   drawWaiting({context, transform, colours, at_us}) {
-    const isFinal = this.model.status?.state === FINISHED && (at_us ?? Infinity) >= this.model.newest_us;
-    const waiting = isFinal ? null : this.waiting.at(this.model.indexAt(at_us));
+    const waiting = this.doesAnythingWait(at_us) ? this.waiting.at(this.model.indexAt(at_us)) : null;
     if (waiting === null) return;
     const [x, y, yaw] = waiting.T_map_local;
     context.save();

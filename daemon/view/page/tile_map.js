@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
+import {boundsWith} from "./bounds.js";
 import {TILE_CELLS} from "./messages.js";
 
 const CHUNK_TILES = 8;  // along a side: a canvas of 512 pixels
@@ -78,15 +79,14 @@ export class TileMap {
 
   /// The rectangle around all known cells in metres; null: there are none.
   bounds(resolution_m) {
-    let [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+    let bounds = null;
     for (const tile of this.tiles.values()) {
       const cells = (tile.knownCells ??= knownCells(tile));
-      if (cells === null) continue;
-      low = [Math.min(low[0], cells.low[0]), Math.min(low[1], cells.low[1])];
-      high = [Math.max(high[0], cells.high[0]), Math.max(high[1], cells.high[1])];
+      if (cells !== null) bounds = boundsWith(boundsWith(bounds, cells.low), cells.high);
     }
-    if (low[0] === Infinity) return null;
-    return {low: low.map((cell) => cell * resolution_m), high: high.map((cell) => cell * resolution_m)};
+    if (bounds === null) return null;
+    const inMetres = (corner) => corner.map((cell) => cell * resolution_m);
+    return {low: inMetres(bounds.low), high: inMetres(bounds.high)};
   }
 
   /// Percent at a place in metres, -1 where nothing is known.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 
+import {boundsWith} from "./bounds.js";
+
 const GOOD = 0;  // `tracking` of a pose, as in pose_t
 
 /// What was measured since the drone's place is in doubt, which the map does not show until it is known. Kept in frame
@@ -8,22 +10,38 @@ const GOOD = 0;  // `tracking` of a pose, as in pose_t
 export class WaitingReturns {
   constructor(model) {
     this.model = model;
-    [this.first, this.end, this.path, this.ofPoses] = [null, 0, null, -1];
+    [this.first, this.end, this.path, this.bounds, this.ofPoses] = [null, 0, null, null, -1];
   }
 
-  /// {path, T_map_local} at the pose of that index: a dot of no size for each return, in metres; null: nothing waits.
+  /// {path, bounds, T_map_local} at the pose of that index: a dot of no size for each return, in metres, and the
+  /// rectangle in frame local that holds these and the poses; null: nothing waits.
   at(index) {
     const {poses, posesVersion} = this.model;
     const begin = firstWaiting(poses, index);
     if (begin > index) return null;
     if (poses[begin] !== this.first || posesVersion !== this.ofPoses || this.end > index + 1)
-      [this.first, this.end, this.path, this.ofPoses] = [poses[begin], begin, new Path2D(), posesVersion];
-    for (; this.end <= index; ++this.end)
-      for (const [x, y] of this.model.hitsOf(poses[this.end], "local")) {
-        this.path.moveTo(x, y);
-        this.path.lineTo(x, y);
-      }
-    return {path: this.path, T_map_local: mapFromLocal(poses[index])};
+      [this.first, this.end, this.path, this.bounds, this.ofPoses] =
+        [poses[begin], begin, new Path2D(), null, posesVersion];
+    for (; this.end <= index; ++this.end) this.add(poses[this.end]);
+    return {path: this.path, bounds: this.bounds, T_map_local: mapFromLocal(poses[index])};
+  }
+
+  add(pose) {
+    this.bounds = boundsWith(this.bounds, pose.local);
+    for (const [x, y] of this.model.hitsOf(pose, "local")) {
+      this.path.moveTo(x, y);
+      this.path.lineTo(x, y);
+      this.bounds = boundsWith(this.bounds, [x, y]);
+    }
+  }
+
+  /// The corners of that rectangle in frame map; none: nothing waits.
+  cornersAt(index) {
+    const waiting = this.at(index);
+    if (waiting === null) return [];
+    const {bounds: {low, high}, T_map_local: [x, y, yaw]} = waiting;
+    const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    return [low, high, [low[0], high[1]], [high[0], low[1]]].map(([dx, dy]) => [x + c * dx - s * dy, y + s * dx + c * dy]);
   }
 }
 
