@@ -131,6 +131,14 @@ TEST(HeadingLeaps, NothingIsKnownOfDeadReckoningThatBeginsAnew) {
   EXPECT_EQ(mending.samples[5].T_odom_body.vector(), samples[5].T_odom_body.vector());
 }
 
+TEST(HeadingLeaps, WhatIsHeldBackIsNotGivenBackToDeadReckoningThatBeginsAnew) {
+  std::vector<RangeSample> samples = flown({0, 0, 90, 0, 0});
+  samples[4].starts_segment = true;
+  const MendedFlight mending = flown_without_leaps(samples);
+  EXPECT_NEAR(mending.samples[3].T_odom_body.yaw_rad(), 0.0, 1e-9) << "held back";
+  EXPECT_EQ(mending.samples[5].T_odom_body.vector(), samples[5].T_odom_body.vector());
+}
+
 TEST(HeadingLeaps, GivesBackWhatWasReported) {
   std::vector<RangeSample> reported = flown({0, 20, 0, 0, 15, 15, 15, 0, 0, 0, 40, 0, 0, 0, -25, 0});
   reported[13].starts_segment = true;

@@ -89,6 +89,17 @@ TEST(PoseCovariances, TheSurroundingsLieOnTheSameStorey) {
   EXPECT_LT(P.from_surroundings.xx, (tuning.near_m + 0.5) * tuning.slip_along_m2_per_m + 0.01);
 }
 
+TEST(PoseCovariances, LieAlongTheAxesOfAMapThatIsTurned) {
+  const StoredRun run = flight(10.0, 0.0);
+  PoseGraph graph = graph_of(run);
+  const Covariance3 before = newest_pose_covariances(graph, run.chain(), {}).from_start;
+  for (Pose2& T_map : graph.T_map_keyframe.values()) T_map = Pose2(0.0, 0.0, kPi / 2.0) * T_map;
+  const Covariance3 turned = newest_pose_covariances(graph, run.chain(), {}).from_start;
+  EXPECT_NEAR(turned.xx, before.yy, 1e-9);
+  EXPECT_NEAR(turned.yy, before.xx, 1e-9);
+  EXPECT_NEAR(turned.x_yaw, -before.y_yaw, 1e-9);
+}
+
 TEST(PoseConfidence, IsCarriedOnAlongTheAxesOfTheMap) {
   PoseConfidence confidence;
   confidence.T_local_keyframe = Pose2(5.0, 0.0, 0.0);

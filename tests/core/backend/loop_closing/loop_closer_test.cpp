@@ -382,6 +382,18 @@ TEST(LoopCloser, APlaceThatTrackingHadAllTheTimeAddsNoClosureTwice) {
     EXPECT_TRUE(joined.insert({closure.from, closure.to}).second);
 }
 
+TEST(LoopCloser, APlaceThatEndsADoubtIsTakenBackAsAWhole) {
+  const TestVehicle vehicle = two_laps(0.0);
+  FlownLoops flown(vehicle);
+  flown.feed_metres(30.0);
+  ASSERT_TRUE(flown.loops().closures().empty());
+  flown.doubt_newest_motion();
+  flown.feed_until_placed();
+  ASSERT_FALSE(flown.loops().closures().empty());
+  flown.drop_contact();
+  EXPECT_THAT(flown.loops().closures().values(), Each(kIsDropped));
+}
+
 TEST(LoopCloser, AContactThatMovedNothingIsNotAtFault) {
   const TestVehicle vehicle = two_laps(0.0);
   FlownLoops flown(vehicle);

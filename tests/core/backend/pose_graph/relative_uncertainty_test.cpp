@@ -163,6 +163,15 @@ TEST(RelativeCovariances, AHeadingTellsNothingOfThoseWithoutOne) {
   for (std::size_t k = 0; k < with.size(); ++k) EXPECT_EQ(with.values()[k], without.values()[k]);
 }
 
+TEST(RelativeCovariances, HeadingsTellNoMoreThanTheWayToTheFirstOfThem) {
+  PoseGraph graph;
+  graph.T_map_keyframe.push_back(Pose2());
+  for (int i = 0; i < 2; ++i)
+    add_step(graph, Pose2(0.5, 0.0, 0.0), Eigen::Vector3d(1e-4, 1e-4, 1e-3).asDiagonal());
+  for (const KeyframeId known : {KeyframeId{1}, KeyframeId{2}}) graph.headings.push_back({known, 0.0, 1e9});
+  EXPECT_GT(relative_covariances(graph, KeyframeId{0})[KeyframeId{2}](2, 2), 0.5e-3);
+}
+
 TEST(RelativeCovariances, DisbelievedHeadingsTellNothing) {
   std::mt19937 random(66);
   PoseGraph graph = random_chain(random, 30);
