@@ -27,7 +27,6 @@ constexpr const char* kDefaultHost = "127.0.0.1";
 constexpr const char* kDefaultPort = "7700";
 constexpr std::chrono::seconds kLookEvery{5};
 constexpr int kConnectMs = 200;
-constexpr int kAnswerMs = 500;
 
 class Socket {
  public:
@@ -64,7 +63,7 @@ bool is_connected(int socket, const addrinfo& to) {
 }
 
 /// As LCM greets, which would wait for the answer for ever: with a word of its own, then the version.
-bool is_greeted(int socket) {
+bool is_greeted(int socket, Duration patience) {
   constexpr std::array<std::uint8_t, 8> kGreeting{0x28, 0x76, 0x17, 0xFB, 0, 0, 1, 0};
   constexpr std::array<std::uint8_t, 4> kExpected{0x28, 0x76, 0x17, 0xFA};
   constexpr int kWholeAnswer = kGreeting.size();
@@ -73,13 +72,14 @@ bool is_greeted(int socket) {
     return false;
   pollfd answer{.fd = socket, .events = POLLIN, .revents = 0};
   std::array<std::uint8_t, kWholeAnswer> bytes{};
-  return ::poll(&answer, 1, kAnswerMs) == 1 &&
+  const auto patience_ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
+  return ::poll(&answer, 1, static_cast<int>(patience_ms)) == 1 &&
          ::recv(socket, bytes.data(), bytes.size(), 0) == std::ssize(bytes) &&
          std::equal(kExpected.begin(), kExpected.end(), bytes.begin());
 }
 
 /// The numeric URL of a server that answers there.
-std::optional<std::string> find_server(const std::string& host, const std::string& port) {
+std::optional<std::string> find_server(const std::string& host, const std::string& port, Duration patience) {
   const addrinfo wanted{.ai_flags = 0,
                         .ai_family = AF_INET,
                         .ai_socktype = SOCK_STREAM,
@@ -92,7 +92,7 @@ std::optional<std::string> find_server(const std::string& host, const std::strin
   if (::getaddrinfo(host.c_str(), port.c_str(), &wanted, &found) != 0) return std::nullopt;
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, ::freeaddrinfo);
   const Socket socket(SOCK_STREAM | SOCK_NONBLOCK);
-  if (!is_connected(socket.file(), *address) || !is_greeted(socket.file())) return std::nullopt;
+  if (!is_connected(socket.file(), *address) || !is_greeted(socket.file(), patience)) return std::nullopt;
   return lcm_server_url(*reinterpret_cast<const sockaddr_in*>(address->ai_addr));
 }
 
@@ -114,18 +114,18 @@ std::string lcm_server_url(const sockaddr_in& address) {
   return std::string(kServer) + host.data() + ":" + std::to_string(ntohs(address.sin_port));
 }
 
-std::optional<LcmServer> LcmServer::of_url(const std::string& url) {
+std::optional<LcmServer> LcmServer::of_url(const std::string& url, Duration patience) {
   const auto place = place_in(url);
   if (!place) return std::nullopt;
   return LcmServer(place->first.empty() ? kDefaultHost : place->first,
-                   place->second.empty() ? kDefaultPort : place->second);
+                   place->second.empty() ? kDefaultPort : place->second, patience);
 }
 
 bool LcmServer::is_there() {
   const auto now = steady_clock::now();
   if (!is_there_ && !look_.valid() && now >= next_look_) {
     next_look_ = now + kLookEvery;
-    look_ = std::async(std::launch::async, &find_server, host_, port_);
+    look_ = std::async(std::launch::async, &find_server, host_, port_, patience_);
   }
   if (look_.valid() && look_.wait_for(0s) == std::future_status::ready) {
     const std::optional<std::string> found = look_.get();

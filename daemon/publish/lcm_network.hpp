@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "core/base/time.hpp"
+
 namespace swiftlet {
 
 // What is known of the network before LCM is asked, which reports every failure in several lines on stderr.
@@ -24,12 +26,13 @@ namespace swiftlet {
 /// time. The destructor waits for a look that goes on. One thread at a time.
 class LcmServer {
  public:
-  /// nullopt for other URLs.
-  [[nodiscard]] static std::optional<LcmServer> of_url(const std::string& url);
+  /// nullopt for other URLs. A look waits for the server's answer for `patience` at most.
+  [[nodiscard]] static std::optional<LcmServer> of_url(const std::string& url, Duration patience);
 
   /// Whether it answered as LCM's server at the last look. While it did not, a look begins every 5 s.
   [[nodiscard]] bool is_there();
-  /// Until a look that is_there() began is over: 0.7 s at most, beside the time in which a name is resolved.
+  /// Until a look that is_there() began is over: its patience and 0.2 s at most, beside the time in which a
+  /// name is resolved.
   void wait_for_look() const;
   /// It has gone: the next look is due.
   void mark_lost() { is_there_ = false; }
@@ -37,10 +40,12 @@ class LcmServer {
   [[nodiscard]] const std::string& numeric_url() const { return numeric_url_; }
 
  private:
-  LcmServer(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
+  LcmServer(std::string host, std::string port, Duration patience)
+      : host_(std::move(host)), port_(std::move(port)), patience_(patience) {}
 
   std::string host_;
   std::string port_;
+  Duration patience_;
   std::string numeric_url_;
   bool is_there_ = false;
   std::chrono::steady_clock::time_point next_look_{};

@@ -55,8 +55,8 @@ struct LcmTransport::State {
     }
   };
 
-  State(const std::string& of_url, std::string file)
-      : url(of_url), server(LcmServer::of_url(of_url)), log(std::move(file)) {}
+  State(const std::string& of_url, Duration patience, std::string file)
+      : url(of_url), server(LcmServer::of_url(of_url, patience)), log(std::move(file)) {}
 
   /// nullptr while the server of tcpq:// is absent, or LCM cannot use the URL.
   lcm::LCM* connected() {
@@ -90,7 +90,7 @@ struct LcmTransport::State {
   std::uintmax_t log_bytes = 0;  // that it has when all of it is on the disk
 };
 
-Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url) {
+Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url, Duration patience) {
   const Result<LcmUrl> parsed = parse_lcm_url(url);
   if (!parsed) return parsed.error();
   const bool is_multicast = parsed->provider == LcmUrl::Provider::kMulticast;
@@ -98,7 +98,7 @@ Result<std::unique_ptr<LcmTransport>> LcmTransport::open(const std::string& url)
     return Error{ErrorCode::kInvalidInput,
                  "LCM URL \"" + url + "\": no route to " + parsed->group +
                      " on this machine's network; keep it within the machine: " + kRouteOverLoopback};
-  auto state = std::make_unique<State>(url, parsed->file);
+  auto state = std::make_unique<State>(url, patience, parsed->file);
   if (state->server && !state->server->is_there()) state->server->wait_for_look();
   if (state->connected() == nullptr && !state->server)
     return Error{ErrorCode::kInvalidInput, "LCM URL \"" + url + "\": LCM could not open it" +

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,8 +29,9 @@ class LcmTransport {
   using Listener = std::function<void(std::span<const std::uint8_t>)>;
 
   /// kInvalidInput when LCM cannot use `url` (udpm://, file://, tcpq:// or memq://), or there is no route to
-  /// its multicast group.
-  [[nodiscard]] static Result<std::unique_ptr<LcmTransport>> open(const std::string& url);
+  /// its multicast group. A server that does not answer within `patience` counts as absent.
+  [[nodiscard]] static Result<std::unique_ptr<LcmTransport>> open(
+      const std::string& url, Duration patience = std::chrono::milliseconds(500));
   ~LcmTransport();
   LcmTransport(const LcmTransport&) = delete;
   LcmTransport& operator=(const LcmTransport&) = delete;

@@ -77,14 +77,19 @@ TEST(Daemon, AConsumerHoldsTheDaemonsOwnMapAtTheEnd) {
 }
 
 TEST(Daemon, ItsThreadsCarryTheirNames) {
-  ScriptedSampleSource source(flight_in_square_room(50, 2.5, 1.5));
+  ScriptedSampleSource source(flight_in_square_room(15'000, 2.5, 1.5));  // lasts half a minute
   SteadyClock clock;
   RecordingPublisher publisher;
+  const auto has_all = testing::IsSupersetOf({"radio", "frontend", "backend", "publisher"});
+  std::stop_source stop;
   std::set<std::string> seen;
-  publisher.on_pose = [&seen] { seen.merge(thread_names()); };
+  publisher.on_pose = [&] {
+    seen.merge(thread_names());
+    if (testing::Value(seen, has_all)) stop.request_stop();
+  };
   Daemon daemon(Configuration{}, source, clock, {.rate = 50.0}, publisher);
-  ASSERT_TRUE(daemon.run(std::stop_token{}));
-  EXPECT_THAT(seen, testing::IsSupersetOf({"radio", "frontend", "backend", "publisher"}));
+  ASSERT_TRUE(daemon.run(stop.get_token()));
+  EXPECT_THAT(seen, has_all);
 }
 
 TEST(Daemon, WhenToldToStopWorksOffWhatItHasAndPublishesTheMap) {
@@ -98,7 +103,7 @@ TEST(Daemon, WhenToldToStopWorksOffWhatItHasAndPublishesTheMap) {
   Daemon daemon(Configuration{}, source, clock, {.rate = 100.0}, publisher);
   ASSERT_TRUE(daemon.run(stop.get_token()));
   EXPECT_GE(daemon.pipeline().backend().counters().scans, 20U);
-  EXPECT_LT(daemon.pipeline().backend().counters().scans, 1000U);
+  EXPECT_LT(daemon.pipeline().backend().counters().scans, 100'000U) << "the whole flight";
   EXPECT_EQ(publisher.statuses.back().state, DaemonState::kFinished);
   for (const TileIndex index : daemon.pipeline().map().tiles()) EXPECT_TRUE(publisher.newest.contains(index));
 }

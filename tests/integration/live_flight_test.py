@@ -6,13 +6,16 @@
 live_flight_test.py CASE SWIFTLETD SWIFTLET. CASE is the name of one of the functions below.
 """
 
+import os
+import re
 import signal
+import socket
 import subprocess
 import sys
 import time
 
 from flight_bench import run_case
-from simulation import RegisteringDoor, expect
+from simulation import PATIENCE_S, RegisteringDoor, expect
 
 
 def longest_hole_s(stamps):
@@ -109,12 +112,23 @@ def a_recording_is_followed_while_it_is_written(bench):
     flight = bench.flight(vehicle.port)
     flight.wait_for("connected to the vehicle")
     out = bench.folder / "followed"
+    notices = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    notices.bind(str(bench.folder / "notices"))
+    notices.settimeout(PATIENCE_S)
     follower = subprocess.Popen([bench.swiftletd, "--input", f"follow:{flight.recording}", "--lcm-url", "memq://",
-                                 "-o", str(out)], stderr=subprocess.PIPE, text=True)
-    time.sleep(8.0)
+                                 "-o", str(out)], stderr=subprocess.PIPE, text=True,
+                                env=dict(os.environ, NOTIFY_SOCKET=notices.getsockname()))
+
+    def samples_followed():
+        told = re.match(rb"STATUS=(\d+) samples", notices.recv(4096))
+        return int(told[1]) if told else 0
+
+    while samples_followed() <= 60:
+        pass
     _, stamps = flight.land()
     vehicle.end()
-    time.sleep(1.0)
+    while samples_followed() < len(stamps):
+        pass
     expect(follower.poll() is None, "the follower ended by itself")
     follower.send_signal(signal.SIGTERM)
     said = follower.communicate(timeout=60)[1]

@@ -88,8 +88,9 @@ TEST(CalibrationFindings, WhatTheFrontendLearnsOfWheelsIsLeftToIt) {
 TEST(CalibrationFindings, WithoutWallsNothingIsObservable) {
   JointEstimate estimate = sharp_estimate();
   estimate.returns_on_them = 20;
-  for (const CalibrationFinding& finding :
-       judge_estimate(estimate, long_flight(), SensorModel::crazyflie())) {
+  const CalibrationFindings findings = judge_estimate(estimate, long_flight(), SensorModel::crazyflie());
+  ASSERT_FALSE(findings.empty());
+  for (const CalibrationFinding& finding : findings) {
     EXPECT_EQ(finding.verdict, Verdict::kNotObservable) << finding.setting;
     EXPECT_THAT(finding.reason, HasSubstr("only 20 returns"));
   }

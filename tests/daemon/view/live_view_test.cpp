@@ -30,12 +30,15 @@ class LiveViewTest : public testing::Test {
         LiveView::open({.host = "127.0.0.1", .port = 0}, {.title = "test"}, "T_");
     ASSERT_TRUE(opened) << opened.error().message;
     view_ = std::move(opened).value();
-    publisher_ = make_message_publisher(
+    publisher_ = publisher_on("T_");
+  }
+  std::unique_ptr<Publisher> publisher_on(const std::string& channel_prefix) {
+    return make_message_publisher(
         [this](const std::string& channel, std::span<const std::uint8_t> message) {
           view_->take(channel, message);
           return true;
         },
-        "T_", 5);
+        channel_prefix, 5);
   }
   template <typename Condition>
   void wait_until(Condition holds) {
@@ -69,11 +72,13 @@ TEST_F(LiveViewTest, WhatIsPublishedIsInTheRunThatIsShown) {
 }
 
 TEST_F(LiveViewTest, MessagesOfOtherChannelsAreNotTaken) {
-  view_->take("OTHER_POSE", {});
+  publisher_on("U_")->publish_tile(HostTime{}, uniform_tile({3, 4}, 1, 40), 0.05);
   view_->take("T_NONSENSE", {});
   view_->take("T", {});
   publisher_->publish_tile(HostTime{}, uniform_tile({1, 2}, 1, 40), 0.05);
-  wait_until([](const RunHistory& history) { return history.tiles().size() == 1; });
+  wait_until([](const RunHistory& history) { return history.tiles().contains({1, 2}); });
+  const std::lock_guard lock(view_->shared().mutex);
+  EXPECT_EQ(view_->shared().history.tiles().size(), 1U);
 }
 
 TEST_F(LiveViewTest, APublisherIsNotHeldUpByAViewThatIsStuck) {

@@ -36,7 +36,7 @@ std::unique_ptr<UdpLink> open_link(std::uint16_t port, LinkClock& clock) {
   return std::move(link).value();
 }
 
-/// A link in stopped time, which therefore must never wait, and its peer.
+/// A link in time that passes only while it waits, and its peer.
 struct Pair {
   UdpPeer peer;
   ManualLinkClock clock;
@@ -197,14 +197,16 @@ TEST(UdpLink, StampsAFrameWithItsTimeOfArrivalHoweverLateItIsRead) {
   const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
   EXPECT_FALSE(link->receive(Duration::zero()).ok());
   EXPECT_TRUE(peer.receive(kPatienceMs).has_value());
-  std::this_thread::sleep_for(milliseconds(60));  // the kernel may take a while until it stamps what comes
-  peer.send(hex("52 01 00 00 00"));
-  const HostTime said_at = clock.now();
-  std::this_thread::sleep_for(milliseconds(60));
-  const Result<LinkFrame> frame = link->receive(milliseconds(kPatienceMs));
-  ASSERT_TRUE(frame.ok());
-  EXPECT_GE(clock.now() - frame->at, milliseconds(50));
-  EXPECT_LT(frame->at - said_at, milliseconds(10));
+  bool is_stamped = false;  // the kernel may take a while until it stamps what comes
+  for (int i = 0; i < 500 && !is_stamped; ++i) {
+    peer.send(hex("52 01 00 00 00"));
+    const HostTime said_at = clock.now();
+    std::this_thread::sleep_for(milliseconds(60));
+    const Result<LinkFrame> frame = link->receive(milliseconds(kPatienceMs));
+    ASSERT_TRUE(frame.ok());
+    is_stamped = clock.now() - frame->at >= milliseconds(50) && frame->at - said_at < milliseconds(10);
+  }
+  EXPECT_TRUE(is_stamped);
 }
 
 TEST(UdpLink, IsSilentAfterASecondWithoutADatagramAndReconnects) {
@@ -295,15 +297,10 @@ TEST(UdpLink, WakesWhenADatagramArrives) {
 }
 
 TEST(UdpLink, KeepsTheVehicleConnectedWithinOneLongReceive) {
-  SystemLinkClock clock;
-  UdpPeer peer;
-  const std::unique_ptr<UdpLink> link = open_link(peer.port(), clock);
-  EXPECT_FALSE(link->receive(Duration::zero()).ok());
-  EXPECT_EQ(peer.receive(kPatienceMs), kRegistration);
-  EXPECT_EQ(peer.receive(kPatienceMs), kNull);
-  peer.send(hex("f3"));
-  EXPECT_FALSE(link->receive(milliseconds(350)).ok());
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(peer.receive(kPatienceMs), kNull);
+  Pair pair;
+  pair.connect();
+  EXPECT_FALSE(pair.link->receive(milliseconds(350)).ok());
+  EXPECT_THAT(pair.received(3), ElementsAre(kNull, kNull, kNull));
 }
 
 TEST(UdpLink, TakesTheIpv4AddressOfANameWithBoth) {

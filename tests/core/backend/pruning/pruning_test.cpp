@@ -150,6 +150,7 @@ TEST(Pruning, TakesWholeTraversalsAndNoMoreThanAskedFor) {
 
 TEST(Pruning, AnchorsAreNearFromAnotherTimeAndStay) {
   const Pruning all = plan(ten_laps(), 1'000'000);
+  ASSERT_FALSE(all.empty());
   for (const PrunedTraversal& traversal : all.traversals) {
     EXPECT_FALSE(all.keyframes.contains(traversal.anchor));
     const KeyframeId first = traversal.keyframes.first;
