@@ -64,13 +64,16 @@ inline constexpr std::size_t kMaxLogBytes = 26;
 inline constexpr std::uint8_t kMaxLogBlocks = 16;
 inline constexpr std::uint8_t kMaxLogVariables = 128;
 
+/// Of a header: port and channel. Radios overwrite the others, the link bits.
+inline constexpr std::uint8_t kTopicBits = 0xF3;
+
 /// As clients send it: the link bits set, which old boot loaders insist on.
 constexpr std::uint8_t crtp_header(CrtpTopic topic) {
   return static_cast<std::uint8_t>((topic.port << 4) | 0x0C | topic.channel);
 }
-/// Whether a packet is on that port and channel. The link bits are ignored: radios overwrite them.
+/// Whether a packet is on that port and channel.
 constexpr bool is_on(std::span<const std::uint8_t> packet, CrtpTopic topic) {
-  return !packet.empty() && (packet[0] & 0xF3) == (crtp_header(topic) & 0xF3);
+  return !packet.empty() && (packet[0] & kTopicBits) == (crtp_header(topic) & kTopicBits);
 }
 /// Precondition: at most 30 data bytes.
 constexpr CrtpPacket make_crtp_packet(CrtpTopic topic, std::initializer_list<std::uint8_t> data) {

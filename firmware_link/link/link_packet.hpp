@@ -15,7 +15,7 @@ namespace swiftlet {
 
 /// A packet without content: a poll, or the answer of a vehicle that has nothing to send.
 constexpr bool is_null_packet(std::span<const std::uint8_t> packet) {
-  return !packet.empty() && (packet[0] & 0xF3) == 0xF3;
+  return !packet.empty() && (packet[0] & kTopicBits) == kTopicBits;
 }
 
 /// Whether it is neither a null packet nor longer than a packet can be.
@@ -25,7 +25,7 @@ constexpr bool has_content(std::span<const std::uint8_t> packet) {
 
 /// Whether both are the same packet, apart from the link bits.
 constexpr bool is_same_packet(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  return !a.empty() && a.size() == b.size() && ((a[0] ^ b[0]) & 0xF3) == 0 &&
+  return !a.empty() && a.size() == b.size() && ((a[0] ^ b[0]) & kTopicBits) == 0 &&
          std::ranges::equal(a.subspan(1), b.subspan(1));
 }
 

@@ -3,7 +3,6 @@
 #include "firmware_link/link/radio_scan.hpp"
 
 #include <array>
-#include <utility>
 
 #include "firmware_link/link/crazyradio.hpp"
 

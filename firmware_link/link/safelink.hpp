@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "firmware_link/crtp/crtp_packet.hpp"
+
 namespace swiftlet {
 
 /// Switches safelink of the vehicle's radio on or off, which keeps it until the next request, whoever sends
@@ -16,7 +18,7 @@ constexpr std::array<std::uint8_t, 3> safelink_request(bool on) {
 
 /// Whether an acknowledgement's payload confirms safelink_request(on). The link bits are ignored.
 constexpr bool is_safelink_echo(std::span<const std::uint8_t> payload, bool on) {
-  return payload.size() == 3 && (payload[0] & 0xF3) == 0xF3 && payload[1] == 0x05 &&
+  return payload.size() == 3 && (payload[0] & kTopicBits) == kTopicBits && payload[1] == 0x05 &&
          payload[2] == safelink_request(on)[2];
 }
 
@@ -32,7 +34,7 @@ class Safelink {
   /// The header with which a packet is sent. The same until acknowledged(): an unacknowledged packet is to be
   /// sent again unchanged.
   [[nodiscard]] constexpr std::uint8_t header(std::uint8_t header) const {
-    return static_cast<std::uint8_t>((header & 0xF3) | (up_ << 3) | (down_ << 2));
+    return static_cast<std::uint8_t>((header & kTopicBits) | (up_ << 3) | (down_ << 2));
   }
   /// The packet was acknowledged with this payload. Returns what the payload is.
   constexpr Payload acknowledged(std::span<const std::uint8_t> payload) {

@@ -53,7 +53,6 @@ class PendingRequest {
   [[nodiscard]] const RepeatTimer& timer() const { return timer_; }
 
  private:
-  static constexpr unsigned kTopicBits = 0xF3;  ///< of a packet's header: port and channel
   std::optional<CrtpPacket> packet_;
   int patience_ = 1;
   std::optional<HostTime> sent_at_;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/sharing/client_traffic.hpp"
 
+#include "firmware_link/crtp/crtp_packet.hpp"
 #include "firmware_link/link/link_packet.hpp"
 
 namespace swiftlet {
@@ -10,7 +11,6 @@ namespace {
 constexpr std::uint8_t kSetpointPort = 3;
 constexpr std::uint8_t kGenericSetpointPort = 7;
 constexpr std::uint8_t kHighLevelPort = 8;
-constexpr unsigned kPortAndChannel = 0xF3;  // of a header; the other bits are the link's
 
 bool is_reset(std::span<const std::uint8_t> packet) {
   return is_on(packet, kLogControlTopic) && packet.size() > 1 &&
@@ -64,10 +64,10 @@ std::optional<CrtpPacket> ClientTraffic::next_steering(HostTime now) {
 
 /// Whether the oldest is a setpoint that came long ago, and has a newer one behind it.
 bool ClientTraffic::is_overtaken(HostTime now) const {
-  const unsigned header = steering_.front().packet[0] & kPortAndChannel;
+  const unsigned header = steering_.front().packet[0] & kTopicBits;
   if (header >> 4U == kHighLevelPort || now - steering_.front().came_at < kSetpointLife) return false;
   for (std::size_t i = 1; i < steering_.size(); ++i)
-    if ((steering_[i].packet[0] & kPortAndChannel) == header) return true;
+    if ((steering_[i].packet[0] & kTopicBits) == header) return true;
   return false;
 }
 
