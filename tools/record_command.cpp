@@ -13,7 +13,6 @@
 #include <thread>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "core/base/latest_value.hpp"
 #include "core/base/time.hpp"

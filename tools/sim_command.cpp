@@ -9,7 +9,6 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <memory>
 #include <utility>
 
 #include "daemon/system/signal_watcher.hpp"

@@ -11,7 +11,6 @@
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "daemon/system/signal_watcher.hpp"
 #include "daemon/view/view_service.hpp"

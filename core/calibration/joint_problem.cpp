@@ -3,7 +3,6 @@
 #include "core/calibration/joint_problem.hpp"
 
 #include <Eigen/LU>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <utility>

@@ -3,7 +3,6 @@
 #include "core/calibration/systematic_prior.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
 
 namespace swiftlet {
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "daemon/publish/decoded_message.hpp"
 #include "swiftlet/command_t.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "daemon/manual/manual_page.hpp"
 #include "daemon/manual/shell_completion.hpp"

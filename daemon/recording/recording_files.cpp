@@ -3,7 +3,6 @@
 #include "daemon/recording/recording_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <optional>

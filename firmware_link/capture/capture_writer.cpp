@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <chrono>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "core/base/check.hpp"

@@ -2,11 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/simulation/building_generator.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include "firmware_link/simulation/building_flight.hpp"
 #include "firmware_link/simulation/building_kinds.hpp"

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/simulation/console.hpp"
 
-#include <algorithm>
 #include <string>
 
 namespace swiftlet {

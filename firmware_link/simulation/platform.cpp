@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/simulation/platform.hpp"
 
-#include <string_view>
-
 namespace swiftlet {
 namespace {
 

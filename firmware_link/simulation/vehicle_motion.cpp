@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "firmware_link/simulation/vehicle_motion.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace swiftlet {

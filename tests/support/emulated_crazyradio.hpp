@@ -69,7 +69,7 @@ class EmulatedCrazyradio {
   [[nodiscard]] bool is_plugged_in() const { return plugged_in_; }
   [[nodiscard]] std::uint8_t bus_address() const { return bus_address_; }
 
-  /// Time traversals for the dongle and the vehicle.
+  /// Time passes for the dongle and the vehicle.
   void advance(Duration by);
   /// The next exchange that no earlier call has spoken for meets this.
   void fail_next(DongleFault fault) { next_faults_.push_back(fault); }

@@ -18,7 +18,7 @@ class ManualClock final : public Clock {
            !now_.compare_exchange_weak(seen, wake_at.time_since_epoch())) {
     }
   }
-  /// Rung or not: all the time traversals.
+  /// Rung or not: all the time passes.
   void wait_for(EventCount& /*event_count*/, std::uint32_t /*received*/, MonotonicTime wake_at) override {
     sleep_until(wake_at);
   }

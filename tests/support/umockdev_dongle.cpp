@@ -317,7 +317,7 @@ class UmockdevDongle::Impl {
     return 0;
   }
 
-  /// Real time since the last look traversals for the dongle too.
+  /// Real time since the last look passes for the dongle too.
   void live_on() {
     const auto now = std::chrono::steady_clock::now();
     dongle_.advance(now - lived_until_);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdio>
 #include <optional>
-#include <utility>
 
 #include "firmware_link/link/link_condition.hpp"
 #include "firmware_link/link/udp_address.hpp"

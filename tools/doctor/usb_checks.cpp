@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <variant>
 
 #include "firmware_link/link/crazyradio.hpp"

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "core/backend/confidence/pose_confidence.hpp"
 
-#include <cmath>
-
 namespace swiftlet {
 
 std::string_view name_of(Tracking tracking) {

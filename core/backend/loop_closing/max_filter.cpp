@@ -3,7 +3,6 @@
 #include "core/backend/loop_closing/max_filter.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/check.hpp"
 

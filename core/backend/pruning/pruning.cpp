@@ -9,7 +9,6 @@
 #include <map>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 #include "core/backend/pose_graph/relative_uncertainty.hpp"
 #include "core/backend/store/traversal.hpp"

@@ -3,7 +3,6 @@
 #include "core/backend/refinement/online_refinement.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/backend/refinement/point_to_line_factor.hpp"

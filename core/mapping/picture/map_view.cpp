@@ -3,7 +3,6 @@
 #include "core/mapping/picture/map_view.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace swiftlet {
