@@ -31,6 +31,8 @@ struct Backend::State {
   void compare_newest_scan(const FrontendStep& step);
   [[nodiscard]] double evidence_since(KeyframeId since, const KeyframePoses& T_map_seen_from,
                                       std::span<const std::shared_ptr<const Submap>> submaps) const;
+  /// The returns of scans 0.1 m apart count for half of what they would if they were independent.
+  [[nodiscard]] double evidence_of_alarm() const { return 0.5 * config.tuning.confidence.alarm_log_odds; }
   [[nodiscard]] bool newest_contact_is_at_fault() const;
   [[nodiscard]] KeyframeId recent_since() const;
   [[nodiscard]] bool is_explained(KeyframeId contradicted_since) const;
@@ -125,8 +127,7 @@ bool Backend::State::newest_contact_is_at_fault() const {
   for (KeyframeId k = contact->since; k < chain.all().end_id(); k = chain.all().at_or_after(k + 1))
     T_map_without[k] = contact->T_map_since * between(T_local[contact->since], T_local[k]);
   const double corrected = evidence_since(contact->since, T_map_keyframe(), loops.submaps());
-  return corrected > evidence_since(contact->since, T_map_without, loops.submaps()) +
-                         0.5 * config.tuning.confidence.alarm_log_odds;
+  return corrected > evidence_since(contact->since, T_map_without, loops.submaps()) + evidence_of_alarm();
 }
 
 /// The loops that were closed meanwhile tell which motion was wrong. True: the poses have moved.
@@ -157,7 +158,7 @@ bool Backend::State::is_explained(KeyframeId contradicted_since) const {
   if (!unplaced || loops.unplaced_by() != UnplacedBy::kSilence) return loops.weighs_places();
   return contradicted_since <= *unplaced ||
          evidence_since(std::max(contradicted_since, recent_since()), T_map_keyframe(),
-                        loops.submaps_since(*unplaced)) < 0.5 * config.tuning.confidence.alarm_log_odds;
+                        loops.submaps_since(*unplaced)) < evidence_of_alarm();
 }
 
 /// A jump, a slip or a carried vehicle that no input reports: behind the last agreement with the older map.
@@ -172,7 +173,7 @@ bool Backend::State::doubt_motion_if_contradicted() {
   if (is_at_fault) loops.drop_contact(graph);
   graph.doubt_motion_to(first);
   is_in_doubt = true;
-  loops.doubt_since(first, 0.5 * config.tuning.confidence.alarm_log_odds);  // its returns count for half
+  loops.doubt_since(first, evidence_of_alarm());
   confidence.reset();
   if (!is_at_fault || !follow_graph(graph.settle())) return false;
   refinement.follow(T_map_keyframe());
