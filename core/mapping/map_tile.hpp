@@ -14,6 +14,9 @@ namespace swiftlet {
 
 inline constexpr int kTileCells = 64;  ///< cells along one side of a tile
 inline constexpr std::size_t kCellsInTile = std::size_t{kTileCells} * kTileCells;
+// For formats that know occupied, free and unknown alone. In between, beams disagree.
+inline constexpr int kOccupiedFromPercent = 65;
+inline constexpr int kFreeBelowPercent = 45;  ///< beams passed, and none, or few, ended there
 
 /// Which tile: tile (x, y) covers map coordinates [64 x, 64 x + 64) * resolution, likewise y. Each storey has
 /// a map of its own.

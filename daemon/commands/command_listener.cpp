@@ -169,12 +169,19 @@ void CommandListener::run(const std::stop_token& stop) {
     }
     if (connections.size() == kMaxConnections) connections.erase(connections.begin());
     connections.emplace_back(
-        accepted,
-        TcpqConversation(channel_, [this](std::span<const std::uint8_t> message) { on_message(message); }));
+        accepted, TcpqConversation([this](std::string_view channel, std::span<const std::uint8_t> message) {
+          on_message(channel, message);
+        }));
   }
 }
 
-void CommandListener::on_message(std::span<const std::uint8_t> message) {
+void CommandListener::on_message(std::string_view channel, std::span<const std::uint8_t> message) {
+  if (channel != channel_) {
+    if (!std::exchange(has_told_channel_, true))
+      spdlog::warn("a message on another channel than {} was left out; do both programs have one prefix?",
+                   channel_);
+    return;
+  }
   const Result<Command> command = read_command(message);
   if (!command) return warn("a command was not understood: " + command.error().message);
   if (!sink_(*command)) warn("a command was refused: too many came before it");

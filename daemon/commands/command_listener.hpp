@@ -45,13 +45,14 @@ class CommandListener {
  private:
   CommandListener(int socket, std::string channel) : socket_(socket), channel_(std::move(channel)) {}
   void run(const std::stop_token& stop);
-  void on_message(std::span<const std::uint8_t> message);
+  void on_message(std::string_view channel, std::span<const std::uint8_t> message);
   void warn(const std::string& why);
 
   int socket_;
   std::string channel_;
   Sink sink_;
   std::size_t warnings_ = 0;
+  bool has_told_channel_ = false;
   std::jthread thread_;
 };
 

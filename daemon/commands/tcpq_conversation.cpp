@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/commands/tcpq_conversation.hpp"
 
-#include <algorithm>
-#include <string_view>
+#include <optional>
 #include <utility>
 
 namespace swiftlet {
@@ -53,9 +52,6 @@ class Stream {
 
 }  // namespace
 
-TcpqConversation::TcpqConversation(std::string channel, Listener listener)
-    : channel_(std::move(channel)), listener_(std::move(listener)) {}
-
 bool TcpqConversation::receive(std::span<const std::uint8_t> bytes) {
   received_.insert(received_.end(), bytes.begin(), bytes.end());
   Part part = Part::kDone;
@@ -86,8 +82,8 @@ TcpqConversation::Part TcpqConversation::read_message() {
   const auto message = channel && *kind == kPublish ? stream.counted() : channel;
   if (stream.is_too_long()) return Part::kFaulty;
   if (!message) return Part::kIncomplete;
-  if (*kind == kPublish && std::equal(channel->begin(), channel->end(), channel_.begin(), channel_.end()))
-    listener_(*message);
+  const auto* const name = reinterpret_cast<const char*>(channel->data());
+  if (*kind == kPublish) listener_({name, channel->size()}, *message);
   received_.erase(received_.begin(), received_.begin() + stream.read());
   return Part::kDone;
 }

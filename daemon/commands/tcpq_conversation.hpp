@@ -5,24 +5,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
-#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace swiftlet {
 
-/// The server's side of a connection by LCM's tcpq:// that takes messages of one channel and gives none. Has
-/// no socket. One thread at a time.
+/// The server's side of a connection by LCM's tcpq:// that takes messages and gives none. Has no socket. One
+/// thread at a time.
 class TcpqConversation {
  public:
-  /// Valid during the call.
-  using Listener = std::function<void(std::span<const std::uint8_t> message)>;
+  /// Both are valid during the call.
+  using Listener = std::function<void(std::string_view channel, std::span<const std::uint8_t> message)>;
 
   /// More bytes than any message for this server has.
   static constexpr std::size_t kMaxMessageBytes = 1000;
 
-  TcpqConversation(std::string channel, Listener listener);
+  explicit TcpqConversation(Listener listener) : listener_(std::move(listener)) {}
 
   /// The next bytes of the stream. False: they are not LCM's, or too many for a message.
   [[nodiscard]] bool receive(std::span<const std::uint8_t> bytes);
@@ -34,7 +34,6 @@ class TcpqConversation {
   [[nodiscard]] Part read_greeting();
   [[nodiscard]] Part read_message();
 
-  std::string channel_;
   Listener listener_;
   bool is_greeted_ = false;
   std::vector<std::uint8_t> received_;  // not yet read

@@ -21,12 +21,11 @@ inline constexpr std::uint8_t kPgmOccupied = 0;
 inline constexpr std::uint8_t kPgmFree = 254;
 inline constexpr std::uint8_t kPgmUnknown = 205;
 
-/// The value of a cell in map.pgm: occupied from 65 percent on, free below 45 (beams passed and none, or few,
-/// ended there), and unknown where nothing is known or beams disagree.
+/// The value of a cell in map.pgm.
 [[nodiscard]] constexpr std::uint8_t pgm_value(std::int8_t occupancy_percent) {
   if (occupancy_percent < 0) return kPgmUnknown;
-  if (occupancy_percent >= 65) return kPgmOccupied;
-  return occupancy_percent < 45 ? kPgmFree : kPgmUnknown;
+  if (occupancy_percent >= kOccupiedFromPercent) return kPgmOccupied;
+  return occupancy_percent < kFreeBelowPercent ? kPgmFree : kPgmUnknown;
 }
 
 /// The rectangle around tiles, both corners included.

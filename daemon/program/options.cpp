@@ -42,6 +42,16 @@ bool is_taken(const Options& options, const Options& first) {
          (output && (holds_anything(*output) || is_being_written_to(*output)));
 }
 
+/// LCM reads a log that it is not told to write.
+CLI::Validator written_log() {
+  const auto refusal = [](const std::string& url) {
+    const Result<LcmUrl> lcm = parse_lcm_url(url);
+    const bool is_read = lcm && !lcm->file.empty() && !lcm->writes_file;
+    return is_read ? "'" + url + "' would be read; write 'file://" + lcm->file + "?mode=w'" : std::string();
+  };
+  return {refusal, ""};
+}
+
 }  // namespace
 
 void declare_options(CLI::App& app, Options& options) {
@@ -51,6 +61,7 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option("INPUT,--input", options.input_uri, input_forms({kVehicle, kSimulation, kFile, kFollowed}));
   app.add_option("--lcm-url", options.lcm_url, "where to publish")
       ->envname("LCM_DEFAULT_URL")
+      ->check(written_log())
       ->capture_default_str();
   app.add_option("--compat", options.compat, "publish pose, beams and map as these programs have them, too")
       ->check(CLI::IsMember({"mbot"}));

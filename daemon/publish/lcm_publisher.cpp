@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "daemon/publish/channel_names.hpp"
 #include "daemon/publish/mbot_publisher.hpp"
 #include "daemon/publish/message_parts.hpp"
 #include "swiftlet/landmarks_t.hpp"
@@ -22,6 +23,7 @@
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "swiftlet/vehicle_event_t.hpp"
 
 namespace swiftlet {
 namespace {
@@ -225,23 +227,25 @@ class LcmPublisher final : public Publisher {
   LcmPublisher(MessageSink sink, const std::string& prefix, std::int64_t map_id)
       : sink_(std::move(sink)),
         map_id_(map_id),
-        pose_map_(prefix + "POSE"),
-        pose_local_(prefix + "POSE_LOCAL"),
-        pose_odom_(prefix + "POSE_ODOM"),
-        pose2d_map_(prefix + "POSE_2D"),
-        pose2d_odom_(prefix + "POSE_ODOM_2D"),
-        ranges_(prefix + "RANGES"),
-        map_info_(prefix + "MAP_INFO"),
-        map_tile_(prefix + "MAP_TILE"),
-        landmarks_(prefix + "LANDMARKS"),
-        loop_closure_(prefix + "LOOP_CLOSURE"),
-        status_(prefix + "STATUS") {}
+        pose_map_(prefix + kPoseChannel),
+        pose_local_(prefix + kPoseLocalChannel),
+        pose_odom_(prefix + kPoseOdomChannel),
+        pose2d_map_(prefix + kPose2dChannel),
+        pose2d_odom_(prefix + kPoseOdom2dChannel),
+        ranges_(prefix + kRangesChannel),
+        map_info_(prefix + kMapInfoChannel),
+        map_tile_(prefix + kMapTileChannel),
+        landmarks_(prefix + kLandmarksChannel),
+        loop_closure_(prefix + kLoopClosureChannel),
+        vehicle_event_(prefix + kVehicleEventChannel),
+        status_(prefix + kStatusChannel) {}
 
   void publish_pose(const PoseUpdate& pose) override;
   void publish_tile(HostTime now, const MapTile& tile, double resolution_m) override;
   void publish_map(HostTime now, const MapSummary& map) override;
   void publish_walls(HostTime now, std::span<const WallInMap> walls) override;
   void publish_closure(HostTime now, const ClosureUpdate& update) override;
+  void publish_event(HostTime now, const VehicleEvent& event) override;
   void publish_status(HostTime now, const DaemonStatus& status) override;
 
  private:
@@ -263,7 +267,7 @@ class LcmPublisher final : public Publisher {
   std::int64_t map_id_;
   // Channels.
   const std::string pose_map_, pose_local_, pose_odom_, pose2d_map_, pose2d_odom_, ranges_, map_info_,
-      map_tile_, landmarks_, loop_closure_, status_;
+      map_tile_, landmarks_, loop_closure_, vehicle_event_, status_;
   // Kept from message to message for their storage.
   ranges_t ranges_message_;
   map_tile_t tile_message_;
@@ -394,6 +398,16 @@ void LcmPublisher::publish_closure(HostTime now, const ClosureUpdate& update) {
   copy_point(update.from_map, message.from_map);
   copy_point(update.to_map, message.to_map);
   send(loop_closure_, message);
+}
+
+void LcmPublisher::publish_event(HostTime now, const VehicleEvent& event) {
+  using enum VehicleEvent::Kind;
+  if (event.kind == kBatteryLow || event.kind == kDataStopped) return;  // told by status, and by segments
+  vehicle_event_t message;
+  message.utime = to_utime(now);
+  message.map_id = map_id_;
+  message.text = describe(event);
+  send(vehicle_event_, message);
 }
 
 void LcmPublisher::publish_status(HostTime now, const DaemonStatus& status) {

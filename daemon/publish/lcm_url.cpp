@@ -58,6 +58,11 @@ Status parse_option(const std::string& url, std::string_view option, LcmUrl& par
   return {};
 }
 
+/// Else LCM reads.
+bool writes(std::string_view options) {
+  return options.find("mode=w") != std::string_view::npos || options.find("mode=a") != std::string_view::npos;
+}
+
 }  // namespace
 
 Result<LcmUrl> parse_lcm_url(const std::string& url) {
@@ -70,6 +75,7 @@ Result<LcmUrl> parse_lcm_url(const std::string& url) {
     if (!rest.starts_with(other)) continue;
     parsed.provider = LcmUrl::Provider::kOther;
     if (other == kFile) parsed.file = rest.substr(kFile.size(), rest.find('?') - kFile.size());
+    parsed.writes_file = other == kFile && writes(rest.substr(std::min(rest.find('?'), rest.size())));
     return parsed;
   }
   if (!rest.starts_with(kMulticast))

@@ -17,6 +17,7 @@ struct LcmUrl {
   std::uint16_t port = 7667;
   int ttl = 0;       ///< 0: this machine only, 1: the local network
   std::string file;  ///< of file://: the path of the log; else empty
+  bool writes_file = false;
 };
 
 /// What LCM leaves out keeps its default. Errors: kInvalidInput, with a line for the user.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -21,8 +20,6 @@ namespace {
 
 using Cells = std::array<std::int8_t, kCellsInTile>;
 
-constexpr int kFreeBelowPercent = 45;     // as map.pgm
-constexpr int kOccupiedFromPercent = 65;  // likewise
 constexpr int kSurest = 127;
 
 /// Of two cells that become one: a wall stays a wall.
@@ -79,6 +76,7 @@ class MbotPublisher final : public Publisher {
   void publish_closure(HostTime now, const ClosureUpdate& update) override {
     own_->publish_closure(now, update);
   }
+  void publish_event(HostTime now, const VehicleEvent& event) override { own_->publish_event(now, event); }
   void publish_status(HostTime now, const DaemonStatus& status) override {
     own_->publish_status(now, status);
   }

@@ -12,6 +12,7 @@
 #include "daemon/workers/pipeline_messages.hpp"
 #include "daemon/workers/pipeline_queues.hpp"
 #include "daemon/workers/stage_times.hpp"
+#include "firmware_link/session/vehicle_event.hpp"
 
 namespace swiftlet {
 
@@ -81,6 +82,8 @@ class Publisher {
   /// All walls, in the order of their ids.
   virtual void publish_walls(HostTime /*now*/, std::span<const WallInMap> /*walls*/) {}
   virtual void publish_closure(HostTime /*now*/, const ClosureUpdate& /*closure*/) {}
+  /// One that the user should act on.
+  virtual void publish_event(HostTime /*now*/, const VehicleEvent& /*event*/) {}
   virtual void publish_status(HostTime /*now*/, const DaemonStatus& /*status*/) {}
 };
 

@@ -71,7 +71,10 @@ void PublisherWorker::publish_poses() {
 
 void PublisherWorker::take_events() {
   VehicleEvent event;
-  while (inlet_.events.try_pop(event)) log_event(event);
+  while (inlet_.events.try_pop(event)) {
+    log_event(event);
+    if (is_warning(event)) publisher_.publish_event(now_, event);
+  }
 }
 
 void PublisherWorker::take_walls() {

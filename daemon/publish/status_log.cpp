@@ -57,9 +57,8 @@ std::vector<InputNews> input_news(const InputStatus& before, const InputStatus& 
                 sharing_before.steering_dropped, sharing.steering_dropped);
   warn_if_grown("client: requests dropped (more than the link carries)", sharing_before.requests_dropped,
                 sharing.requests_dropped);
-  if (before.counters.segments > 0)
-    warn_if_grown("input: new segments (silence, restart or reset)", before.counters.segments,
-                  now.counters.segments);
+  warn_if_grown("input: new segments (silence, restart or reset)",
+                std::max<std::uint64_t>(before.counters.segments, 1), now.counters.segments);
   warn_if_grown("input: ranges left out, because the dead reckoning has run away (check the Flow deck)",
                 before.counters.too_far, now.counters.too_far);
   return news;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/sensing/range_sample.hpp"
+#include "daemon/publish/channel_names.hpp"
 #include "daemon/publish/decoded_message.hpp"
 #include "swiftlet/landmarks_t.hpp"
 #include "swiftlet/loop_closure_t.hpp"
@@ -19,20 +20,14 @@
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "swiftlet/vehicle_event_t.hpp"
 
 namespace swiftlet {
 namespace {
 
-constexpr std::string_view kPose = "POSE";
-constexpr std::string_view kPoseLocal = "POSE_LOCAL";
-constexpr std::string_view kPoseOdom = "POSE_ODOM";
-constexpr std::string_view kRanges = "RANGES";
-constexpr std::string_view kMapTile = "MAP_TILE";
-constexpr std::string_view kLandmarks = "LANDMARKS";
-constexpr std::string_view kLoopClosure = "LOOP_CLOSURE";
-constexpr std::string_view kStatus = "STATUS";
-constexpr std::array kChannels{kPose,    kPoseLocal, kPoseOdom,    kRanges,
-                               kMapTile, kLandmarks, kLoopClosure, kStatus};
+constexpr std::array<std::string_view, 9> kChannels{
+    kPoseChannel,      kPoseLocalChannel,   kPoseOdomChannel,     kRangesChannel, kMapTileChannel,
+    kLandmarksChannel, kLoopClosureChannel, kVehicleEventChannel, kStatusChannel};
 
 constexpr std::size_t kMaxWalls = 100'000;
 constexpr std::int32_t kMaxTileIndex = 1 << 20;
@@ -74,6 +69,9 @@ bool is_sound(const landmarks_t& walls) {
 bool is_sound(const loop_closure_t& closure) {
   return is_storey(closure.storey) && is_place(closure.from_map) && is_place(closure.to_map) &&
          std::isfinite(closure.score);
+}
+bool is_sound(const vehicle_event_t& event) {
+  return std::ranges::all_of(event.text, [](char c) { return c >= ' ' && c <= '~'; });
 }
 bool is_sound(const status_t& status) {
   const std::array counts{status.samples,          status.gaps,
@@ -182,6 +180,11 @@ void MessageReader::add(const loop_closure_t& message) {
 }
 
 template <>
+void MessageReader::add(const vehicle_event_t& message) {
+  narrator_.see_event(message.text, message.utime);
+}
+
+template <>
 void MessageReader::add(const status_t& message) {
   const RunStatus status = run_status(message);
   narrator_.see_status(status);
@@ -199,12 +202,14 @@ void MessageReader::decode(std::span<const std::uint8_t> bytes, MonotonicTime no
 }
 
 void MessageReader::take(std::string_view channel, std::span<const std::uint8_t> message, MonotonicTime now) {
-  if (channel == kPose || channel == kPoseLocal || channel == kPoseOdom) return decode<pose_t>(message, now);
-  if (channel == kRanges) return decode<ranges_t>(message, now);
-  if (channel == kMapTile) return decode<map_tile_t>(message, now);
-  if (channel == kLandmarks) return decode<landmarks_t>(message, now);
-  if (channel == kLoopClosure) return decode<loop_closure_t>(message, now);
-  if (channel == kStatus) return decode<status_t>(message, now);
+  if (channel == kPoseChannel || channel == kPoseLocalChannel || channel == kPoseOdomChannel)
+    return decode<pose_t>(message, now);
+  if (channel == kRangesChannel) return decode<ranges_t>(message, now);
+  if (channel == kMapTileChannel) return decode<map_tile_t>(message, now);
+  if (channel == kLandmarksChannel) return decode<landmarks_t>(message, now);
+  if (channel == kLoopClosureChannel) return decode<loop_closure_t>(message, now);
+  if (channel == kVehicleEventChannel) return decode<vehicle_event_t>(message, now);
+  if (channel == kStatusChannel) return decode<status_t>(message, now);
 }
 
 }  // namespace swiftlet

@@ -121,6 +121,11 @@ void RunNarrator::tell_more(Losses& told, std::int64_t count, std::int64_t utime
   told = {.count = count, .at_us = utime_us};
 }
 
+void RunNarrator::see_event(const std::string& text, std::int64_t utime_us) {
+  begin_with_run();
+  history_.add_event(utime_us, EventLevel::kBad, text);
+}
+
 void RunNarrator::see_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us) {
   begin_with_run();
   if (is_dropped)

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "daemon/view/run_history.hpp"
@@ -19,6 +20,7 @@ class RunNarrator {
   /// Each is called before the history is given the same. A new generation of the history begins anew.
   void see_pose(const TrailPose& pose);
   void see_status(const RunStatus& status);
+  void see_event(const std::string& text, std::int64_t utime_us);
   void see_closure(const SeenClosure& closure, bool is_dropped, std::int64_t utime_us);
 
  private:

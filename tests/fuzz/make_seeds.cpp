@@ -25,6 +25,7 @@
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "swiftlet/vehicle_event_t.hpp"
 #include "tests/firmware_link/scripted_vehicle.hpp"
 #include "tests/fuzz/fuzz_bytes.hpp"
 
@@ -277,6 +278,7 @@ std::vector<std::uint8_t> published_messages() {
   walls.landmarks.push_back({.id = 1, .storey = 0, .start = {0, 0}, .end = {1, 0}});
   append_message(bytes, 5, walls);
   append_message(bytes, 6, loop_closure_t{});
+  append_message(bytes, 7, vehicle_event_t{.utime = 0, .map_id = 0, .text = "land"});
   status_t status{};
   status.queue_count = 1;
   status.queues.resize(1);
@@ -284,7 +286,7 @@ std::vector<std::uint8_t> published_messages() {
   status.stage_count = 1;
   status.stages.resize(1);
   status.stages[0].name = "frame_to_pose";
-  append_message(bytes, 7, status);
+  append_message(bytes, 8, status);
   return bytes;
 }
 

@@ -131,12 +131,28 @@ def a_heading_that_leaps_stays_in_the_dead_reckoning_alone(bench):
         expect(least_deg <= turn_deg <= most_deg, f"{name}.tum turns by {turn_deg:.1f} deg between two samples")
 
 
+def wait_for_words(daemon, words):
+    """Until it says them on stderr."""
+    said = daemon.stderr.readline()
+    while words not in said:
+        expect(said, "the daemon ended by itself")
+        said = daemon.stderr.readline()
+
+
+def wait_for_poses(bench, daemon):
+    """Until some are in its log of messages."""
+    until = time.monotonic() + 60.0
+    while b"SWIFTLET_POSE" not in (bench.folder / "run.lcm").read_bytes():
+        expect(daemon.poll() is None and time.monotonic() < until, "no pose was published")
+        time.sleep(0.01)
+
+
 def stop_with(bench, number):
     out = bench.folder / "out"
     with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "20", "-o", str(out),
                            "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
-        time.sleep(2.0)
-        expect(daemon.poll() is None, "the daemon ended by itself")
+        wait_for_words(daemon, b"publishing on")
+        wait_for_poses(bench, daemon)
         daemon.send_signal(number)
         _, said = daemon.communicate(timeout=60)
     expect(daemon.returncode == 0, said.decode())
@@ -171,10 +187,7 @@ def sigint_ends_a_wait_for_the_dongle(bench):
     """The USB library's own thread must not take the signal."""
     with subprocess.Popen([bench.swiftletd, "--input", "radio://NOSUCHSERIAL/80", "--no-record", "--no-output",
                            "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
-        said = daemon.stderr.readline()
-        while b"plug it in" not in said:
-            expect(said, "the daemon ended by itself")
-            said = daemon.stderr.readline()
+        wait_for_words(daemon, b"plug it in")
         takers = threads_that_take_sigint(daemon.pid)
         daemon.send_signal(signal.SIGINT)
         _, said = daemon.communicate(timeout=60)
@@ -186,8 +199,9 @@ def a_log_that_nobody_reads_any_more_costs_no_outputs(bench):
     out = bench.folder / "out"
     with subprocess.Popen([bench.swiftletd, "--input", "sim://office?seed=1", "--rate", "20", "-o", str(out),
                            "--lcm-url", f"file://{bench.folder}/run.lcm?mode=w"], stderr=subprocess.PIPE) as daemon:
-        time.sleep(1.0)
+        wait_for_words(daemon, b"publishing on")
         daemon.stderr.close()
+        wait_for_poses(bench, daemon)
         daemon.send_signal(signal.SIGINT)
         expect(daemon.wait(timeout=60) == 0, f"exit code {daemon.returncode}")
     expect((out / "map.pgm").stat().st_size > 0, "no map")
@@ -222,9 +236,10 @@ def bad_input_gets_one_line_and_exit_code_2(bench):
         code, lines = bench.daemon(*arguments)
         expect(code == 2, f"{arguments}: exit code {code}")
         expect(len(lines) == 1 and part in lines[0], f"{arguments}: {lines}")
-    done = subprocess.run([bench.swiftletd, "--input", "sim://loop", "--lcm-url", "mqtt://here"],
-                          capture_output=True, check=False)
-    expect(done.returncode == 2 and b"mqtt://here" in done.stderr, done.stderr.decode())
+    for url, part in (("mqtt://here", "mqtt://here"), ("file://run.lcm", "write 'file://run.lcm?mode=w'")):
+        done = subprocess.run([bench.swiftletd, "--input", "sim://loop", "--lcm-url", url],
+                              capture_output=True, check=False, text=True)
+        expect(done.returncode == 2 and part in done.stderr, done.stderr)
 
 
 def without_a_directory_each_flight_gets_a_folder(bench):
@@ -336,7 +351,7 @@ def sighup_opens_the_log_file_anew(bench):
         while not log.exists():
             expect(daemon.poll() is None and time.monotonic() < until, "no new log file")
             time.sleep(0.01)
-        time.sleep(1.0)  # some samples
+        wait_for_poses(bench, daemon)
         daemon.send_signal(signal.SIGINT)
         _, said = daemon.communicate(timeout=60)
     expect(daemon.returncode == 0 and not said, f"{daemon.returncode}: {said.decode()}")

@@ -27,6 +27,7 @@ class RecordingPublisher final : public Publisher {
     walls.assign(all.begin(), all.end());
   }
   void publish_closure(HostTime, const ClosureUpdate& closure) override { closures.push_back(closure); }
+  void publish_event(HostTime, const VehicleEvent& event) override { events.push_back(event.kind); }
   void publish_status(HostTime, const DaemonStatus& status) override { statuses.push_back(status); }
 
   std::vector<PoseUpdate> poses;
@@ -35,6 +36,7 @@ class RecordingPublisher final : public Publisher {
   std::vector<MapSummary> maps;
   std::vector<WallInMap> walls;  ///< as published last
   std::vector<ClosureUpdate> closures;
+  std::vector<VehicleEvent::Kind> events;
   std::vector<DaemonStatus> statuses;
   std::function<void()> on_pose;  ///< called after each pose, if set
 };

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "daemon/publish/channel_names.hpp"
 #include "daemon/publish/decoded_message.hpp"
 
 namespace swiftlet {
@@ -34,13 +35,14 @@ void MessageListener::take_walls(std::span<const std::uint8_t> bytes) {
 /// Empty for a channel that is none of swiftletd's.
 LcmTransport::Listener MessageListener::taker(MessageListener* self, std::string_view channel) {
   using Bytes = std::span<const std::uint8_t>;
-  if (channel == "POSE" || channel == "POSE_LOCAL" || channel == "POSE_ODOM")
+  if (channel == kPoseChannel || channel == kPoseLocalChannel || channel == kPoseOdomChannel)
     return [self](Bytes bytes) { self->take<pose_t>(bytes); };
-  if (channel == "RANGES") return [self](Bytes bytes) { self->take<ranges_t>(bytes); };
-  if (channel == "MAP_TILE") return [self](Bytes bytes) { self->take<map_tile_t>(bytes); };
-  if (channel == "LANDMARKS") return [self](Bytes bytes) { self->take_walls(bytes); };
-  if (channel == "LOOP_CLOSURE") return [self](Bytes bytes) { self->take<loop_closure_t>(bytes); };
-  if (channel == "STATUS") return [self](Bytes bytes) { self->take<status_t>(bytes); };
+  if (channel == kRangesChannel) return [self](Bytes bytes) { self->take<ranges_t>(bytes); };
+  if (channel == kMapTileChannel) return [self](Bytes bytes) { self->take<map_tile_t>(bytes); };
+  if (channel == kLandmarksChannel) return [self](Bytes bytes) { self->take_walls(bytes); };
+  if (channel == kLoopClosureChannel) return [self](Bytes bytes) { self->take<loop_closure_t>(bytes); };
+  if (channel == kVehicleEventChannel) return [self](Bytes bytes) { self->take<vehicle_event_t>(bytes); };
+  if (channel == kStatusChannel) return [self](Bytes bytes) { self->take<status_t>(bytes); };
   return {};
 }
 

@@ -21,6 +21,7 @@
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "swiftlet/vehicle_event_t.hpp"
 
 namespace swiftlet {
 
@@ -31,14 +32,15 @@ struct WallsMessage {
   std::vector<landmark_t> walls;
 };
 
-using DaemonMessage = std::variant<pose_t, ranges_t, map_tile_t, WallsMessage, loop_closure_t, status_t>;
+using DaemonMessage =
+    std::variant<pose_t, ranges_t, map_tile_t, WallsMessage, loop_closure_t, vehicle_event_t, status_t>;
 
 /// Receives what a running swiftletd publishes (docs/lcm.md). What cannot be decoded is left out. One thread
 /// at a time.
 class MessageListener {
  public:
   /// `channels` without their prefix: POSE, POSE_LOCAL, POSE_ODOM, RANGES, MAP_TILE, LANDMARKS, LOOP_CLOSURE,
-  /// STATUS.
+  /// VEHICLE_EVENT, STATUS.
   /// Errors: as LcmTransport::open(); kInvalidInput: another channel.
   [[nodiscard]] static Result<std::unique_ptr<MessageListener>> open(const std::string& url,
                                                                      const std::string& channel_prefix,

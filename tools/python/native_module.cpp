@@ -22,7 +22,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -249,6 +248,11 @@ py::dict fields_of(const loop_closure_t& message) {
       "from_m"_a = point(message.from_map), "to_m"_a = point(message.to_map));
 }
 
+py::dict fields_of(const vehicle_event_t& message) {
+  using py::literals::operator""_a;
+  return py::dict("time_s"_a = seconds(message.utime), "map_id"_a = message.map_id, "text"_a = message.text);
+}
+
 py::dict fields_of(const link_status_t& link) {
   using py::literals::operator""_a;
   return py::dict(
@@ -316,7 +320,7 @@ py::dict fields_of(const status_t& message) {
 }
 
 /// In the order of DaemonMessage.
-constexpr std::array kKinds{"pose", "ranges", "tile", "walls", "closure", "status"};
+constexpr std::array kKinds{"pose", "ranges", "tile", "walls", "closure", "event", "status"};
 static_assert(kKinds.size() == std::variant_size_v<DaemonMessage>);
 
 /// Python's view of a MessageListener.

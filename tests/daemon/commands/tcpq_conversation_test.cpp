@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace swiftlet {
@@ -27,24 +29,23 @@ std::string published(const std::string& channel, const std::string& message) {
 }
 const std::string kGreeting = number(0x287617FB) + number(0x0100);
 
-/// A conversation on the channel COMMAND, and what it has heard.
+/// A conversation, and what it has heard.
 struct Talk {
   bool receive(const std::string& text) {
     return conversation.receive({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   }
   std::vector<std::string> heard;
-  TcpqConversation conversation{"COMMAND", [this](std::span<const std::uint8_t> message) {
-                                  heard.emplace_back(message.begin(), message.end());
-                                }};
+  TcpqConversation conversation{[this](std::string_view channel, std::span<const std::uint8_t> message) {
+    heard.push_back(std::string(channel) + ": " + std::string(message.begin(), message.end()));
+  }};
 };
 
-TEST(TcpqConversation, AnswersTheGreetingAndHearsItsChannelAlone) {
+TEST(TcpqConversation, AnswersTheGreetingAndHearsWhatIsPublished) {
   Talk talk;
   EXPECT_TRUE(talk.receive(kGreeting));
   EXPECT_THAT(talk.conversation.take_answer(), ElementsAre(0x28, 0x76, 0x17, 0xFA, 0, 0, 1, 0));
-  EXPECT_TRUE(
-      talk.receive(published("OTHER", "no") + published("COMMAND", "yes") + published("COMMAND2", "no")));
-  EXPECT_THAT(talk.heard, ElementsAre("yes"));
+  EXPECT_TRUE(talk.receive(published("OTHER", "so") + published("COMMAND", "yes")));
+  EXPECT_THAT(talk.heard, ElementsAre("OTHER: so", "COMMAND: yes"));
   EXPECT_THAT(talk.conversation.take_answer(), IsEmpty());
 }
 
@@ -52,7 +53,7 @@ TEST(TcpqConversation, BytesMayComeOneByOne) {
   Talk talk;
   for (const char byte : kGreeting + published("COMMAND", "a") + published("COMMAND", ""))
     ASSERT_TRUE(talk.receive(std::string(1, byte)));
-  EXPECT_THAT(talk.heard, ElementsAre("a", ""));
+  EXPECT_THAT(talk.heard, ElementsAre("COMMAND: a", "COMMAND: "));
 }
 
 TEST(TcpqConversation, WhoSubscribesGetsNothing) {
@@ -62,7 +63,7 @@ TEST(TcpqConversation, WhoSubscribesGetsNothing) {
   EXPECT_TRUE(
       talk.receive(number(2) + counted(".*") + number(3) + counted(".*") + published("COMMAND", "a")));
   EXPECT_THAT(talk.conversation.take_answer(), IsEmpty());
-  EXPECT_THAT(talk.heard, ElementsAre("a"));
+  EXPECT_THAT(talk.heard, ElementsAre("COMMAND: a"));
 }
 
 TEST(TcpqConversation, WhatIsNotLcmsEndsIt) {

@@ -19,6 +19,7 @@
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "swiftlet/vehicle_event_t.hpp"
 
 namespace swiftlet {
 namespace {
@@ -200,6 +201,17 @@ TEST_F(LcmPublisherTest, AClosureCarriesItsUncertaintyAndItsEnds) {
   EXPECT_EQ(closure.storey, 3);
 }
 
+TEST_F(LcmPublisherTest, AnEventIsPublishedInWordsUnlessAStatusOrAPoseTellsIt) {
+  publish([](Publisher& publisher) {
+    publisher.publish_event(kNow, {VehicleEvent::Kind::kBatteryLow, 3150});
+    publisher.publish_event(kNow, {VehicleEvent::Kind::kDataStopped, 0});
+    publisher.publish_event(kNow, {VehicleEvent::Kind::kRangesFrozen, 0});
+  });
+  const auto events = received<vehicle_event_t>("T_VEHICLE_EVENT");
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].text, describe({VehicleEvent::Kind::kRangesFrozen, 0}));
+}
+
 TEST_F(LcmPublisherTest, TheStatusHoldsTheStateOfTheLink) {
   DaemonStatus status;
   status.input.live.link.condition = LinkCondition::kDeviceBusy;
@@ -297,6 +309,7 @@ TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<map_tile_t>(), 0x54c15ba6896b302cU);
   EXPECT_EQ(fingerprint<landmarks_t>(), 0x9cc0333c77a3af06U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x280a8e00175b414aU);
+  EXPECT_EQ(fingerprint<vehicle_event_t>(), 0xa580549a7408b96eU);
   EXPECT_EQ(fingerprint<status_t>(), 0xad0978ad381d3dabU);
 }
 

@@ -44,6 +44,13 @@ TEST(LcmUrl, NamesTheFileOfALog) {
   EXPECT_EQ(parse_lcm_url("tcpq://localhost")->file, "");
 }
 
+TEST(LcmUrl, ALogIsReadWhereNothingSaysThatItIsWritten) {
+  for (const char* read : {"file://mode=w", "file://run.lcm", "file://run.lcm?mode=r&speed=0"})
+    EXPECT_FALSE(parse_lcm_url(read)->writes_file) << read;
+  for (const char* written : {"file://run.lcm?mode=w", "file://run.lcm?speed=0&mode=a"})
+    EXPECT_TRUE(parse_lcm_url(written)->writes_file) << written;
+}
+
 TEST(LcmUrl, RefusesWhatLcmCannotUse) {
   const auto message = [](const std::string& text) {
     const Result<LcmUrl> url = parse_lcm_url(text);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #include "daemon/publish/publisher_worker.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -61,6 +62,16 @@ TEST(PublisherWorker, PublishesEveryPoseAtItsNextTick) {
   bench.ticks(1);
   ASSERT_EQ(bench.published.poses.size(), 5U);
   EXPECT_EQ(bench.published.poses[4].sequence, 4U);
+}
+
+TEST(PublisherWorker, PublishesTheEventsThatAPilotShouldActOn) {
+  Bench bench;
+  auto events = bench.queues->to_publisher.events.producer();
+  using enum VehicleEvent::Kind;
+  for (const VehicleEvent::Kind kind : {kConnected, kRangesFrozen, kClientGone, kRebooted})
+    ASSERT_TRUE(events.try_push({kind, 0}));
+  bench.ticks(1);
+  EXPECT_THAT(bench.published.events, testing::ElementsAre(kRangesFrozen, kRebooted));
 }
 
 TEST(PublisherWorker, MeasuresEachPoseAgainstTheDeadlineOnceItIsSent) {

@@ -39,6 +39,13 @@ TEST_F(StatusLog, IsSilentWhileAllGoesWell) {
   EXPECT_THAT(logged(), IsEmpty());
 }
 
+TEST_F(StatusLog, TellsOfASegmentBeforeTheFirstStatusToo) {
+  DaemonStatus now;
+  now.input.counters.segments = 2;
+  log_changes(DaemonStatus{}, now);
+  EXPECT_THAT(logged(), HasSubstr("new segments (silence, restart or reset): 1 more"));
+}
+
 TEST_F(StatusLog, NamesWhatWasRefusedAndWhereAndHowOften) {
   DaemonStatus now;
   now.queues[0].name = "samples";

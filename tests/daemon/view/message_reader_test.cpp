@@ -22,6 +22,7 @@
 #include "swiftlet/pose_t.hpp"
 #include "swiftlet/ranges_t.hpp"
 #include "swiftlet/status_t.hpp"
+#include "swiftlet/vehicle_event_t.hpp"
 #include "tests/daemon/view/view_samples.hpp"
 
 namespace swiftlet {
@@ -266,6 +267,12 @@ TEST_F(MessageReaderTest, ChangesOfTheStateAreToldInWords) {
   using testing::HasSubstr;
   EXPECT_THAT(log(), testing::ElementsAre(HasSubstr("does not answer"), HasSubstr("battery low"),
                                           HasSubstr("finished")));
+}
+
+TEST_F(MessageReaderTest, EventsAreToldAsTheyAre) {
+  take("VEHICLE_EVENT", vehicle_event_t{.utime = 1, .map_id = 5, .text = "a range sensor hangs; land"});
+  take("VEHICLE_EVENT", vehicle_event_t{.utime = 2, .map_id = 5, .text = "no text\n"});
+  EXPECT_THAT(log(), testing::ElementsAre("a range sensor hangs; land"));
 }
 
 TEST_F(MessageReaderTest, OnePacketIsNoPackets) {

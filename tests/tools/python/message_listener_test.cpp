@@ -6,10 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "tests/support/temporary_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -41,17 +42,16 @@ Bytes walls_part(int first, int count, int total, std::int64_t map_id = 1) {
 
 /// What a listener receives of these (channel, bytes), by way of a log.
 std::vector<DaemonMessage> received(const std::vector<std::pair<std::string, Bytes>>& sent) {
-  const std::string log = testing::TempDir() + "swiftlet_message_listener_test.lcm";
+  const TemporaryFile log("log.lcm");
   {
-    const auto lcm = LcmTransport::open("file://" + log + "?mode=w");
+    const auto lcm = LcmTransport::open("file://" + log.path() + "?mode=w");
     for (const auto& [channel, bytes] : sent) EXPECT_TRUE((*lcm)->publish(channel, bytes));
   }
-  const std::vector<std::string> channels{"POSE", "LANDMARKS", "STATUS"};
-  auto listener = MessageListener::open("file://" + log + "?mode=r&speed=0", "SWIFTLET_", channels);
+  const std::vector<std::string> channels{"POSE", "LANDMARKS", "VEHICLE_EVENT", "STATUS"};
+  auto listener = MessageListener::open("file://" + log.path() + "?mode=r&speed=0", "SWIFTLET_", channels);
   std::vector<DaemonMessage> messages;
   while (!(*listener)->has_ended())
     if (auto message = (*listener)->receive(milliseconds(100))) messages.push_back(std::move(*message));
-  std::filesystem::remove(log);
   return messages;
 }
 
@@ -63,6 +63,13 @@ TEST(MessageListener, PutsTheWallsOfSeveralMessagesTogether) {
   const std::vector<landmark_t>& walls = std::get<WallsMessage>(messages.front()).walls;
   ASSERT_THAT(walls, SizeIs(5));
   EXPECT_EQ(walls.back().id, 4);
+}
+
+TEST(MessageListener, HearsOfEvents) {
+  const vehicle_event_t event{.utime = 3, .map_id = 1, .text = "land"};
+  const auto messages = received({{"SWIFTLET_VEHICLE_EVENT", bytes_of(event)}});
+  ASSERT_THAT(messages, SizeIs(1));
+  EXPECT_EQ(std::get<vehicle_event_t>(messages.front()).text, "land");
 }
 
 TEST(MessageListener, WaitsForTheFirstOfTheWalls) {

@@ -26,6 +26,7 @@ from ._messages import (
     Tile,
     TileMap,
     Tracking,
+    VehicleEvent,
     Walls,
     listen,
 )
@@ -53,6 +54,7 @@ __all__ = [
     "TileMap",
     "Timeout",
     "Tracking",
+    "VehicleEvent",
     "Walls",
     "listen",
     "map",

@@ -159,6 +159,16 @@ class Closure:
 
 
 @dataclass(frozen=True)
+class VehicleEvent:
+    """What the pilot of a live vehicle should act on, unless Status or Pose tells it: the battery, a silence."""
+
+    time_s: float
+    map_id: int
+    text: str
+    """One line: what, and what to do; not for programs."""
+
+
+@dataclass(frozen=True)
 class Link:
     """The link to a live vehicle. Rates are since the status before, counts since the start. None: not known."""
 
@@ -264,9 +274,10 @@ class Status:
     recorded_bytes: int
 
 
-Message = Union[Pose, Ranges, Tile, Walls, Closure, Status]
+Message = Union[Pose, Ranges, Tile, Walls, Closure, VehicleEvent, Status]
 
-_CHANNELS = {Ranges: "RANGES", Tile: "MAP_TILE", Walls: "LANDMARKS", Closure: "LOOP_CLOSURE", Status: "STATUS"}
+_CHANNELS = {Ranges: "RANGES", Tile: "MAP_TILE", Walls: "LANDMARKS", Closure: "LOOP_CLOSURE",
+             VehicleEvent: "VEHICLE_EVENT", Status: "STATUS"}
 _POSE_CHANNELS = {"map": "POSE", "local": "POSE_LOCAL", "odom": "POSE_ODOM"}
 
 
@@ -287,6 +298,8 @@ def _message(kind: str, fields: Dict[str, Any]) -> Message:
         return Walls(**fields)
     if kind == "closure":
         return Closure(**fields)
+    if kind == "event":
+        return VehicleEvent(**fields)
     return _status(fields)
 
 
@@ -301,7 +314,8 @@ def _channels(messages: Iterable[Type[Message]], frames: Iterable[str]) -> List[
         elif kind in _CHANNELS:
             channels.append(_CHANNELS[kind])
         else:
-            raise _native.Error(f"messages: {kind!r} is none of Pose, Ranges, Tile, Walls, Closure and Status")
+            raise _native.Error(f"messages: {kind!r} is none of Pose, Ranges, Tile, Walls, Closure, "
+                                "VehicleEvent and Status")
     return channels
 
 
@@ -394,7 +408,8 @@ def listen(url: Optional[str] = None, *, messages: Iterable[Type[Message]] = (Po
 
     url: where swiftletd publishes; without it LCM_DEFAULT_URL, without that this machine. A log of LCM's (file://) is
     read at its pace, or with &speed=0 at once.
-    messages: which classes of Pose, Ranges, Tile, Walls, Closure and Status. frames: of the poses: map, local, odom.
+    messages: which classes of Pose, Ranges, Tile, Walls, Closure, VehicleEvent and Status.
+    frames: of the poses: map, local, odom.
     channel_prefix: publish.channel_prefix of swiftletd's configuration.
     timeout: after so many seconds without a message iterating raises swiftlet.Timeout; without it it waits.
     follow: go on with the next run instead of ending with this one.
