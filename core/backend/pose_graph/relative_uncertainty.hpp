@@ -11,9 +11,11 @@
 namespace swiftlet {
 
 /// Covariance of T_from_k for every keyframe k, propagated along the path of least uncertainty (Dijkstra
-/// projection: Olson 2008, "Robust and efficient robotic mapping", section 3.4). An upper bound: other paths
-/// only add information. Closures and headings that DCS scales down too far do not count; a keyframe with a
-/// heading gets a Kalman update of its yaw on the way. Allocates; O(m log n).
+/// projection: Olson 2008, "Robust and efficient robotic mapping", section 3.4). Closures and headings that
+/// DCS scales down too far do not count; a keyframe with a heading gets a Kalman update of its yaw on the
+/// way. An upper bound where no heading counts: other paths only add information. What is known of the
+/// heading of `from` (by its own, or by the first on the way) counts at each keyframe as if independent:
+/// behind many headings the yaw comes out too sure. Allocates; O(m log n).
 IdMap<KeyframeId, Eigen::Matrix3d> relative_covariances(const PoseGraph& graph, KeyframeId from,
                                                         const RelativeCovarianceTuning& tuning = {});
 
