@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "core/base/check.hpp"

@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cerrno>
+#include <cstring>
 
 #include "firmware_link/crtp/crtp_packet.hpp"
 #include "firmware_link/link/link_packet.hpp"
