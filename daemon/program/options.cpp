@@ -42,7 +42,7 @@ bool is_taken(const Options& options, const Options& first) {
          (output && (holds_anything(*output) || is_being_written_to(*output)));
 }
 
-/// LCM reads a log that it is not told to write.
+/// Refuses the URL of a log that LCM would read.
 CLI::Validator written_log() {
   const auto refusal = [](const std::string& url) {
     const Result<LcmUrl> lcm = parse_lcm_url(url);

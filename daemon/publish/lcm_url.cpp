@@ -58,7 +58,7 @@ Status parse_option(const std::string& url, std::string_view option, LcmUrl& par
   return {};
 }
 
-/// Else LCM reads.
+/// LCM reads a log unless its mode says otherwise.
 bool writes(std::string_view options) {
   return options.find("mode=w") != std::string_view::npos || options.find("mode=a") != std::string_view::npos;
 }

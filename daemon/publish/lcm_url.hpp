@@ -15,9 +15,9 @@ struct LcmUrl {
   Provider provider = Provider::kMulticast;
   std::string group = "239.255.76.67";
   std::uint16_t port = 7667;
-  int ttl = 0;       ///< 0: this machine only, 1: the local network
-  std::string file;  ///< of file://: the path of the log; else empty
-  bool writes_file = false;
+  int ttl = 0;               ///< 0: this machine only, 1: the local network
+  std::string file;          ///< of file://: the path of the log; else empty
+  bool writes_file = false;  ///< ... which is written, not read
 };
 
 /// What LCM leaves out keeps its default. Errors: kInvalidInput, with a line for the user.

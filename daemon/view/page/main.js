@@ -54,7 +54,7 @@ class Page {
     this.isConnected = false;
     this.lastMessage_ms = 0;
     this.lastStatus_ms = 0;
-    this.statusPeriod_ms = 0; // between the newest two of a run
+    this.statusPeriod_ms = 0;  // between the newest two of a run
     this.frames = 0;          // drawn so far
     this.isSynced = false;
     this.hasEnded = false;    // swiftletd has, whatever moment is looked at

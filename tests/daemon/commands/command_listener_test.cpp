@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr std::chrono::seconds kPatience{30};
 
-TEST(CommandListener, HearsWhatLcmPublishes) {
+TEST(CommandListener, HearsWhatLcmPublishesOnItsChannel) {
   const auto listener = CommandListener::open("127.0.0.1:0", "T_COMMAND");
   ASSERT_TRUE(listener) << listener.error().message;
   std::promise<std::string> heard;
@@ -31,6 +31,7 @@ TEST(CommandListener, HearsWhatLcmPublishes) {
   });
   const auto lcm = LcmTransport::open((*listener)->url(), kPatience);
   ASSERT_TRUE(lcm) << lcm.error().message;
+  EXPECT_TRUE((*lcm)->publish("U_COMMAND", encoded_command(command_t::ACTION_MARK_PLACE, "attic")));
   EXPECT_TRUE((*lcm)->publish("T_COMMAND", encoded_command(9)));
   EXPECT_TRUE((*lcm)->publish("T_COMMAND", encoded_command(command_t::ACTION_MARK_PLACE, "kitchen")));
   std::future<std::string> name = heard.get_future();
