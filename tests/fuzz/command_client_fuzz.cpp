@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "core/base/check.hpp"
 #include "daemon/commands/command_message.hpp"
@@ -14,7 +15,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;
   if (size == 0) return 0;
-  TcpqConversation conversation("SWIFTLET_COMMAND", [](std::span<const std::uint8_t> message) {
+  TcpqConversation conversation([](std::string_view, std::span<const std::uint8_t> message) {
     const Result<Command> command = read_command(message);
     const bool has_name = command && !command->name.empty();
     SWIFTLET_CHECK(!has_name || command->kind == Command::Kind::kMarkPlace, "places have names, alone");
