@@ -20,7 +20,6 @@ TOLERANCE = f"{100 * (OVER_ODOMETRY - 1):.0f} %"
 CONFIDENCE_Z = 1.96  # 95 %
 CONFIDENCE = 0.025, 0.975
 DRAWS = 10000  # of the bootstrap
-PICTURES = 12
 PICTURES_OF_BUILDINGS = 8
 NONE = "–"
 WIDTH = 120  # of a line of text
@@ -37,6 +36,7 @@ class Outcome:
     figures: dict = dataclasses.field(default_factory=dict)
     live_ratio: float | None = None  # of the poses as published
     each_m: list | None = None  # errors of all relations; of those that the run does not hold None
+    rotation_deg: float | None = None  # mean of all relations
 
     def is_worse_than_odometry(self):
         return self.ratio is not None and self.ratio > OVER_ODOMETRY
@@ -70,7 +70,7 @@ def outcome(run, result):
     in_cells = runs.is_in_cells(result["final"])
     figures = {**result["report"], "at_once": result["at_once"]}
     return Outcome(run, ratio if in_cells else error, ratio, in_cells, figures=figures, live_ratio=live_ratio,
-                   each_m=result["final"].get("each_translation_m"))
+                   each_m=result["final"].get("each_translation_m"), rotation_deg=runs.rotation_of(result["final"]))
 
 
 def outcomes(wanted, get):
@@ -240,11 +240,8 @@ def broken_lines(all_outcomes, limits):
 
 
 def pictured(all_outcomes, limits):
-    """The worst break-out of each log, at most PICTURES."""
-    chosen = {}
-    for one in worst_first([one for one in all_outcomes if breaks_out(one, limits) and not one.failed], limits):
-        chosen.setdefault(one.run.log.name, one)
-    return list(chosen.values())[:PICTURES]
+    """The break-outs that have a map, worst first."""
+    return worst_first([one for one in all_outcomes if breaks_out(one, limits) and not one.failed], limits)
 
 
 def building_kind(one):
@@ -273,7 +270,8 @@ def tables(all_outcomes):
 
 
 def plain_table(all_outcomes):
-    """Errors and ratios of the logs as they are, and the mean of the flights with motion capture."""
+    """Errors and ratios of the logs as they are (of relations also those of the angle), and the mean of the flights with
+    motion capture."""
     logs = {}
     for one in all_outcomes:
         logs.setdefault(one.run.log.name, {})[one.run.beams] = one
@@ -281,7 +279,8 @@ def plain_table(all_outcomes):
     def cell(one):
         if one is None or one.failed:
             return "" if one is None else one.failed
-        text = f"{one.ratio:.2f}" if one.is_in_cells else f"{one.error:.3f} m, {one.ratio:.2f}"
+        turned = "" if one.rotation_deg is None else f"{one.rotation_deg:.2f} deg, "
+        text = f"{one.ratio:.2f}" if one.is_in_cells else f"{one.error:.3f} m, {turned}{one.ratio:.2f}"
         return f"**{text}**" if one.is_worse_than_odometry() else text
 
     rows = [[name, *(cell(by_beams.get(beams)) for beams in runs.PLAIN_BEAMS), cell(by_beams.get(None))]
@@ -535,8 +534,8 @@ draws, a fixed seed), because runs of one log are alike.
 
 ## Logs as they are
 
-Error, and its ratio to that of dead reckoning; the ratio alone where there is no truth. **Bold**: over
-{OVER_ODOMETRY:g} times that of dead reckoning.
+Error (of relations with that of the angle), and its ratio to that of dead reckoning; the ratio alone where there is no
+truth. **Bold**: over {OVER_ODOMETRY:g} times that of dead reckoning.
 
 {plain_table(plain)}
 
@@ -550,7 +549,7 @@ the geometric one of the ratio to dead reckoning.
 {simulated_text(buildings, of_buildings)}{driven_text(robots)}
 ## Pictures
 
-The map of the worst break-out of each log.
+The map of each break-out, worst first.
 
 {pictures_text(of_logs)}
 """

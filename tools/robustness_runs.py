@@ -287,5 +287,10 @@ def error_of(judged):
     return judged["cells_20_cm"] if "cells_20_cm" in judged else judged["cells_10_cm"]
 
 
+def rotation_of(judged):
+    """Mean rotational error of relations, deg; None where the reference is none."""
+    return judged["all"]["rotation_deg"]["mean"] if "all" in judged else None
+
+
 def is_in_cells(judged):
     return "all" not in judged and "rmse_m" not in judged

@@ -67,7 +67,8 @@ class RobustnessPage(unittest.TestCase):
     def test_a_whole_run_is_not_held_against_a_cut_one_whose_relations_are_easier(self):
         each = [[0.75, 0.25], [0.75, 0.25], [None, 0.125], [None, 0.125], [None, 0.25], [0.75, 0.5]]
         group = [rates.outcome(run(number), {**result(0.0, 1.0), "final": {
-            "all": {"translation_m": {"mean": statistics.fmean(filter(None, errors))}}, "each_translation_m": errors}})
+            "all": {"translation_m": {"mean": statistics.fmean(filter(None, errors))}, "rotation_deg": {"mean": 1.0}},
+            "each_translation_m": errors}})
             for number, errors in enumerate(each)]
         limits = rates.Quarters(group)
         self.assertEqual([limits.of(one) for one in group], [0.5, 0.5, 0.125, 0.125, 0.125, 0.5])
@@ -212,6 +213,12 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("| Robot 4 | 1.000 m, 0.50 | **1.000 m, 2.00** | **1.000 m, 2.00** |  |", text)
         self.assertIn("| Vicon, mean of 10 |  |  |  | 1.000 m (odometry 0.500) |", text)
 
+    def test_relations_have_an_angle_too(self):
+        relations = {"all": {"translation_m": {"mean": 0.05}, "rotation_deg": {"mean": 0.844}}}
+        log = next(one for one in runs.plain_runs() if one.log.name == "FR079")
+        one = rates.outcome(log, {**result(1.0, 2.0), "final": relations})
+        self.assertIn("| FR079 | 0.050 m, 0.84 deg, 0.03 |", rates.plain_table([one]))
+
     def test_pieces_have_a_mean_and_those_with_motion_capture_a_row(self):
         pieces = [rates.outcome(one, result(1.0, 4.0) if one.log.name == "Vicon icp_d0" else result(2.0, 1.0))
                   for one in runs.piece_runs() if one.log.name in ("Robot 4", "Vicon icp_d0", "Vicon icp_d1")]
@@ -222,14 +229,16 @@ class RobustnessPage(unittest.TestCase):
         self.assertIn("| **all** | 18 | 1 |", text)
         self.assertIn("| **all** | 0 | 0 | – | 0 | – |", rates.pieces_table([]))
 
-    def test_the_page_has_all_parts_and_the_worst_picture_of_a_log(self):
+    def test_the_page_has_all_parts_and_a_picture_of_each_break_out(self):
         group = made([0.1, 0.1, 0.1, 0.2, 0.9])
-        shown = [("robot_4.png", one) for one in rates.pictured(group, rates.Quarters(group))]
-        self.assertEqual([one.error for _, one in shown], [0.9])
+        pictured = rates.pictured(group, rates.Quarters(group))
+        self.assertEqual([one.error for one in pictured], [0.9, 0.2])
+        shown = list(zip(["robot_4.png", "robot_4_2.png"], pictured))
         text = rates.document(group, [], [], [], [], shown, PAGE)
         self.assertIn("commit abc", text)
         self.assertNotIn("Left out", text)
         self.assertIn("![map](robustness/robot_4.png)", text)
+        self.assertIn("![map](robustness/robot_4_2.png)", text)
         self.assertNotIn("## Simulated buildings", text)
         self.assertNotIn("## Robots with wheels", text)
         self.assertIn("| **all** | 5 | 2 | 40.0 |", text)
