@@ -12,8 +12,10 @@ NONE = "–"
 GOOD_M = 0.15
 WRONG_M = fault_runs.WRONG_M
 SURE_M = 1.0  # a wrong place counts as believed when a pose on it is published as good for this way
-HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", "wrong place:", "found back:",
-            "way p50, m:", "p90, m:", "wrongly sure:", "in doubt:", "after p50, s:", "p90, s:"]
+WAYS_M = 15, 20  # within which most should be back, where the input tells of the break and where it does not
+HEADINGS = ["runs:", "final error p50, m:", "worst, m:", f"under {GOOD_M} m:", "before, worst, m:", "wrong place:",
+            "found back:", "way p50, m:", "p90, m:", *(f"in {way_m} m:" for way_m in WAYS_M), "wrongly sure:",
+            "doubted p50, s:", "in doubt:", "after p50, s:", "p90, s:"]
 
 
 def percent(flags):
@@ -30,10 +32,12 @@ def p90(values):
 
 
 def reached_cells(values):
-    """`values`: None where a run did not come so far. Its share, the median and p90 of the others."""
+    """`values`: None where a run did not come so far. The share that did, their median and p90, and the shares of all
+    that came so far within WAYS_M."""
     known = [value for value in values if value is not None]
     figures = [f"{figure(known):.1f}" for figure in (statistics.median, p90)] if known else [NONE, NONE]
-    return [share([value is not None for value in values]), *figures]
+    within = [percent(value is not None and value <= way_m for value in values) if values else NONE for way_m in WAYS_M]
+    return [share([value is not None for value in values]), *figures, *within]
 
 
 def doubt_cells(values):
@@ -57,9 +61,10 @@ def cells(results):
 
     finals, believed = having("final_m"), having("believed_m")
     return [str(len(finals)), f"{statistics.median(finals):.3f}", f"{max(finals):.3f}",
-            percent(final < GOOD_M for final in finals), percent(map(believes_wrong_place, results)),
-            *reached_cells(having("way_back_m")),
-            share([way > SURE_M for way in believed]), *doubt_cells(having("noticed_s"))]
+            percent(final < GOOD_M for final in finals), f"{max(having('before_m')):.3f}",
+            percent(map(believes_wrong_place, results)), *reached_cells(having("way_back_m")),
+            share([way > SURE_M for way in believed]), f"{statistics.median(having('doubted_s')):.0f}",
+            *doubt_cells(having("noticed_s"))]
 
 
 def world_table(rows):
@@ -100,12 +105,14 @@ fly](../algorithm.md#motion-and-its-error-13-14). Nothing tells of a `turn` (the
 
 "Final error" is the RMSE of the corrected path after the best rigid alignment of the whole. "Wrong place" are the runs
 whose final map still believes one: put onto the truth by what was flown before the break, their corrected path is more
-than {WRONG_M:g} m off over more than {fault_runs.WRONG_WAY_M:g} m of the way behind it. The rest is of the live pose at
+than {WRONG_M:g} m off over more than {fault_runs.WRONG_WAY_M:g} m of the way behind it. "Before" is the error of that
+path up to the break, put onto the truth alone: `none` has what it is without one. "Doubted" is for how long the state was
+not `{fault_runs.SURE}`, in the whole flight. The rest is of the live pose at
 [known places](live.md) behind the break: where the map as it stood then has ground within 3 m that was flown long
 before; errors are against that ground. Shares say of how many runs they are: some hardly meet known places there.
 "Found back" are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m, or to the
 end of the run and for {fault_runs.LEAST_STAY_M:g} m at least; "way" is what these runs flew from the first known place
-until then. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
+until then; "in {WAYS_M[0]} m" and "in {WAYS_M[1]} m" are the shares of all that did within. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
 {SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m,
 those whose state said so before the error fell below {near_m} m again; "after": how long after it had passed, where a
 run that did not say so counts as longer than any ("never").

@@ -5,6 +5,7 @@
 import dataclasses
 import json
 import math
+import statistics
 import sys
 import tempfile
 from pathlib import Path
@@ -154,14 +155,18 @@ def believed_m(after):
                       for moment in after])
 
 
-def wrong_way_m(final, truth, fault):
-    """The way behind the break over which the final path is beyond WRONG_M, put onto the truth by what was flown
-    before: a fit of the whole would share the error out. `final`, `truth`: as log_sharpness.poses_of() has them."""
+def path_figures(final, truth, fault):
+    """Of the final path, put onto the truth by what was flown before the break: a fit of the whole would share the error
+    out. The error before, and the way behind over which it is beyond WRONG_M. `final`, `truth`: as
+    log_sharpness.poses_of() has them."""
     start, ways = min(truth), flown_m(truth)
     pairs = {stamp: (complex(*final[stamp][:2]), complex(*truth[stamp][:2])) for stamp in sorted(final.keys() & truth)}
-    placed = doubt_runs.onto([pair for stamp, pair in pairs.items() if stamp < start + 1e3 * fault.at_s])
-    return counted_m([(1e-3 * stamp, ways[stamp], abs(placed(mapped) - true) > WRONG_M)
-                      for stamp, (mapped, true) in pairs.items() if stamp >= start + 1e3 * fault.end_s()])
+    before = [pair for stamp, pair in pairs.items() if stamp < start + 1e3 * fault.at_s]
+    placed = doubt_runs.onto(before)
+    wrong_m = counted_m([(1e-3 * stamp, ways[stamp], abs(placed(mapped) - true) > WRONG_M)
+                         for stamp, (mapped, true) in pairs.items() if stamp >= start + 1e3 * fault.end_s()])
+    return {"before_m": math.sqrt(statistics.fmean(abs(placed(mapped) - true)**2 for mapped, true in before)),
+            "wrong_way_m": wrong_m}
 
 
 def figures(fault, after, doubted):
@@ -184,5 +189,6 @@ class Results(mapped_runs.Results):
             final, truth = (log_sharpness.poses_of(Path(name, file)) for file in ("trajectory.tum", "ground_truth.tum"))
         evaluation = json.loads(page.run(str(self.swiftlet), "eval", "--live", run.log.source, "--json", "-"))
         return {"final_m": report["absolute_trajectory_error"]["corrected"]["rmse_m"],
-                "wrong_way_m": wrong_way_m(final, truth, run.fault),
+                **path_figures(final, truth, run.fault),
+                "doubted_s": evaluation["consistency"]["seconds_doubted"],
                 **figures(run.fault, moments(evaluation, truth, run.fault.end_s()), doubted_s(evaluation))}

@@ -26,7 +26,7 @@ if [ "$1" = map ]; then
   for i in 0 149 160 170 171; do echo "$i $i 0 0 0 0 0 1"; done > "$4/ground_truth.tum"
   for i in 0 149 160 170 171; do echo "$i 5 $i 0 0 0 0 1"; done > "$4/trajectory.tum"
 else
-  echo '{"live": {"errors_m": [[149, 0], [160, 2], [170, 0.1], [171, 0.1]]},
+  echo '{"live": {"errors_m": [[149, 0], [160, 2], [170, 0.1], [171, 0.1]]}, "consistency": {"seconds_doubted": 12.5},
          "poses": [[149, 0, 0, 0, 0, 0, "tracking"], [160, 0, 0, 0, 0, 0, "lost"], [170, 0, 0, 0, 0, 0, "tracking"],
                    [171, 0, 0, 0, 0, 0, "tracking"]]}'
 fi
@@ -61,7 +61,7 @@ class WrongPlace(unittest.TestCase):
         """Of a flight of 300 s at 0.5 m/s whose final path is turned by 90 degrees. `off_m`: of stamp."""
         truth = {500 * i: (0.25 * i, 0.0, 0.0) for i in range(601)}
         final = {stamp: (-off_m(stamp / 1000) - 7.0, x_m, 0.0) for stamp, (x_m, _, _) in truth.items() if stamp != 7000}
-        return runs.wrong_way_m(final, truth, fault)
+        return runs.path_figures(final, truth, fault)["wrong_way_m"]
 
     def test_a_map_that_is_only_turned_and_moved_is_right(self):
         self.assertEqual(self.wrong_way_m(lambda s: 0.0), 0.0)
@@ -78,7 +78,13 @@ class WrongPlace(unittest.TestCase):
     def test_a_way_that_nobody_saw_does_not_count(self):
         truth = {500 * i: (0.25 * i, 0.0, 0.0) for i in [*range(320), *range(380, 390)]}
         final = {stamp: (x_m, 2.0 if stamp >= 150000 else 0.0, 0.0) for stamp, (x_m, _, _) in truth.items()}
-        self.assertAlmostEqual(runs.wrong_way_m(final, truth, runs.Fault("slip", 6)), 4.75 + 2.25)
+        self.assertAlmostEqual(runs.path_figures(final, truth, runs.Fault("slip", 6))["wrong_way_m"], 4.75 + 2.25)
+
+    def test_the_map_of_before_is_judged_by_itself(self):
+        truth = {1000 * s: (0.5 * s, 0.0, 0.0) for s in range(300)}
+        final = {stamp: (x_m, 9.0 if stamp >= 150000 else 0.1 if stamp % 2000 else -0.1, 0.0)
+                 for stamp, (x_m, _, _) in truth.items()}
+        self.assertAlmostEqual(runs.path_figures(final, truth, runs.Fault("turn", 20))["before_m"], 0.1, places=3)
 
 
 class WayBack(unittest.TestCase):
@@ -154,7 +160,8 @@ class FaultRuns(unittest.TestCase):
             results = runs.Results(Path(name, "kept"), program)
             run = runs.run_of("maze", 3, runs.Fault("slip", 6))
             results.make(run, at_once=1)
-            figures = {"final_m": 0.25, "wrong_way_m": 0, "way_back_m": 10.0, "believed_m": 0, "noticed_s": 0.0}
+            figures = {"final_m": 0.25, "wrong_way_m": 0, "way_back_m": 10.0, "believed_m": 0, "noticed_s": 0.0,
+                       "doubted_s": 12.5}
             self.assertLessEqual(figures.items(), results.get(run).items())
 
     def test_figures_by_other_code_of_ours_are_not_taken(self):
@@ -177,21 +184,21 @@ class FaultRuns(unittest.TestCase):
 
 class FaultPage(unittest.TestCase):
     def test_a_line_has_the_runs_of_one_fault_in_one_world(self):
-        keys = "final_m", "wrong_way_m", "way_back_m", "believed_m", "noticed_s"
+        keys = "final_m", "wrong_way_m", "way_back_m", "believed_m", "noticed_s", "before_m", "doubted_s"
         results = [dict(zip(keys, figures)) for figures in
-                   ((0.1, 0, 4.0, 0.0, 1.0), (0.12, 5.0, 8.0, 0.9, 0.0), (0.2, 9.0, 3.0, 2.0, 7.0),
-                    (3.0, 2.0, None, 9.0, None))]
-        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "25 %", "75 % of 4", "4.0", "8.0",
-                                               "50 % of 4", "75 % of 4", "4.0", "never"])
-        bare = {"final_m": 0.1, "wrong_way_m": 0}
-        self.assertEqual(page.cells([bare])[5:], ["–"] * 7)
-        self.assertEqual(page.cells([{**bare, "way_back_m": None}])[5:8], ["0 % of 1", "–", "–"])
+                   ((0.1, 0, 4.0, 0.0, 1.0, 0.05, 0.0), (0.12, 5.0, 16.0, 0.9, 0.0, 0.07, 12.0),
+                    (0.2, 9.0, 3.0, 2.0, 7.0, 0.06, 20.0), (3.0, 2.0, None, 9.0, None, 0.05, 80.0))]
+        self.assertEqual(page.cells(results), ["4", "0.160", "3.000", "50 %", "0.070", "25 %", "75 % of 4", "4.0", "16.0",
+                                               "50 %", "75 %", "50 % of 4", "16", "75 % of 4", "4.0", "never"])
+        bare = {"final_m": 0.1, "wrong_way_m": 0, "before_m": 0.1, "doubted_s": 0.0}
+        self.assertEqual(page.cells([bare])[6:], [*["–"] * 6, "0", *["–"] * 3])
+        self.assertEqual(page.cells([{**bare, "way_back_m": None}])[6:11], ["0 % of 1", "–", "–", "0 %", "0 %"])
 
     def test_shares_say_of_how_many_runs_they_are(self):
-        unknown = {"final_m": 0.1, "wrong_way_m": 0}
+        unknown = {"final_m": 0.1, "wrong_way_m": 0, "before_m": 0.1, "doubted_s": 0.0}
         known = {**unknown, "way_back_m": 3.0, "believed_m": 2.0}
         cells = page.cells([unknown, known, known])
-        self.assertEqual((cells[0], cells[5], cells[8]), ("3", "100 % of 2", "100 % of 2"))
+        self.assertEqual((cells[0], cells[6], cells[11]), ("3", "100 % of 2", "100 % of 2"))
 
     def test_a_doubt_that_never_came_is_longer_than_any(self):
         self.assertEqual(page.doubt_cells([3.0] * 9 + [None]), ["90 % of 10", "3.0", "3.0"], "one in ten may be missed")
@@ -204,7 +211,7 @@ class FaultPage(unittest.TestCase):
 
     def test_the_page_has_a_table_for_each_world(self):
         rows = [(runs.run_of(world, 1, runs.Fault("silence", 31)),
-                 {"final_m": final, "wrong_way_m": 0, "way_back_m": 1.0})
+                 {"final_m": final, "wrong_way_m": 0, "way_back_m": 1.0, "before_m": 0.1, "doubted_s": 0.0})
                 for world, final in (("office", 0.1), ("maze", 0.5))]
         text = page.document({"date": "2026-01-02", "commit": "abc", "machine": "a machine", "seeds": 1, "rows": rows})
         self.assertIn("`tools/benchmark-faults --record` on 2026-01-02, commit abc", text)
