@@ -112,10 +112,11 @@ not `{fault_runs.SURE}`, in the whole flight. The rest is of the live pose at
 before; errors are against that ground. Shares say of how many runs they are: some hardly meet known places there.
 "Found back" are the runs whose live pose came within {near_m} m and stayed there for {fault_runs.STAYS_M:g} m, or to the
 end of the run and for {fault_runs.LEAST_STAY_M:g} m at least; "way" is what these runs flew from the first known place
-until then; "in {WAYS_M[0]} m" and "in {WAYS_M[1]} m" are the shares of all that did within. "Wrongly sure" are the runs that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over
-{SURE_M:g} m of way. "In doubt" are, of the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m,
-those whose state said so before the error fell below {near_m} m again; "after": how long after it had passed, where a
-run that did not say so counts as longer than any ("never").
+until then; "in {WAYS_M[0]} m" and "in {WAYS_M[1]} m" are the shares of all that did within. "Wrongly sure" are the runs
+that published poses more than {WRONG_M:g} m off as `{fault_runs.SURE}` for over {SURE_M:g} m of way. "In doubt" are, of
+the runs of a break that nothing tells of and whose error passed {WRONG_M:g} m, those whose state said so before the error
+fell below {near_m} m again; "after": how long after it had passed, where a run that did not say so counts as longer than
+any ("never").
 
 {tables(report)}
 ## Known not to work
