@@ -64,7 +64,7 @@ Result<std::unique_ptr<SampleSource>> open_input(const MapCommand& command, cons
   options.max_range_m = config.sensor.max_range_m;
   options.min_range_m = config.sensor.min_range_m;
   options.range_age = range_age_of(config);
-  options.mends_heading = !command.odometry_only;
+  options.mends_motion = !command.odometry_only;
   Result<std::unique_ptr<SampleSource>> source = open_sample_source(command.input, options);
   if (!source) return source;
   return with_signs(std::move(source).value(), signs);

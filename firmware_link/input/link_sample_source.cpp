@@ -164,8 +164,7 @@ void LinkSampleSource::note_breaks() {
   const InputCounters& counters = report_.counters;
   if (counters.leaps > 0)
     report_.notes.push_back("the dead reckoning leaps " + std::to_string(counters.leaps) +
-                            " times as no vehicle can fly (its estimator was reset, or a packet is damaged): "
-                            "segments begin there");
+                            " times as no vehicle can fly (its estimator was reset, or a packet is damaged)");
   if (counters.too_far > 0)
     report_.problems.push_back(input_.name + ": the dead reckoning has run away, " +
                                std::to_string(counters.too_far) + " range packets lie more than " +

@@ -15,7 +15,7 @@
 #include "firmware_link/input/input_uri.hpp"
 #include "firmware_link/input/link_sample_source.hpp"
 #include "firmware_link/laser_log/carmen_sample_source.hpp"
-#include "firmware_link/sample/heading_mending_source.hpp"
+#include "firmware_link/sample/motion_mending_source.hpp"
 #include "firmware_link/sample_table/client_table_link.hpp"
 #include "firmware_link/sample_table/flight_table_source.hpp"
 #include "firmware_link/sample_table/sample_table_source.hpp"
@@ -213,8 +213,8 @@ Result<std::unique_ptr<SampleSource>> open_as_reported(const std::string& uri,
 Result<std::unique_ptr<SampleSource>> open_sample_source(const std::string& uri,
                                                          const SampleSourceOptions& options) {
   Result<std::unique_ptr<SampleSource>> source = open_as_reported(uri, options);
-  if (!source || !options.mends_heading || yaw_goes_with_travel((*source)->sensor().odometry)) return source;
-  return std::unique_ptr<SampleSource>(std::make_unique<HeadingMendingSource>(std::move(source).value()));
+  if (!source || !options.mends_motion || yaw_goes_with_travel((*source)->sensor().odometry)) return source;
+  return std::unique_ptr<SampleSource>(std::make_unique<MotionMendingSource>(std::move(source).value()));
 }
 
 }  // namespace swiftlet

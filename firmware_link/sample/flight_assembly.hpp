@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "core/sensing/quick_restarts.hpp"
 #include "firmware_link/sample/sample_assembler.hpp"
 
 namespace swiftlet {
@@ -16,7 +17,6 @@ inline constexpr double kMaxFromBeginningM = 1000.0;
   // After a second without the radio the vehicle gives up the link, and so does the source: the motion
   // meanwhile is a guess. The estimate runs on aboard, so the guess is good if the vehicle can have flown the
   // step across the hole; after longer than a battery lasts it has landed and may have been carried.
-  constexpr Duration kUnwatched = std::chrono::seconds(1);
   constexpr Duration kBatteryLasts = std::chrono::minutes(10);
   // The Multiranger's driver measures every 100 ms, however often its ranges are logged. 5 ms less: two
   // packets of a log at 10 Hz may lie a little closer, and then equal distances are two measurements.
@@ -26,7 +26,7 @@ inline constexpr double kMaxFromBeginningM = 1000.0;
   config.sensor = sensor;
   config.continuity.longest_silence = kBatteryLasts;
   config.continuity.farthest_m = kMaxFromBeginningM;
-  config.continuity.unwatched_after = kUnwatched;
+  config.continuity.unwatched_after = kUnwatchedAfter;
   config.measurement_period = kMeasurementPeriod;
   return config;
 }

@@ -19,7 +19,7 @@ struct InputCounters {
   std::uint64_t missing_packets = 0;  ///< range packets those holes stand for
   std::uint64_t repeated = 0;         ///< range packets with the measurement of the one before: dropped
   std::uint64_t unpaired = 0;         ///< range packets without dead reckoning around them: dropped
-  std::uint64_t leaps = 0;            ///< steps of the dead reckoning that are no motion: segments begin
+  std::uint64_t leaps = 0;            ///< steps of the dead reckoning that are no motion
   std::uint64_t too_far = 0;          ///< range packets where the dead reckoning has run away: dropped
   std::uint64_t segments = 0;         ///< starts of the dead reckoning (1 for an undisturbed run)
   std::uint64_t hits = 0;             ///< beams by status

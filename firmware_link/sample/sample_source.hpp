@@ -80,7 +80,7 @@ struct SampleSourceOptions {
   std::optional<double> max_range_m;  ///< overrides the sensor model's
   std::optional<double> min_range_m;  ///< overrides the sensor model's
   FrameSink* recording = nullptr;     ///< links only: receives every frame; must outlive the source
-  bool mends_heading = true;          ///< leaps are taken out (HeadingLeaps); false: as reported
+  bool mends_motion = true;           ///< by MotionMendingSource; false: as reported
   bool may_follow = false;            ///< whether a recording that is still written may be followed
   std::optional<UdpAddress> share;    ///< vehicles only: where a client that shares the link connects
 };

@@ -69,6 +69,13 @@ TEST(TrackingState, StaysGoodWhereAHeadingLeapsAsNoVehicleTurns) {
   EXPECT_EQ(samples_in(run, Tracking::kTracking), run.samples.size());
 }
 
+TEST(TrackingState, StaysGoodWhereTheEstimateRestartsInFlight) {
+  const CorrectedRun run = corrected_run("sim://maze?seed=2&fault=reset@150");
+  EXPECT_LT(error_m(run), 0.15);
+  EXPECT_EQ(samples_in(run, Tracking::kTracking), run.samples.size());
+  EXPECT_THAT(run.input.notes, testing::Contains(testing::HasSubstr("estimate restarted 1 times")));
+}
+
 TEST(TrackingState, IsDoubtedOnWhereACorrectionInterruptedTheDoubt) {
   int wrong = 0;
   for (const char* seed : {"1", "5", "6"})

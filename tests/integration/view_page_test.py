@@ -461,7 +461,7 @@ class PageTest(unittest.TestCase):
         self.assertIsNone(none)
 
     def test_a_flight_in_doubt_shows_what_its_map_does_not(self):
-        view = self.view("sim://loop?seed=1&fault=reset@30", "--rate", "100")
+        view = self.view("sim://loop?seed=1&fault=restart@30:60", "--rate", "100")
         self.browser.get(view.url)
         self.wait_until("swiftletPage.model.status?.state === 2 && swiftletPage.model.poses.some((pose) => pose.tracking > 0)")
         self.press(" ")

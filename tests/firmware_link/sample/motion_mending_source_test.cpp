@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
-#include "firmware_link/sample/heading_mending_source.hpp"
+#include "firmware_link/sample/motion_mending_source.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ std::vector<RangeSample> flight_with_a_leap() {
   return samples;
 }
 
-TEST(HeadingMendingSource, DeliversWhatWasFlownAndSaysSo) {
-  HeadingMendingSource source(std::make_unique<ScriptedSampleSource>(flight_with_a_leap()));
+TEST(MotionMendingSource, DeliversWhatWasFlownAndSaysSo) {
+  MotionMendingSource source(std::make_unique<ScriptedSampleSource>(flight_with_a_leap()));
   const std::vector<RangeSample> flown = flight_in_square_room(20, 2.0, 1.0);
   std::vector<std::string> events;
   for (const RangeSample& sample : flown) {
@@ -46,10 +46,33 @@ TEST(HeadingMendingSource, DeliversWhatWasFlownAndSaysSo) {
   EXPECT_THAT(source.report().notes, testing::ElementsAre(testing::HasSubstr("leaps 1 times")));
 }
 
-TEST(HeadingMendingSource, SignsMayBeMendedUponIt) {
+TEST(MotionMendingSource, ARestartIsJoinedBeforeALeapBehindItIsTakenOut) {
+  const std::vector<RangeSample> flown = flight_in_square_room(20, 2.0, 1.0);
+  std::vector<RangeSample> reported = flight_with_a_leap();
+  const Pose2 T_odom_new = reported[5].T_odom_body;
+  reported[5].starts_segment = true;
+  for (std::size_t i = 5; i < reported.size(); ++i)
+    reported[i].T_odom_body = between(T_odom_new, reported[i].T_odom_body);
+  MotionMendingSource source(std::make_unique<ScriptedSampleSource>(reported));
+  std::vector<RangeSample> delivered;
+  while (const Result<ReceivedSample> received = source.next()) delivered.push_back(received->sample);
+  source.end();
+  EXPECT_THAT(source.report().notes, testing::ElementsAre(testing::HasSubstr("restarted 1 times"),
+                                                          testing::HasSubstr("leaps 1 times")));
+  ASSERT_EQ(delivered.size(), flown.size());
+  for (std::size_t i = 0; i < flown.size(); ++i) {
+    EXPECT_TRUE(poses_near(delivered[i].T_odom_body, flown[i].T_odom_body, 0.02, 0.02)) << i;
+    EXPECT_TRUE(poses_near(as_reported(source.mended(), reported[i].stamp, delivered[i].T_odom_body),
+                           reported[i].T_odom_body, 1e-9, 1e-9))
+        << i;
+    EXPECT_EQ(delivered[i].starts_segment, i == 0) << i;
+  }
+}
+
+TEST(MotionMendingSource, SignsMayBeMendedUponIt) {
   const std::vector<RangeSample> reported = flight_with_a_leap();
   SignMendingSource source(
-      std::make_unique<HeadingMendingSource>(std::make_unique<ScriptedSampleSource>(reported)));
+      std::make_unique<MotionMendingSource>(std::make_unique<ScriptedSampleSource>(reported)));
   std::vector<RangeSample> delivered;
   while (const Result<ReceivedSample> received = source.next()) delivered.push_back(received->sample);
   source.end();
@@ -61,10 +84,10 @@ TEST(HeadingMendingSource, SignsMayBeMendedUponIt) {
         << i;
 }
 
-TEST(HeadingMendingSource, IsOnlyWhereItIsWanted) {
-  const auto mended_of = [](bool mends_heading) {
+TEST(MotionMendingSource, IsOnlyWhereItIsWanted) {
+  const auto mended_of = [](bool mends_motion) {
     SampleSourceOptions options;
-    options.mends_heading = mends_heading;
+    options.mends_motion = mends_motion;
     Result<std::unique_ptr<SampleSource>> source =
         open_sample_source("sim://office?seed=1&fault=jump@5:20", options);
     if (!source) return std::size_t{0};
