@@ -81,8 +81,9 @@ Status evaluate_poses_as_published(const EvalCommand& command) {
   truths.insert(truths.end(), command.references.begin(), command.references.end());
   if (truths.size() > 1 || !command.relations.empty())
     return Error{ErrorCode::kInvalidInput, "eval --live: takes one reference at most, a true trajectory"};
-  const Result<LiveEvaluation> evaluation = evaluate_live(
-      {command.trajectory, truths.empty() ? "" : truths[0], command.config_file, command.batch_s});
+  const Result<LiveEvaluation> evaluation =
+      evaluate_live({command.trajectory, truths.empty() ? "" : truths[0], command.config_file,
+                     command.batch_s, command.calibrate});
   if (!evaluation) return evaluation.error();
   const Status written =
       write_figures(command, live_evaluation_text(*evaluation), live_evaluation_json(*evaluation));

@@ -19,6 +19,7 @@ struct EvalCommand {
   bool live = false;                    ///< evaluate poses as published; references: a true path at most
   std::optional<double> batch_s;        ///< of `live`: compare with final passes at moments this far apart
   std::string config_file;              ///< of `live`; empty: the defaults
+  bool calibrate = true;                ///< of `live`
   std::string json_file;                ///< empty: none; "-": to stdout, in place of the table
 };
 

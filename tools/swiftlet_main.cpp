@@ -173,6 +173,10 @@ CLI::App* add_eval_command(CLI::App& app, swiftlet::EvalCommand& command) {
   eval->add_option("--config", command.config_file, "With --live: TOML file with settings")
       ->check(swiftlet::named_file())
       ->needs(live);
+  eval->add_flag_callback(
+          "--no-calibrate", [&command] { command.calibrate = false; },
+          "With --live: do not estimate age and scales first; swiftletd cannot, either")
+      ->needs(live);
   eval->add_option("--json", command.json_file, "Write all figures to this file; - for stdout, not the table")
       ->check(swiftlet::named_file());
   return eval;

@@ -542,6 +542,7 @@ TEST_F(SwiftletCommand, EvaluatesPosesAsTheyWerePublished) {
   EXPECT_EQ(programs.exit_code, 0) << programs.err;
   EXPECT_THAT(programs.out, AllOf(StartsWith("{"), HasSubstr("\"live\": {\n    \"moments\": 0")));
   EXPECT_THAT(run("eval sim://patrol?seed=1 --batch 8"), refuses_with("--live"));
+  EXPECT_THAT(run("eval sim://patrol?seed=1 --no-calibrate"), refuses_with("--live"));
   EXPECT_THAT(run("eval --live {}/none.pcap"), refuses_with("none.pcap: no such file"));
   EXPECT_THAT(run("eval --live sim://patrol --truth {}/a.tum --truth {}/b.tum"),
               refuses_with("takes one reference at most"));

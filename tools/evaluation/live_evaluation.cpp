@@ -150,6 +150,7 @@ Result<LiveEvaluation> evaluate_live(const LiveEvalCommand& command) {
   MapCommand map;
   map.input = command.input;
   map.config_file = command.config_file;
+  map.calibrate = command.calibrate;
   const Result<PreparedRun> prepared = prepare_run(map);
   if (!prepared) return prepared.error();
   Result<PrunedScans> pruned = PrunedScans::open(std::filesystem::temp_directory_path());

@@ -19,6 +19,7 @@ struct LiveEvalCommand {
   std::string truth_file;         ///< TUM; empty: the simulation's own or, of a recording, its final path
   std::string config_file;        ///< empty: the defaults
   std::optional<double> batch_s;  ///< travel time between moments at which a final pass ends the run
+  bool calibrate = true;          ///< from the whole input, before it is mapped
 };
 
 /// What runs that end at some of the moments of a run, each with its final pass, make of its known places.

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 
@@ -43,6 +44,17 @@ TEST(LiveEvaluation, ReportsTheNotesOfTheInputAndWhatIsWrongWithIt) {
   ASSERT_TRUE(damaged) << damaged.error().message;
   EXPECT_EQ(damaged->poses.size(), 51U);
   EXPECT_THAT(damaged->report.problems, ElementsAre(HasSubstr("garbled.clf:52: FLASER line cut off")));
+}
+
+TEST(LiveEvaluation, CalibratesFirstWhereItIsNotToldToLeaveThat) {
+  const auto tells_of_age = [](bool calibrate) {
+    const Result<LiveEvaluation> evaluation = evaluate_live({"sim://patrol?seed=1", "", "", {}, calibrate});
+    return evaluation && std::ranges::any_of(evaluation->report.notes, [](const std::string& note) {
+             return note.find("age of the ranges") != std::string::npos;
+           });
+  };
+  EXPECT_TRUE(tells_of_age(true));
+  EXPECT_FALSE(tells_of_age(false));
 }
 
 TEST(LiveEvaluation, RefusesATruthOfAnotherTimeAndNamesBoth) {
