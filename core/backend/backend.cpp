@@ -10,6 +10,7 @@
 
 #include "core/backend/confidence/map_agreement.hpp"
 #include "core/backend/confidence/pose_covariances.hpp"
+#include "core/backend/confidence/recent_innovation.hpp"
 #include "core/backend/loop_closing/loop_closer.hpp"
 #include "core/backend/loop_closing/return_evidence.hpp"
 #include "core/backend/pose_graph/keyframe_graph.hpp"
@@ -52,6 +53,7 @@ struct Backend::State {
   RunRefinement refinement;
   Pruner pruner{config, scans, chain};
   MapAgreement agreement{config.tuning.confidence, scans};
+  RecentInnovation innovation;
   MapCorrection correction;  // at the newest keyframe
   std::optional<PoseConfidence>
       confidence;                // as it was last computed; nothing once it does not hold any more
@@ -228,6 +230,7 @@ BackendUpdate Backend::add(const FrontendStep& step) {
   }
   SWIFTLET_CHECK(s.chain.add(scan) == step.made.id, "no keyframe is left out");
   s.estimates.take(step.made);
+  s.innovation.add(step.made.innovation, step.made.innovation_dof);
   s.graph.add_keyframe(step.made, s.T_local_keyframe());
   s.loops.add_keyframe(step.made, s.T_local_keyframe());
   s.graph.observe_building_axis(s.estimates);
@@ -310,13 +313,16 @@ TrackingFigures Backend::tracking() const {
   const auto holds = [](const LoopClosure& closure) { return !closure.dropped; };
   const auto newest = std::find_if(closures.rbegin(), closures.rend(), holds);
   const std::optional<KeyframeId> unplaced = s.loops.unplaced_since();
-  const std::size_t places_weighed = s.loops.weighs_places() ? s.loops.places_weighed() : 0;
+  const bool weighs = s.loops.weighs_places();
   return {.tracking = s.tracking(),
           .contradiction = s.agreement.contradiction(),
           .contradicting_share = s.agreement.contradicting_share(),
           .returns_compared = s.agreement.returns_compared(),
           .times_uncertain = s.agreement.times_contradicted(),
-          .places_weighed = static_cast<std::uint32_t>(places_weighed),
+          .places_weighed = weighs ? static_cast<std::uint32_t>(s.loops.places_weighed()) : 0U,
+          .place_lead = weighs ? s.loops.place_lead() : 0.0,
+          .innovation = s.innovation.per_degree(),
+          .way_since_agreement_m = s.scans.all().values().back().path_m - s.agreement.agreed_at_m(),
           .way_since_closure_m = newest == closures.rend() ? here_m : since_m(newest->to),
           .way_unplaced_m = unplaced ? since_m(s.chain.all().at_or_after(*unplaced)) : 0.0};
 }

@@ -252,9 +252,12 @@ void Frontend::State::update_axis() {
 void Frontend::State::optimize_or_roll_back() {
   bool& sees_known = sees_known_walls[index_of(newest) % kMaxKeyframeWindow];
   sees_known = associated > 0;
+  step.made.innovation = 0.0;
+  step.made.innovation_dof = sees_known ? static_cast<std::uint32_t>(2 * associated + aligned) : 0U;
   if (associated + aligned > 0) {
     const double increase =
         solver.optimize(graph, config.solver_iterations, config.tuning.solver).chi_square - chi_square_before;
+    if (sees_known) step.made.innovation = std::max(0.0, increase);
     if (increase > chi_square.quantile(2 * associated + aligned)) {
       graph.restore(before_batch);
       ++counters.batches_rolled_back;

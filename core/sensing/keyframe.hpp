@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 #include "core/base/fixed_vector.hpp"
@@ -32,6 +33,8 @@ struct Keyframe {
   Covariance3 motion_covariance;  ///< of T_previous_this, in the frame of the previous keyframe
   bool starts_segment = false;    ///< the motion from the previous keyframe was not measured
   bool odometry_ran_on = false;   ///< with starts_segment: dead reckoning guesses it; else it is unknown
+  double innovation = 0.0;  ///< by which the lines seen here, of known walls, raised the graph's chi-square
+  std::uint32_t innovation_dof = 0;  ///< degrees of freedom of that; 0: no known wall was seen
   /// The present estimates of the last keyframes, oldest first, this one last (eq. 20 uses the motions
   /// between consecutive ones). Ids are consecutive.
   FixedVector<Pose2, kMaxKeyframeWindow> T_local_keyframe;

@@ -108,6 +108,10 @@ Json tracking_json(const TrackingFigures& figures) {
           {"contradicting_share", figures.contradicting_share},
           {"returns_compared", figures.returns_compared},
           {"times_uncertain", figures.times_uncertain},
+          {"places_weighed", figures.places_weighed},
+          {"place_lead", figures.place_lead},
+          {"innovation", figures.innovation},
+          {"way_since_agreement_m", figures.way_since_agreement_m},
           {"way_since_closure_m", figures.way_since_closure_m},
           {"way_unplaced_m", figures.way_unplaced_m}};
 }

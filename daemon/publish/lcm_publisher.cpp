@@ -157,6 +157,9 @@ void fill_tracking(const TrackingFigures& figures, tracking_t& message) {
   message.returns_compared = i64(figures.returns_compared);
   message.times_uncertain = i64(figures.times_uncertain);
   message.places_weighed = i32(figures.places_weighed);
+  message.place_lead = figures.place_lead;
+  message.innovation = figures.innovation;
+  message.way_since_agreement = figures.way_since_agreement_m;
   message.way_since_closure = figures.way_since_closure_m;
   message.way_unplaced = figures.way_unplaced_m;
 }

@@ -276,8 +276,9 @@ py::dict fields_of(const tracking_t& tracking) {
       "state"_a = name_of_code(kTrackingStates, tracking.state), "contradiction"_a = tracking.contradiction,
       "contradicting_share"_a = tracking.contradicting_share,
       "returns_compared"_a = tracking.returns_compared, "times_uncertain"_a = tracking.times_uncertain,
-      "places_weighed"_a = tracking.places_weighed, "way_since_closure_m"_a = tracking.way_since_closure,
-      "way_unplaced_m"_a = tracking.way_unplaced);
+      "places_weighed"_a = tracking.places_weighed, "place_lead"_a = tracking.place_lead,
+      "innovation"_a = tracking.innovation, "way_since_agreement_m"_a = tracking.way_since_agreement,
+      "way_since_closure_m"_a = tracking.way_since_closure, "way_unplaced_m"_a = tracking.way_unplaced);
 }
 
 py::list queues_of(const status_t& message) {

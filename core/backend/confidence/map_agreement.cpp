@@ -25,6 +25,7 @@ void MapAgreement::add_newest_scan(const Pose2& T_map_body) {
 void MapAgreement::weigh(ReturnVerdict verdict, double weight) {
   if (verdict == ReturnVerdict::kUnknown) return;
   const bool contradicts = verdict == ReturnVerdict::kContradicts;
+  if (!contradicts) agreed_at_m_ = scans_->all().values().back().path_m;
   ++returns_compared_;
   share_ += ((contradicts ? 1.0 : 0.0) - share_) / tuning_->recent_returns;
   log_odds_ += weight * returns_.log_odds_of(verdict);

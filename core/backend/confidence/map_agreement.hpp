@@ -39,6 +39,8 @@ class MapAgreement {
   [[nodiscard]] bool is_contradicted() const { return is_contradicted_; }
   /// Of the last scan before the evidence began to grow.
   [[nodiscard]] ScanId agreed_last() const { return agreed_last_; }
+  /// How far the vehicle had travelled when a return agreed last; 0 before the first.
+  [[nodiscard]] double agreed_at_m() const { return agreed_at_m_; }
   [[nodiscard]] double contradicting_share() const { return share_; }
   [[nodiscard]] std::uint64_t returns_compared() const { return returns_compared_; }
   [[nodiscard]] std::uint64_t times_contradicted() const { return times_contradicted_; }
@@ -55,6 +57,7 @@ class MapAgreement {
   double share_ = 0.0;
   bool is_contradicted_ = false;
   ScanId agreed_last_{};
+  double agreed_at_m_ = 0.0;
   std::uint64_t returns_compared_ = 0;
   std::uint64_t times_contradicted_ = 0;
 };

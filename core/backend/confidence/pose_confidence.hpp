@@ -30,6 +30,10 @@ struct TrackingFigures {
   std::uint64_t returns_compared = 0;  ///< with older ground, since the start
   std::uint64_t times_uncertain = 0;   ///< since the start
   std::uint32_t places_weighed = 0;    ///< until the place is beyond doubt
+  double place_lead = 0.0;  ///< likewise: log-odds of the likeliest place over the next, or over new ground
+  double innovation = 0.0;  ///< RecentInnovation
+  double way_since_agreement_m = 0.0;  ///< travelled since a return lay on a wall of the older map, or since
+                                       ///< the start
   double way_since_closure_m = 0.0;    ///< travelled since the newest closure that holds, or since the start
   double way_unplaced_m = 0.0;         ///< travelled since motion was not watched, until placed
 };

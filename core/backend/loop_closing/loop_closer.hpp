@@ -93,6 +93,8 @@ class LoopCloser {
   [[nodiscard]] bool weighs_places() const { return unplaced_since_ || provisional_; }
   /// Places that are weighed then, the one without any move included.
   [[nodiscard]] std::size_t places_weighed() const { return places_.size(); }
+  /// PlaceHypotheses::lead(); 0 without any place.
+  [[nodiscard]] double place_lead() const { return places_.size() > 0 ? places_.lead() : 0.0; }
 
  private:
   /// Travel that was placed, and may yet lie elsewhere.

@@ -321,7 +321,6 @@ double PlaceHypotheses::sigma_m(const Hypothesis& hypothesis) const {
   return 1.0 / std::sqrt(std::max(solver.eigenvalues()(0), 1e-9));
 }
 
-/// Of the likeliest, over the next and over ground that the map does not show.
 double PlaceHypotheses::lead() const {
   const double rival = hypotheses_.size() < 2 ? 0.0 : std::max(0.0, hypotheses_[1].log_odds);
   return hypotheses_.front().log_odds - rival;

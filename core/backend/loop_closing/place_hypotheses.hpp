@@ -67,6 +67,8 @@ class PlaceHypotheses {
   /// The accepted one leads by the evidence for two decisions.
   [[nodiscard]] bool is_beyond_doubt() const;
   [[nodiscard]] std::size_t size() const { return hypotheses_.size(); }
+  /// Log-odds of the likeliest, over the next and over ground that the map does not show. Precondition: one.
+  [[nodiscard]] double lead() const;
 
  private:
   struct Query {
@@ -106,7 +108,6 @@ class PlaceHypotheses {
   [[nodiscard]] double against(const Query& query, const Pose2& T_map_query,
                                std::span<const std::shared_ptr<const Submap>> submaps,
                                const PoseGraph& graph) const;
-  [[nodiscard]] double lead() const;
   [[nodiscard]] double likelihood_per_excess() const;
   [[nodiscard]] double queries_alike() const;
   [[nodiscard]] double sigma_m(const Hypothesis& hypothesis) const;

@@ -331,6 +331,33 @@ TEST(Frontend, StaysFiniteWhileTheStoreyChangesOnTheSpot) {
             1.2 * relative_error(usual_drive(11), run(usual_drive(11)).steps, 200).position_m);
 }
 
+/// Chi-square per degree of freedom over a drive.
+double innovation_of(const RoomDrive& drive, const FrontendConfig& config = {}) {
+  double chi_square = 0.0;
+  double degrees = 0.0;
+  for (const FrontendStep& step : run(drive, config).steps) {
+    if (!step.has_keyframe) continue;
+    EXPECT_GE(step.made.innovation, 0.0);
+    EXPECT_TRUE(step.made.innovation_dof > 0 || step.made.innovation == 0.0);
+    chi_square += step.made.innovation;
+    degrees += step.made.innovation_dof;
+  }
+  return degrees > 0.0 ? chi_square / degrees : 0.0;
+}
+
+TEST(Frontend, TellsHowWellKnownWallsFit) {
+  const double usual = innovation_of(usual_drive(12));
+  EXPECT_GT(usual, 0.0);
+  EXPECT_LT(usual, 2.0);
+  FrontendConfig odometry;
+  odometry.use_landmarks = false;
+  EXPECT_EQ(innovation_of(usual_drive(12), odometry), 0.0);
+  RoomDrive leaning = usual_drive(12);
+  for (std::size_t i = 150; i < 190; ++i)
+    leaning.samples[i].distance_m[1] += 0.006F * static_cast<float>(i - 150);
+  EXPECT_GT(innovation_of(leaning), 1.2 * usual);
+}
+
 TEST(Frontend, RollsBackABatchThatContradictsTheRest) {
   RoomDrive drive = usual_drive(12, {0.2, 0.0});
   // For a metre and a half the left beam reads steadily longer: the wall seems to lean away.

@@ -33,6 +33,12 @@ TEST(RunReport, TellsWhatCameInAndWhatWasMadeOfIt) {
   EXPECT_EQ(report["backend"]["map_source"], "pose graph");
   EXPECT_EQ(report["backend"]["yaw_noise_factor"], 1.0);
   EXPECT_EQ(report["backend"]["floor_cost"], 0.0);
+  EXPECT_EQ(report["tracking"]["state"], "tracking");
+  EXPECT_EQ(report["tracking"]["places_weighed"], 0);
+  EXPECT_EQ(report["tracking"]["place_lead"], 0.0);
+  EXPECT_GE(report["tracking"]["innovation"], 0.0);
+  EXPECT_NEAR(report["tracking"]["way_since_agreement_m"].get<double>(), 8.0, 1e-9)
+      << "there is no older map";
   EXPECT_NEAR(report["trajectory"]["duration_s"].get<double>(), 8.0, 1e-9);
   EXPECT_NEAR(report["trajectory"]["odometry_length_m"].get<double>(), 8.0, 1e-9);
   EXPECT_GT(report["map"]["tiles"], 0);

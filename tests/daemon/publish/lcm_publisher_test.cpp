@@ -241,7 +241,13 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   status.input.progress = 0.5;
   status.frontend.keyframes = 12;
   status.backend.closures_accepted = 3;
-  status.tracking = {.tracking = Tracking::kUncertain, .contradicting_share = 0.25, .way_unplaced_m = 7.0};
+  status.tracking = {.tracking = Tracking::kUncertain,
+                     .contradicting_share = 0.25,
+                     .place_lead = 5.0,
+                     .innovation = 1.5,
+                     .way_since_agreement_m = 3.0,
+                     .way_since_closure_m = 4.0,
+                     .way_unplaced_m = 7.0};
   status.map = {.tiles = 5, .version_sum = 50};
   for (QueueStatistics& queue : status.queues) queue = {"samples", 256, 17, 1};
   status.stages = {{.name = "map", .count = 2, .p99_ms = 1.5, .p999_ms = 1.75}};
@@ -256,6 +262,10 @@ TEST_F(LcmPublisherTest, TheStatusHoldsCountsQueuesAndTimes) {
   EXPECT_EQ(message.closures_accepted, 3);
   EXPECT_EQ(message.tracking.state, pose_t::TRACKING_UNCERTAIN);
   EXPECT_EQ(message.tracking.contradicting_share, 0.25);
+  EXPECT_EQ(message.tracking.place_lead, 5.0);
+  EXPECT_EQ(message.tracking.innovation, 1.5);
+  EXPECT_EQ(message.tracking.way_since_agreement, 3.0);
+  EXPECT_EQ(message.tracking.way_since_closure, 4.0);
   EXPECT_EQ(message.tracking.way_unplaced, 7.0);
   EXPECT_EQ(message.tile_count, 5);
   EXPECT_EQ(message.version_sum, 50);
@@ -310,7 +320,7 @@ TEST(LcmTypes, HaveTheFingerprintsThatConsumersWereBuiltWith) {
   EXPECT_EQ(fingerprint<landmarks_t>(), 0x9cc0333c77a3af06U);
   EXPECT_EQ(fingerprint<loop_closure_t>(), 0x280a8e00175b414aU);
   EXPECT_EQ(fingerprint<vehicle_event_t>(), 0xa580549a7408b96eU);
-  EXPECT_EQ(fingerprint<status_t>(), 0xad0978ad381d3dabU);
+  EXPECT_EQ(fingerprint<status_t>(), 0x29d24bc85eb44f1fU);
 }
 
 // A fingerprint is made of the fields' names and types alone. These are what lcm-gen makes of mbot_lcm_msgs.

@@ -79,13 +79,19 @@ TEST(Pipeline, ARestartIsPublishedAsTheBackendSeesIt) {
   Pipeline pipeline(Configuration{}, source, clock, {});
   std::vector<Tracking> published;
   std::vector<Tracking> seen;
+  bool has_lead = false;
   PoseUpdate pose;
   while (published.size() < flight.size()) {
     ASSERT_TRUE(*pipeline.step());
     ASSERT_TRUE(pipeline.queues().to_publisher.poses.consumer().try_pop(pose));
     published.push_back(pose.tracking);
-    seen.push_back(pipeline.backend().tracking().tracking);
+    const TrackingFigures figures = pipeline.backend().tracking();
+    seen.push_back(figures.tracking);
+    has_lead = has_lead || figures.place_lead != 0.0;
+    EXPECT_TRUE(figures.place_lead == 0.0 || figures.places_weighed > 0);
   }
+  EXPECT_TRUE(has_lead) << "places are weighed behind the second";
+  EXPECT_GT(pipeline.backend().tracking().innovation, 0.0);
   EXPECT_EQ(published[50], Tracking::kTracking);
   EXPECT_EQ(published[200], Tracking::kLost);
   for (const std::size_t restart : kRestarts) EXPECT_EQ(published[restart], seen[restart]) << restart;

@@ -208,6 +208,9 @@ class Tracking:
     returns_compared: int
     times_uncertain: int
     places_weighed: int
+    place_lead: float
+    innovation: float
+    way_since_agreement_m: float
     way_since_closure_m: float
     way_unplaced_m: float
 

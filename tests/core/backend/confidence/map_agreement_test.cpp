@@ -49,6 +49,7 @@ class MapAgreementTest : public testing::Test {
     constexpr double kWallM = 2.9;
     FrontendStep step;
     RangeSample& sample = step.sample;
+    sample.T_odom_body = Pose2(at.x_m, at.y_m, 0.0);
     sample.beam_count = beam_count_;
     const double distances[] = {kWallM - at.x_m, kWallM - at.y_m, kWallM + at.x_m, kWallM + at.y_m};
     for (std::size_t i = 0; i < beam_count_; ++i) {
@@ -102,6 +103,17 @@ TEST_F(MapAgreementTest, BeamsThatEndInTheOpenAndBeamsThroughWallsBothContradict
   // Ahead through the wall, behind in the open; left and right on walls still.
   EXPECT_EQ(agreement_.returns_compared(), 4U);
   EXPECT_NEAR(agreement_.contradicting_share(), 2.0 / tuning_.recent_returns, 0.005);
+}
+
+TEST_F(MapAgreementTest, TellsWhereAReturnAgreedLast) {
+  EXPECT_EQ(agreement_.agreed_at_m(), 0.0);
+  see({0.0, 0.0}, {0.0, 0.0});
+  see({0.5, 0.0}, {0.0, 0.0});
+  EXPECT_DOUBLE_EQ(agreement_.agreed_at_m(), 0.5);
+  see({1.0, 0.0}, {50.0, 0.0});
+  EXPECT_DOUBLE_EQ(agreement_.agreed_at_m(), 0.5) << "no older map there";
+  see({1.5, 0.0}, {0.9, 0.9});
+  EXPECT_DOUBLE_EQ(agreement_.agreed_at_m(), 0.5) << "all four contradict it";
 }
 
 TEST_F(MapAgreementTest, EachReturnOfFourCountsInFull) {
