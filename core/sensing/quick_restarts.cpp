@@ -46,11 +46,12 @@ void QuickRestarts::mend(RangeSample& sample) {
 bool QuickRestarts::is_quick(const RangeSample& sample) const {
   const Pose2& step = last_->T_previous_this;
   const double took_s = to_seconds(last_->took);
-  const bool moved = std::hypot(step.x_m(), step.y_m()) > kStandsBelowMPerS * took_s ||
-                     std::abs(step.yaw_rad()) > kStandsBelowRadPerS * took_s;
+  const double far_m = std::hypot(step.x_m(), step.y_m());
+  const bool moved =
+      far_m > kStandsBelowMPerS * took_s || std::abs(step.yaw_rad()) > kStandsBelowRadPerS * took_s;
   const Duration elapsed = sample.measured_at - last_->measured_at;
-  return moved && elapsed > Duration::zero() && elapsed < kUnwatchedAfter &&
-         elapsed <= kMostSteps * last_->took &&
+  return moved && far_m < kTopSpeedMPerS * took_s && elapsed > Duration::zero() &&
+         elapsed < kUnwatchedAfter && elapsed <= kMostSteps * last_->took &&
          std::chrono::abs(sample.stamp - last_->stamp) < kUnwatchedAfter;
 }
 

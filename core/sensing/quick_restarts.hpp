@@ -18,10 +18,13 @@ namespace swiftlet {
 /// none can boot.
 inline constexpr Duration kUnwatchedAfter = std::chrono::seconds(1);
 
+/// No vehicle flies faster: its estimate does.
+inline constexpr double kTopSpeedMPerS = 5.0;
+
 /// Joins dead reckoning that restarts in flight, within kUnwatchedAfter by the clocks of vehicle and host
 /// (the firmware resets an estimate that has run away): the vehicle flew on as in the step before, and no
 /// segment begins. Nothing is joined where that step was as slow as noise, since the vehicle may have stood
-/// and been carried, or where it was much shorter than the restart.
+/// and been carried, faster than it flies, or much shorter than the restart.
 /// @note Allocates in the constructor only. One thread at a time.
 class QuickRestarts {
  public:

@@ -64,7 +64,7 @@ template <>
 /// Of queues, and behind them of stages.
 template <>
 [[nodiscard]] inline bool can_hold_its_counts<status_t>(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kCountAt = 362;
+  constexpr std::size_t kCountAt = 386;
   constexpr std::size_t kBytesOfQueue = 16;  // beside its name
   constexpr std::size_t kBytesOfStage = 48;
   ClaimedCounts counts(bytes, kCountAt);

@@ -11,6 +11,7 @@
 #include "core/base/time.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/sensing/quick_restarts.hpp"
 #include "firmware_link/sample/attitude.hpp"
 
 namespace swiftlet {
@@ -20,9 +21,9 @@ inline constexpr double kWheelsJumpSlackM = 2.0;
 
 /// When readings of dead reckoning belong to one motion.
 struct ContinuityLimits {
-  Duration longest_interpolation{};  ///< no value between readings further apart than this
-  Duration longest_silence{};        ///< after a longer one the dead reckoning counts as restarted
-  double top_speed_m_per_s = 5.0;    ///< what moves faster (and farther than the slack) was reset
+  Duration longest_interpolation{};           ///< no value between readings further apart than this
+  Duration longest_silence{};                 ///< after a longer one the dead reckoning counts as restarted
+  double top_speed_m_per_s = kTopSpeedMPerS;  ///< what moves faster (and farther than the slack) was reset
   double jump_slack_m = 0.1;
   double top_turn_rate_rad_per_s = 4.0 * kPi;
   /// From where the dead reckoning began; what is farther away is an error of it.

@@ -352,10 +352,12 @@ TEST(Frontend, TellsHowWellKnownWallsFit) {
   FrontendConfig odometry;
   odometry.use_landmarks = false;
   EXPECT_EQ(innovation_of(usual_drive(12), odometry), 0.0);
+  FrontendConfig trusting;
+  trusting.association_mahalanobis2 = 1e6;
   RoomDrive leaning = usual_drive(12);
   for (std::size_t i = 150; i < 190; ++i)
     leaning.samples[i].distance_m[1] += 0.006F * static_cast<float>(i - 150);
-  EXPECT_GT(innovation_of(leaning), 1.2 * usual);
+  EXPECT_GT(innovation_of(leaning, trusting), 1.2 * innovation_of(usual_drive(12), trusting));
 }
 
 TEST(Frontend, RollsBackABatchThatContradictsTheRest) {
