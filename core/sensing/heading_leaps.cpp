@@ -19,22 +19,19 @@ void HeadingLeaps::mend(RangeSample& sample) {
     const double turn_rad = turn_of_step(step.yaw_rad(), to_seconds(sample.measured_at - last_->measured_at));
     if (turn_rad != step.yaw_rad()) {
       const Pose2 T_mended_body =
-          T_mended_reported_ * last_->T_reported_body * Pose2(step.x_m(), step.y_m(), turn_rad);
-      T_mended_reported_ = T_mended_body * T_reported_body.inverse();
-      mended_.push_back({sample.stamp, T_mended_reported_});
+          frame_.mended(last_->T_reported_body) * Pose2(step.x_m(), step.y_m(), turn_rad);
+      frame_.change(sample.stamp, T_mended_body * T_reported_body.inverse());
     }
   }
   last_ = Step{sample.measured_at, T_reported_body};
-  if (!mended_.empty()) sample.T_odom_body = T_mended_reported_ * T_reported_body;
+  sample.T_odom_body = frame_.mended(T_reported_body);
 }
 
 /// Of the dead reckoning that begins with this sample nothing is known yet.
 void HeadingLeaps::begin_anew(const RangeSample& sample) {
   rate_rad_per_s_.reset();
   turn_ = {};
-  if (mended_.empty() || !has_room()) return;
-  T_mended_reported_ = Pose2();
-  mended_.push_back({sample.stamp, T_mended_reported_});
+  if (!frame_.changes().empty() && frame_.has_room()) frame_.change(sample.stamp, Pose2());
 }
 
 /// From one rate to itself.
@@ -51,7 +48,7 @@ double HeadingLeaps::turn_of_step(double reported_rad, double elapsed_s) {
   if (turn_.steps == 0) rate_before_rad_per_s_ = *rate_rad_per_s_;
   const double excess_rad = reported_rad - rate_before_rad_per_s_ * elapsed_s;
   const bool as_before = std::abs(excess_rad) <= tuning_.slack_rad;
-  if (as_before || turn_.steps == kMostSteps || !has_room())
+  if (as_before || turn_.steps == kMostSteps || !frame_.has_room())
     return end_turn(reported_rad, elapsed_s, as_before);
   ++turn_.steps;
   turn_.time_s += elapsed_s;

@@ -30,15 +30,13 @@ struct HeadingLeapTuning {
 /// @note Allocates in the constructor only. One thread at a time.
 class HeadingLeaps {
  public:
-  explicit HeadingLeaps(const HeadingLeapTuning& tuning = {}) : tuning_(tuning) {
-    mended_.reserve(kMostRecords + 1);
-  }
+  explicit HeadingLeaps(const HeadingLeapTuning& tuning = {}) : tuning_(tuning) {}
 
   /// Makes the dead reckoning of the next sample one without those turns.
   void mend(RangeSample& sample);
   /// How many were taken out.
   [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] const std::vector<MendedOdometry>& mended() const { return mended_; }
+  [[nodiscard]] const std::vector<MendedOdometry>& mended() const { return frame_.changes(); }
 
  private:
   struct Step {
@@ -54,10 +52,7 @@ class HeadingLeaps {
   };
 
   static constexpr int kMostSteps = 2;
-  static constexpr std::size_t kMostRecords =
-      300;  // an estimate that leaps all the time is passed on as it is
 
-  [[nodiscard]] bool has_room() const { return mended_.size() < kMostRecords; }
   [[nodiscard]] double most_within_rad(double time_s) const;
   double turn_of_step(double reported_rad, double elapsed_s);
   double end_turn(double reported_rad, double elapsed_s, bool as_before);
@@ -68,9 +63,8 @@ class HeadingLeaps {
   std::optional<double> rate_rad_per_s_;  // of the last step that was not held back, as reported
   double rate_before_rad_per_s_ = 0.0;    // of the last step before turn_
   Turn turn_;
-  Pose2 T_mended_reported_;
   std::size_t count_ = 0;
-  std::vector<MendedOdometry> mended_;
+  MendedFrame frame_;
 };
 
 }  // namespace swiftlet

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The swiftlet authors
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -14,13 +13,6 @@
 
 namespace swiftlet {
 
-/// A vehicle that flies is unwatched after so long without dead reckoning. In less it cannot get far, and
-/// none can boot.
-inline constexpr Duration kUnwatchedAfter = std::chrono::seconds(1);
-
-/// No vehicle flies faster: its estimate does.
-inline constexpr double kTopSpeedMPerS = 5.0;
-
 /// Joins dead reckoning that restarts in flight, within kUnwatchedAfter by the clocks of vehicle and host
 /// (the firmware resets an estimate that has run away): the vehicle flew on as in the step before, and no
 /// segment begins. Nothing is joined where that step was as slow as noise, since the vehicle may have stood
@@ -28,34 +20,32 @@ inline constexpr double kTopSpeedMPerS = 5.0;
 /// @note Allocates in the constructor only. One thread at a time.
 class QuickRestarts {
  public:
-  QuickRestarts() { mended_.reserve(kMostRecords); }
-
   /// Makes the dead reckoning of the next sample one that runs on.
   void mend(RangeSample& sample);
   /// How many were joined.
   [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] const std::vector<MendedOdometry>& mended() const { return mended_; }
+  [[nodiscard]] const std::vector<MendedOdometry>& mended() const { return frame_.changes(); }
 
  private:
   struct Step {
     DeviceTime measured_at{};
     HostTime stamp{};
     Pose2 T_mended_body;
-    Pose2 T_previous_this;  // as far as it was measured
-    Duration took{};
+    Pose2 T_previous_this;  // if it was measured
+    Duration took{};        // likewise
   };
 
-  static constexpr std::size_t kMostRecords = 300;  // beyond it restarts are passed on as they are
-  static constexpr int kMostSteps = 3;              // between two samples: two packets may be lost
-  static constexpr double kStandsBelowMPerS = 0.1;  // a vehicle on the floor whose estimate is not frozen
+  static constexpr int kMostSteps = 3;  // of the one before: two packets may be lost
+  // A vehicle on the floor whose odometry is not frozen drifts by less. Assumed, not measured.
+  static constexpr double kStandsBelowMPerS = 0.1;
   static constexpr double kStandsBelowRadPerS = 0.1;
 
   [[nodiscard]] bool is_quick(const RangeSample& sample) const;
+  [[nodiscard]] Pose2 flown_on(const RangeSample& sample) const;
 
   std::optional<Step> last_;
-  Pose2 T_mended_reported_;
   std::size_t count_ = 0;
-  std::vector<MendedOdometry> mended_;
+  MendedFrame frame_;
 };
 
 }  // namespace swiftlet

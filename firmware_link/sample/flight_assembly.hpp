@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "core/sensing/quick_restarts.hpp"
+#include "core/sensing/flight_limits.hpp"
 #include "firmware_link/sample/sample_assembler.hpp"
 
 namespace swiftlet {

@@ -11,7 +11,7 @@
 #include "core/base/time.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/geometry/pose2.hpp"
-#include "core/sensing/quick_restarts.hpp"
+#include "core/sensing/flight_limits.hpp"
 #include "firmware_link/sample/attitude.hpp"
 
 namespace swiftlet {

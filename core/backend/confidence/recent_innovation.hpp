@@ -6,8 +6,8 @@
 
 namespace swiftlet {
 
-/// How well the frontend's lines of known walls fit, over about the last ten keyframes that saw any:
-/// chi-square for each degree of freedom, 1 on average where noise is as assumed. Allocates nothing.
+/// How well the frontend's lines of known walls fit, over about the last ten keyframes that saw any (5 m of
+/// travel): chi-square per degree of freedom, 1 on average where noise is as assumed. Allocates nothing.
 class RecentInnovation {
  public:
   void add(double chi_square, std::uint32_t degrees_of_freedom) {

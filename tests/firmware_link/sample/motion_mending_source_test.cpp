@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -12,7 +13,11 @@
 #include <vector>
 
 #include "core/geometry/angle.hpp"
+#include "core/sensing/quick_restarts.hpp"
 #include "firmware_link/input/open_sample_source.hpp"
+#include "firmware_link/sample/flight_assembly.hpp"
+#include "firmware_link/sample/input_counters.hpp"
+#include "firmware_link/sample/sample_assembler.hpp"
 #include "firmware_link/sample/sign_mending_source.hpp"
 #include "tests/support/pose_near.hpp"
 #include "tests/support/scripted_sample_source.hpp"
@@ -66,6 +71,38 @@ TEST(MotionMendingSource, ARestartIsJoinedBeforeALeapBehindItIsTakenOut) {
                            reported[i].T_odom_body, 1e-9, 1e-9))
         << i;
     EXPECT_EQ(delivered[i].starts_segment, i == 0) << i;
+  }
+}
+
+/// As the firmware does with an estimate that has run away: position and heading are zero from one packet to
+/// the next.
+TEST(MotionMendingSource, AResetOfTheEstimatorIsJoinedAsItComesFromTheVehicle) {
+  InputCounters counters;
+  SampleAssembler assembler(flight_assembly(SensorModel::crazyflie()), counters);
+  assembler.set_periods(std::chrono::milliseconds(100), std::chrono::milliseconds(100));
+  QuickRestarts restarts;
+  std::vector<RangeSample> samples;
+  for (int i = 0; i < 60; ++i) {
+    const int since_reset = i < 30 ? i : i - 30;
+    Reading reading;
+    reading.at = DeviceTime(i * std::chrono::milliseconds(100));
+    reading.received = HostTime(i * std::chrono::milliseconds(100));
+    reading.position_odom = Point2{0.04 * since_reset, 0.0};
+    reading.yaw_odom_rad = 0.0;
+    for (int beam = 0; beam < 4; ++beam)
+      ASSERT_TRUE(reading.distance_m.try_push_back(static_cast<float>(1.0 + 0.01 * i)));
+    assembler.add(reading);
+    for (auto sample = assembler.take(); sample; sample = assembler.take()) {
+      restarts.mend(*sample);
+      samples.push_back(*sample);
+    }
+  }
+  EXPECT_EQ(counters.leaps, 1U);
+  EXPECT_EQ(restarts.count(), 1U);
+  ASSERT_GT(samples.size(), 50U);
+  for (const RangeSample& sample : samples) {
+    EXPECT_EQ(sample.starts_segment, sample.sequence == 0) << sample.sequence;
+    EXPECT_NEAR(sample.T_odom_body.x_m(), 0.4 * to_seconds(sample.measured_at.time_since_epoch()), 1e-6);
   }
 }
 
